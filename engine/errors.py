@@ -1,0 +1,34 @@
+"""The errors and warnings a user can cause, each with a stable code and a sentence that says what to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+class InputError(Exception):
+    """What the user gave cannot be used. Anything else that is raised is a bug.
+
+    `code` is stable (`no_face`, `video_unreadable`, ...); `detail` is one sentence that says what to
+    do; `correctable` names the corrections (`landmarks`, `face_index`, ...) that could mend it.
+    """
+
+    def __init__(self, code: str, detail: str, correctable: tuple[str, ...] = ()):
+        super().__init__(f"{code}: {detail}")
+        self.code = code
+        self.detail = detail
+        self.correctable = correctable
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.code, self.detail, self.correctable)
+
+
+class Canceled(Exception):
+    """The run was told to stop; nothing is wrong with the input."""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A warning that goes into the report: the result stands, but the user should know."""
+
+    code: str
+    message: str

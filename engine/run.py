@@ -1,0 +1,185 @@
+"""The runner that walks a system's stages: progress, cancellation, stored outputs, timings.
+
+A pipeline calls `run.stage(name, function, *arguments)` for each stage. The stage's output is stored
+under a key made of the engine's version, the stage's name and its arguments: files count by content,
+earlier outputs by their own key, everything else by value. So a run that is started again takes up
+where the last one stopped, and a corrected input redoes the stages that depend on it and no others.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Callable, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, is_dataclass
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
+
+import numpy as np
+from pydantic import BaseModel
+
+import engine
+from engine.errors import Canceled, Notice
+from engine.store import StageStore
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run is: the stage's name, the fraction of the whole run done [0, 1], and a message."""
+
+    stage: str
+    fraction: float
+    message: str = ""
+
+
+class Run:
+    """One run of a system.
+
+    Parameters
+    ----------
+    store : where outputs of stages are kept for a later run; None keeps nothing.
+    shared : where outputs of stages marked `shared` are kept (a driver's analysis serves many jobs).
+    on_progress : called with each `Progress`.
+    canceled : asked between stages and inside long loops; True ends the run with `Canceled`.
+    on_artifact : called with the path of an artifact that is complete before the run is (a preview).
+    """
+
+    def __init__(
+        self,
+        store: StageStore | None = None,
+        shared: StageStore | None = None,
+        on_progress: Callable[[Progress], None] | None = None,
+        canceled: Callable[[], bool] | None = None,
+        on_artifact: Callable[[Path], None] | None = None,
+    ):
+        self._store = store
+        self._shared = shared or store
+        self._on_progress = on_progress or (lambda progress: None)
+        self._canceled = canceled or (lambda: False)
+        self._on_artifact = on_artifact or (lambda path: None)
+        self._keys: dict[int, tuple[Any, str]] = {}
+        self._weights: dict[str, float] = {}
+        self._done = 0.0
+        self._current = ""
+        self._last_report = (0.0, "")
+        self.seconds: dict[str, float] = {}
+        self.reused: list[str] = []
+        self.notices: list[Notice] = []
+
+    def plan(self, weights: Mapping[str, float]) -> None:
+        """Announce the stages to come and their usual share of the time, for the progress fraction."""
+        total = sum(weights.values())
+        self._weights = {name: weight / total for name, weight in weights.items()}
+        self._done = 0.0
+
+    def stage(
+        self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False, stored: bool = True
+    ) -> T:
+        """Run one stage, or load what an earlier run found with the same arguments.
+
+        A `stored` stage must be annotated with a return type that `engine.store` can write. Callables
+        among the arguments (such as `run.tick`) do not count towards the key.
+        """
+        with self.timed(name):
+            store = (self._shared if shared else self._store) if stored else None
+            key = self.key(name, *arguments)
+            if store is not None and (found := store.find(key)) is not None:
+                notices, output = found.load(get_type_hints(function)["return"])
+                self.notices.extend(notices)
+                self.reused.append(name)
+            else:
+                before = len(self.notices)
+                output = function(*arguments)
+                if store is not None:
+                    store.save(key, output, self.notices[before:])
+                    if (kept := store.find(key)) is not None:
+                        _, output = kept.load(get_type_hints(function)["return"])
+            self._keys[id(output)] = (output, key)
+            return output
+
+    @contextmanager
+    def timed(self, name: str):  # type: ignore[no-untyped-def]
+        """A stage whose work streams and is not stored: timed and reported like any other."""
+        self.check()
+        self._current = name
+        self._report(0.0, "")
+        started = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started
+        self._done += self._weights.get(name, 0.0)
+        self._current = name
+
+    def tick(self, fraction: float, message: str = "") -> None:
+        """Called inside long loops with the stage's own fraction [0, 1]: reports, and may raise `Canceled`."""
+        self.check()
+        self._report(fraction, message)
+
+    def check(self) -> None:
+        """Raise `Canceled` if the run was told to stop."""
+        if self._canceled():
+            raise Canceled
+
+    def warn(self, code: str, message: str) -> None:
+        """Put a warning into the report, once."""
+        notice = Notice(code, message)
+        if notice not in self.notices:
+            self.notices.append(notice)
+
+    def publish(self, path: Path) -> None:
+        """Say that an artifact is complete although the run goes on."""
+        self._on_artifact(path)
+
+    def key(self, name: str, *arguments: Any) -> str:
+        """The key of a stage's output for these arguments (hex)."""
+        parts = [engine.__version__, name, *(self._part(argument) for argument in arguments if not callable(argument))]
+        return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
+
+    def _part(self, argument: Any) -> Any:
+        if id(argument) in self._keys and self._keys[id(argument)][0] is argument:
+            return self._keys[id(argument)][1]
+        if isinstance(argument, Path):
+            return content_hash(argument)
+        if isinstance(argument, BaseModel):
+            return argument.model_dump(mode="json")
+        if isinstance(argument, np.ndarray):
+            return [str(argument.dtype), argument.shape, hashlib.sha256(np.ascontiguousarray(argument)).hexdigest()]
+        if is_dataclass(argument) and not isinstance(argument, type):
+            return {k: self._part(v) for k, v in vars(argument).items()}
+        if isinstance(argument, tuple | list):
+            return [self._part(item) for item in argument]
+        if argument is None or isinstance(argument, str | int | float | bool):
+            return argument
+        raise TypeError(f"a stage cannot be keyed by {type(argument).__name__}")
+
+    def _report(self, fraction: float, message: str) -> None:
+        now = time.monotonic()
+        if fraction > 0 and self._last_report[1] == self._current and now - self._last_report[0] < 0.1:
+            return
+        self._last_report = (now, self._current)
+        share = self._weights.get(self._current, 0.0)
+        self._on_progress(Progress(self._current, min(self._done + share * fraction, 1.0), message))
+
+
+def content_hash(path: Path) -> str:
+    """SHA-256 of a file's content (hex)."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def write_report(path: Path, kind: str, run: Run, inputs: Mapping[str, Any], quality: Mapping[str, float]) -> None:
+    """Write `report.json` as every run leaves it."""
+    report = {
+        "kind": kind,
+        "engine_version": engine.__version__,
+        "stages": {name: round(seconds, 4) for name, seconds in run.seconds.items()},
+        "inputs": dict(inputs),
+        "quality": dict(quality),
+        "warnings": [asdict(notice) for notice in run.notices],
+    }
+    path.write_text(json.dumps(report, indent=2) + "\n")

@@ -1,0 +1,114 @@
+"""What stages found, on disk: arrays as npz, the rest as JSON, never pickle.
+
+Each output is a folder named by its key, written under a temporary name and published by one rename,
+so that a killed process leaves either a whole output or none.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields, is_dataclass
+from pathlib import Path
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from engine.errors import Notice
+
+
+@dataclass(frozen=True)
+class Found:
+    """A stored output."""
+
+    folder: Path
+
+    def load(self, kind: Any) -> tuple[list[Notice], Any]:
+        """The notices that the stage gave and its output, of type `kind`."""
+        document = json.loads((self.folder / "output.json").read_text())
+        with np.load(self.folder / "arrays.npz", allow_pickle=False) as arrays:
+            output = _unpack(kind, document["output"], {name: arrays[name] for name in arrays.files}, self.folder)
+        return [Notice(**notice) for notice in document["notices"]], output
+
+
+class StageStore:
+    """A folder of stage outputs by key."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+
+    def find(self, key: str) -> Found | None:
+        """The output stored under `key`, if there is one; it counts as just used."""
+        folder = self.folder / key
+        try:
+            os.utime(folder)
+        except FileNotFoundError:
+            return None
+        return Found(folder)
+
+    def save(self, key: str, output: Any, notices: Sequence[Notice] = ()) -> None:
+        """Store a dataclass of arrays, numbers, strings, tuples, files and further such dataclasses.
+
+        Files (`Path`) are moved into the store: load the output again to know where they are.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self.folder))
+        try:
+            arrays: dict[str, np.ndarray] = {}
+            document = {"notices": [asdict(notice) for notice in notices], "output": _pack(output, "", arrays, draft)}
+            (draft / "output.json").write_text(json.dumps(document))
+            np.savez(draft / "arrays.npz", **arrays)  # type: ignore[arg-type]
+            self._publish(draft, key)
+        finally:
+            shutil.rmtree(draft, ignore_errors=True)
+
+    def _publish(self, draft: Path, key: str) -> None:
+        try:
+            draft.rename(self.folder / key)
+        except OSError:
+            if not (self.folder / key).is_dir():  # otherwise another run was faster; both found the same
+                raise
+
+
+def _pack(value: Any, name: str, arrays: dict[str, np.ndarray], folder: Path) -> Any:
+    if isinstance(value, np.ndarray):
+        arrays[name] = value
+        return None
+    if isinstance(value, Path):
+        shutil.move(value, folder / value.name)
+        return value.name
+    if is_dataclass(value) and not isinstance(value, type):
+        return {f.name: _pack(getattr(value, f.name), f"{name}.{f.name}", arrays, folder) for f in fields(value)}
+    if isinstance(value, tuple | list):
+        return [_pack(item, f"{name}.{i}", arrays, folder) for i, item in enumerate(value)]
+    if isinstance(value, np.generic):
+        return value.item()
+    if value is None or isinstance(value, str | int | float | bool):
+        return value
+    raise TypeError(f"{name or 'output'}: {type(value).__name__} cannot be stored")
+
+
+def _unpack(kind: Any, value: Any, arrays: dict[str, np.ndarray], folder: Path, name: str = "") -> Any:
+    if name in arrays:
+        return arrays[name]
+    if value is None:
+        return None
+    if kind is Path:
+        return folder / value
+    origin = get_origin(kind)
+    if origin in (Union, UnionType):
+        return _unpack(next(k for k in get_args(kind) if k is not type(None)), value, arrays, folder, name)
+    if origin in (tuple, list):
+        inner = get_args(kind)
+        kinds = inner[:1] * len(value) if len(inner) < 2 or inner[1] is Ellipsis else inner
+        return origin(
+            _unpack(k, v, arrays, folder, f"{name}.{i}") for i, (k, v) in enumerate(zip(kinds, value, strict=True))
+        )
+    if is_dataclass(kind):
+        hints = get_type_hints(kind)
+        return kind(**{k: _unpack(hints[k], v, arrays, folder, f"{name}.{k}") for k, v in value.items()})  # type: ignore[operator]
+    return value
