@@ -1,0 +1,1 @@
+"""Results out: videos, and 3D files."""

@@ -1,0 +1,137 @@
+"""Still pictures: any common file in, upright sRGB pixels out, and back."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pillow_heif
+from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
+
+from engine.errors import InputError
+from engine.media.limits import Limits
+from engine.media.sniff import IMAGE_TYPES, sniff
+
+_FORMATS = ("JPEG", "PNG", "WEBP", "AVIF", "GIF")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A decoded picture: `rgb` uint8 (H, W, 3) sRGB, upright; `alpha` float32 (H, W) [0, 1], None where opaque;
+    `format` the media type of the file it came from."""
+
+    rgb: np.ndarray
+    alpha: np.ndarray | None
+    format: str
+
+
+def read_image(path: Path, limits: Limits | None = None) -> Picture:
+    """Read a JPEG, PNG, WebP, HEIC, AVIF or GIF (its first frame) as upright 8-bit sRGB.
+
+    EXIF orientation is applied, colour profiles are converted, 16-bit, grey, palette and CMYK pictures become RGB.
+    The colours of wholly transparent pixels are whatever the file says.
+
+    Raises `InputError`: `file_empty`, `file_too_large`, `not_an_image`, `image_too_large` (known from the header,
+    before decoding), `image_truncated`, `image_unreadable`.
+    """
+    limits = limits or Limits()
+    media_type = _admit(path, limits)
+    try:
+        if media_type == "image/heic":
+            image = _read_heic(path, limits)
+        else:
+            with Image.open(path, formats=_FORMATS) as opened:
+                _check_size(opened.size, limits)
+                opened.load()
+                image = ImageOps.exif_transpose(opened)
+    except Image.DecompressionBombError as error:
+        raise _too_large(str(error), limits) from None
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, RuntimeError, UnidentifiedImageError) as error:
+        raise _broken(error) from error
+    rgb, alpha = _to_srgb(image)
+    return Picture(rgb, alpha, media_type)
+
+
+def write_image(path: Path, rgb: np.ndarray, alpha: np.ndarray | None = None, quality: int = 90) -> None:
+    """Write `rgb` uint8 (H, W, 3), with `alpha` float32 (H, W) [0, 1] where given, in the format of the name's ending.
+
+    `quality` (1 to 100) counts for JPEG and WebP. JPEG has no alpha: giving one is an error of the caller.
+    """
+    image = Image.fromarray(rgb)
+    if alpha is not None:
+        if path.suffix.lower() in (".jpg", ".jpeg"):
+            raise ValueError("a JPEG cannot hold alpha")
+        image.putalpha(Image.fromarray(np.round(alpha * 255).astype(np.uint8)))
+    image.save(path, quality=quality)
+
+
+def _admit(path: Path, limits: Limits) -> str:
+    size = path.stat().st_size
+    if size == 0:
+        raise InputError("file_empty", "The picture file is empty (0 bytes): send it again.")
+    if size > limits.image_bytes:
+        raise InputError(
+            "file_too_large",
+            f"The picture file has {size / 1e6:.0f} MB, the limit is {limits.image_bytes / 1e6:.0f} MB: send a smaller "
+            "one.",
+        )
+    media_type = sniff(path)
+    if media_type == "image/apng":
+        media_type = "image/png"
+    if media_type not in IMAGE_TYPES:
+        what = f"a file of type {media_type}" if media_type else "no picture"
+        raise InputError("not_an_image", f"This is {what}: send a JPEG, PNG, WebP or HEIC picture.")
+    return media_type
+
+
+def _read_heic(path: Path, limits: Limits) -> Image.Image:
+    heif = pillow_heif.open_heif(path, convert_hdr_to_8bit=True)
+    _check_size(heif.size, limits)
+    return heif.to_pillow()
+
+
+def _check_size(size: tuple[int, int], limits: Limits) -> None:
+    width, height = size
+    if width * height > limits.image_megapixels * 1e6:
+        raise _too_large(f"{width} x {height} pixels", limits)
+
+
+def _too_large(what: str, limits: Limits) -> InputError:
+    return InputError(
+        "image_too_large",
+        f"The picture is too large ({what}): scale it down to at most {limits.image_megapixels:g} megapixels.",
+    )
+
+
+def _broken(error: BaseException) -> InputError:
+    if "truncated" in str(error).lower() or isinstance(error, EOFError):
+        return InputError("image_truncated", "The picture file ends too early: send it again.")
+    return InputError("image_unreadable", "The picture file is damaged: open it in a viewer and save it anew.")
+
+
+def _to_srgb(image: Image.Image) -> tuple[np.ndarray, np.ndarray | None]:
+    alpha = None
+    profile = image.info.get("icc_profile")
+    if image.mode.startswith("I") or image.mode == "F":  # 16-bit grey
+        grey = np.asarray(image, np.float32)
+        image = Image.fromarray(np.clip(grey / 257.0 + 0.5, 0, 255).astype(np.uint8))
+    if image.has_transparency_data:
+        image = image.convert("RGBA")
+        alpha = np.asarray(image.getchannel("A"), np.float32) / 255.0
+        image = image.convert("RGB")
+    elif image.mode not in ("L", "RGB", "CMYK"):
+        image = image.convert("RGB")
+    if profile:
+        image = _apply_profile(image, profile)
+    return np.array(image.convert("RGB")), None if alpha is None or alpha.min() == 1.0 else alpha
+
+
+def _apply_profile(image: Image.Image, profile: bytes) -> Image.Image:
+    try:
+        source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
+        converted = ImageCms.profileToProfile(image, source, ImageCms.createProfile("sRGB"), outputMode="RGB")
+    except (ImageCms.PyCMSError, OSError):
+        return image  # a broken profile, or one for another kind of pixels: viewers ignore it too
+    return converted if converted is not None else image

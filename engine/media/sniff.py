@@ -1,0 +1,71 @@
+"""What a file is by its first bytes, never by its name. Nothing is decoded, so it is safe at the door."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_HEAD = 4096
+
+# Brands of ISO base media files (the four letters after `ftyp`) that are pictures; other brands are movies.
+_HEIF_BRANDS = {b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"mif1", b"msf1", b"mif2"}
+_AVIF_BRANDS = {b"avif", b"avis"}
+_AUDIO_BRANDS = {b"M4A ", b"M4B ", b"M4P "}
+
+IMAGE_TYPES = frozenset({"image/jpeg", "image/png", "image/webp", "image/heic", "image/avif", "image/gif"})
+"""The media types that `engine.media.image.read_image` takes."""
+
+VIDEO_TYPES = frozenset(
+    {"video/mp4", "video/quicktime", "video/webm", "video/x-matroska", "video/x-msvideo"}
+    | {"image/gif", "image/webp", "image/apng"}
+)
+"""The media types that `engine.media.video.read_video` takes."""
+
+
+def sniff(path: Path) -> str | None:
+    """The media type of a file (`image/jpeg`, `video/mp4`, ...) by its magic bytes; None where it is none we know.
+
+    Sound files are named too (`audio/...`), so that an error can say what was sent. A PNG that announces an
+    animation is `image/apng`. A known type says nothing of whether the rest of the file is whole.
+    """
+    with path.open("rb") as file:
+        return sniff_bytes(file.read(_HEAD))
+
+
+def sniff_bytes(head: bytes) -> str | None:
+    """The media type of a file that begins with `head` (up to 4096 bytes are looked at)."""
+    if head.startswith(b"\xff\xd8\xff"):
+        return "image/jpeg"
+    if head.startswith(b"\x89PNG\r\n\x1a\n"):
+        # The animation's control chunk must come before the first image data.
+        return "image/apng" if b"acTL" in head.split(b"IDAT")[0] else "image/png"
+    if head[:6] in (b"GIF87a", b"GIF89a"):
+        return "image/gif"
+    if head[:4] == b"RIFF":
+        return {b"WEBP": "image/webp", b"AVI ": "video/x-msvideo", b"WAVE": "audio/wav"}.get(head[8:12])
+    if head.startswith(b"\x1a\x45\xdf\xa3"):
+        return "video/webm" if b"webm" in head[:64] else "video/x-matroska"
+    if head[4:8] in (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot"):
+        return _sniff_iso_media(head)
+    return _sniff_sound(head)
+
+
+def _sniff_iso_media(head: bytes) -> str:
+    if head[4:8] != b"ftyp":
+        return "video/quicktime"  # the oldest movies begin with their data or their index
+    size = int.from_bytes(head[:4], "big")
+    brands = [head[8:12]] + [head[i : i + 4] for i in range(16, min(size, len(head)), 4)]
+    if brands[0] in _AVIF_BRANDS or (brands[0] in _HEIF_BRANDS and _AVIF_BRANDS & set(brands)):
+        return "image/avif"
+    if brands[0] in _HEIF_BRANDS:
+        return "image/heic"
+    if brands[0] in _AUDIO_BRANDS:
+        return "audio/mp4"
+    return "video/quicktime" if brands[0] == b"qt  " else "video/mp4"
+
+
+def _sniff_sound(head: bytes) -> str | None:
+    if head.startswith((b"ID3", b"\xff\xfb", b"\xff\xf3", b"\xff\xf2")):
+        return "audio/mpeg"
+    if head.startswith(b"OggS"):
+        return "audio/ogg"
+    return "audio/flac" if head.startswith(b"fLaC") else None
