@@ -1,0 +1,1 @@
+"""Rasteriser, cameras and light: pictures of meshes without any graphics hardware."""

@@ -1,0 +1,196 @@
+"""Triangles to pixels on the CPU: which triangle covers a pixel, where in the triangle, and how far away.
+
+The rasteriser keeps to the rules of graphics hardware (pixel centres, top-left fill rule, vertices
+snapped to 1/256 pixel, exact integer edge functions), so that neighbouring triangles share no pixel
+and leave no gap. It knows no colour: shading is done afterwards, per pixel, on arrays
+(`engine.render.attributes`).
+
+Source of the edge-function formulation: J. Pineda, A Parallel Algorithm for Polygon Rasterization,
+SIGGRAPH 1988.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit, prange
+from numpy.typing import NDArray
+
+SHIFT = 8
+SUBPIXELS = 1 << SHIFT
+"""Vertices are snapped to this fraction of a pixel, as graphics hardware does."""
+
+FURTHEST = 2.0**21
+"""Triangles with a vertex further out than this many pixels are dropped: their edge functions could overflow."""
+
+
+class Raster(NamedTuple):
+    """What covers each pixel of a picture of size (H, W).
+
+    `triangle` (H, W) int32: index of the nearest triangle, -1 where there is none.
+    `barycentrics` (H, W, 3) float32: weights of the triangle's three vertices, summing to one; zero where none.
+    `depth` (H, W) float32: depth at the pixel's centre, +inf where there is none.
+    """
+
+    triangle: NDArray[np.int32]
+    barycentrics: NDArray[np.float32]
+    depth: NDArray[np.float32]
+
+
+def rasterise(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    size: tuple[int, int],
+    perspective: bool = False,
+    cull: bool = False,
+) -> Raster:
+    """Find the nearest triangle at each pixel's centre.
+
+    Parameters
+    ----------
+    vertices : (V, 3) x and y in pixels, the centre of the top-left pixel at (0, 0), and depth, smaller is nearer.
+    triangles : (T, 3) indices into `vertices`.
+    size : (height, width) of the picture.
+    perspective : depth is the distance along the view axis: depth and barycentrics are then interpolated
+        perspectively, and triangles that reach behind the eye (depth <= 0) are left out. Otherwise all is
+        linear on the screen.
+    cull : leave out triangles that turn clockwise on the screen (y down): the backs of a mesh whose faces turn
+        counter-clockwise seen from outside.
+
+    Equal depths go to the triangle of the lower index.
+    """
+    points = np.ascontiguousarray(vertices, dtype=np.float32)
+    faces = np.ascontiguousarray(triangles, dtype=np.int32)
+    triangle, depth = _nearest(points, faces, size[0], size[1], perspective, cull)
+    return Raster(triangle, _barycentrics(points, faces, triangle, perspective), depth)
+
+
+def depth_map(
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: tuple[int, int]
+) -> NDArray[np.float32]:
+    """Depth alone, (H, W) float32, +inf where nothing is: the map from which a light casts its shadows."""
+    points = np.ascontiguousarray(vertices, dtype=np.float32)
+    faces = np.ascontiguousarray(triangles, dtype=np.int32)
+    return _nearest(points, faces, size[0], size[1], False, False)[1]
+
+
+@njit(cache=True, inline="always")
+def _snap(value: float) -> int:
+    return int(np.floor(value * SUBPIXELS + 0.5))
+
+
+@njit(cache=True, inline="always")
+def _bias(dx: int, dy: int) -> int:
+    """0 for a top or left edge, which owns the pixel centres lying on it; -1 for the others.
+
+    The edge runs along (dx, dy) and the inside is to its right on the screen (y down).
+    """
+    return 0 if dy < 0 or (dy == 0 and dx > 0) else -1
+
+
+@njit(cache=True, parallel=True, boundscheck=False, error_model="numpy")
+def _nearest(
+    points: np.ndarray, faces: np.ndarray, height: int, width: int, perspective: bool, cull: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    ids = np.full((height, width), -1, np.int32)
+    depths = np.full((height, width), np.inf, np.float32)
+    bands = 2  # each band of rows walks all triangles in their order: the result does not depend on threads
+    for band in prange(bands):
+        first, last = height * band // bands, height * (band + 1) // bands - 1
+        for t in range(faces.shape[0]):
+            _draw(points, faces, t, first, last, perspective, cull, ids, depths)
+    return ids, depths
+
+
+@njit(cache=True, boundscheck=False, error_model="numpy")
+def _draw(
+    points: np.ndarray,
+    faces: np.ndarray,
+    t: int,
+    first: int,
+    last: int,
+    perspective: bool,
+    cull: bool,
+    ids: np.ndarray,
+    depths: np.ndarray,
+) -> None:
+    a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]
+    xa, ya, za = points[a, 0], points[a, 1], points[a, 2]
+    xb, yb, zb = points[b, 0], points[b, 1], points[b, 2]
+    xc, yc, zc = points[c, 0], points[c, 1], points[c, 2]
+    if max(ya, yb, yc) < first - 1 or min(ya, yb, yc) > last + 1:
+        return
+    reach = max(abs(xa), abs(ya), abs(xb), abs(yb), abs(xc), abs(yc))
+    if not reach < FURTHEST or (perspective and not min(za, zb, zc) > 0):
+        return
+    ax, ay, bx, by, cx, cy = _snap(xa), _snap(ya), _snap(xb), _snap(yb), _snap(xc), _snap(yc)
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    if area == 0 or (cull and area > 0):
+        return
+    if area < 0:  # the inside is to the right of each edge from here on
+        bx, by, zb, cx, cy, zc = cx, cy, zc, bx, by, zb
+        area = -area
+    left = max((min(ax, bx, cx) + SUBPIXELS - 1) >> SHIFT, 0)
+    right = min(max(ax, bx, cx) >> SHIFT, ids.shape[1] - 1)
+    top = max((min(ay, by, cy) + SUBPIXELS - 1) >> SHIFT, first)
+    bottom = min(max(ay, by, cy) >> SHIFT, last)
+    if left > right or top > bottom:
+        return
+    if perspective:
+        za, zb, zc = 1 / za, 1 / zb, 1 / zc
+    px, py = left << SHIFT, top << SHIFT
+    row_a = (cx - bx) * (py - by) - (cy - by) * (px - bx)
+    row_b = (ax - cx) * (py - cy) - (ay - cy) * (px - cx)
+    row_c = (bx - ax) * (py - ay) - (by - ay) * (px - ax)
+    scale = np.float32(SUBPIXELS) / np.float32(area)
+    right_z = ((by - cy) * za + (cy - ay) * zb + (ay - by) * zc) * scale
+    down_z = ((cx - bx) * za + (ax - cx) * zb + (bx - ax) * zc) * scale
+    row_z = (row_a * za + row_b * zb + row_c * zc) / np.float32(area)
+    row_a += _bias(cx - bx, cy - by)
+    row_b += _bias(ax - cx, ay - cy)
+    row_c += _bias(bx - ax, by - ay)
+    for y in range(top, bottom + 1):
+        wa, wb, wc, w = row_a, row_b, row_c, row_z
+        for x in range(left, right + 1):
+            if (wa | wb | wc) >= 0:
+                z = np.float32(1) / w if perspective else w
+                if z < depths[y, x]:
+                    depths[y, x] = z
+                    ids[y, x] = t
+            wa += (by - cy) << SHIFT
+            wb += (cy - ay) << SHIFT
+            wc += (ay - by) << SHIFT
+            w += right_z
+        row_a += (cx - bx) << SHIFT
+        row_b += (ax - cx) << SHIFT
+        row_c += (bx - ax) << SHIFT
+        row_z += down_z
+
+
+@njit(cache=True, parallel=True, boundscheck=False, error_model="numpy")
+def _barycentrics(points: np.ndarray, faces: np.ndarray, ids: np.ndarray, perspective: bool) -> np.ndarray:
+    height, width = ids.shape
+    out = np.zeros((height, width, 3), np.float32)
+    for y in prange(height):
+        for x in range(width):
+            t = ids[y, x]
+            if t < 0:
+                continue
+            a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]
+            ax, ay = _snap(points[a, 0]), _snap(points[a, 1])
+            bx, by = _snap(points[b, 0]), _snap(points[b, 1])
+            cx, cy = _snap(points[c, 0]), _snap(points[c, 1])
+            px, py = x * SUBPIXELS, y * SUBPIXELS
+            wa = np.float64((cx - bx) * (py - by) - (cy - by) * (px - bx))
+            wb = np.float64((ax - cx) * (py - cy) - (ay - cy) * (px - cx))
+            wc = np.float64((bx - ax) * (py - ay) - (by - ay) * (px - ax))
+            if perspective:
+                wa /= points[a, 2]
+                wb /= points[b, 2]
+                wc /= points[c, 2]
+            total = wa + wb + wc
+            out[y, x, 0] = wa / total
+            out[y, x, 1] = wb / total
+            out[y, x, 2] = wc / total
+    return out
