@@ -1,0 +1,125 @@
+"""The human template: one mesh from which every 3D person of the project is made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body import makehuman
+from engine.body.cache import cached_arrays
+from engine.body.rig import Rig, build_rig
+from engine.body.targets import Targets, gather
+
+PARTS = {
+    "body": "body",
+    "left_eye": "helper-l-eye",
+    "right_eye": "helper-r-eye",
+    "upper_teeth": "helper-upper-teeth",
+    "lower_teeth": "helper-lower-teeth",
+    "tongue": "helper-tongue",
+    "left_upper_lashes": "helper-l-eyelashes-2",
+    "left_lower_lashes": "helper-l-eyelashes-1",
+    "right_upper_lashes": "helper-r-eyelashes-2",
+    "right_lower_lashes": "helper-r-eyelashes-1",
+    "hair_cage": "helper-hair",
+    "tights_cage": "helper-tights",
+    "skirt_cage": "helper-skirt",
+}
+"""The template's parts and their groups in the source. Cages are helpers that lie over the skin, for cloth."""
+
+FACE_UNITS = (
+    *("browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
+    *("cheekPuff", "cheekSquintLeft", "cheekSquintRight"),
+    *("eyeBlinkLeft", "eyeBlinkRight", "eyeLookDownLeft", "eyeLookDownRight", "eyeLookInLeft", "eyeLookInRight"),
+    *("eyeLookOutLeft", "eyeLookOutRight", "eyeLookUpLeft", "eyeLookUpRight", "eyeSquintLeft", "eyeSquintRight"),
+    *("eyeWideLeft", "eyeWideRight", "jawForward", "jawLeft", "jawOpen", "jawRight"),
+    *("mouthClose", "mouthDimpleLeft", "mouthDimpleRight", "mouthFrownLeft", "mouthFrownRight", "mouthFunnel"),
+    *("mouthLeft", "mouthLowerDownLeft", "mouthLowerDownRight", "mouthPressLeft", "mouthPressRight"),
+    *("mouthPucker", "mouthRight", "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper"),
+    *("mouthSmileLeft", "mouthSmileRight", "mouthStretchLeft", "mouthStretchRight", "mouthUpperUpLeft"),
+    *("mouthUpperUpRight", "noseSneerLeft", "noseSneerRight", "tongueOut"),
+)
+"""ARKit's 52 face units, in alphabetical order. Left and right are the character's own."""
+
+
+@dataclass(frozen=True)
+class Template:
+    """The base mesh at rest, arms spread, metres, y up, facing +z, its left at +x, its origin near the pelvis.
+
+    `vertices` (V, 3) float32; `quads` (F, 4) int32, counter-clockwise seen from outside;
+    `uv` (U, 2) float32 with its own `uv_quads` (F, 4) int32, (0, 0) the texture's top left (glTF);
+    `parts`: the span of faces [first, last) of each part in `PARTS`. Some vertices belong to no face:
+    they carry the joints. `face_units` displace the same vertices.
+    """
+
+    vertices: NDArray[np.float32]
+    quads: NDArray[np.int32]
+    uv: NDArray[np.float32]
+    uv_quads: NDArray[np.int32]
+    parts: Mapping[str, tuple[int, int]]
+    face_units: Targets
+
+    def faces(self, *parts: str) -> NDArray[np.intp]:
+        """Indices of the faces of the named parts, in the order named."""
+        return np.concatenate([np.arange(*self.parts[part]) for part in parts])
+
+    def vertices_of(self, part: str) -> NDArray[np.int32]:
+        """The vertices of a part, ascending."""
+        return np.unique(self.quads[slice(*self.parts[part])])
+
+
+def load_template() -> Template:
+    """Load the template; the first time, convert it from the installed package (about a second).
+
+    Raises
+    ------
+    engine.body.makehuman.TemplateMissing : the package is not installed.
+    """
+    stored = cached_arrays("mesh", _convert)
+    edges = stored["part_edges"]
+    return Template(
+        vertices=stored["vertices"],
+        quads=stored["quads"],
+        uv=stored["uv"],
+        uv_quads=stored["uv_quads"],
+        parts={part: (int(edges[i]), int(edges[i + 1])) for i, part in enumerate(PARTS)},
+        face_units=Targets(
+            FACE_UNITS, stored["unit_starts"], stored["unit_moved"], stored["unit_counts"], len(stored["vertices"])
+        ),
+    )
+
+
+def load_rig(name: str) -> Rig:
+    """Load one of `engine.body.rig.RIGS`; the first time, convert it (some seconds)."""
+    stored = cached_arrays(f"rig-{name}", lambda: _convert_rig(name))
+    arrays = {key: value for key, value in stored.items() if key != "names"}
+    return Rig(names=tuple(str(bone) for bone in stored["names"]), **arrays)
+
+
+def _convert() -> dict[str, np.ndarray]:
+    mesh = makehuman.read_base_mesh()
+    groups = np.array(mesh.groups)
+    spans = [np.flatnonzero(groups == group) for group in PARTS.values()]
+    kept = np.concatenate(spans)
+    files = makehuman.face_unit_files()
+    units = gather({name: makehuman.read_target(files[name]) for name in FACE_UNITS}, len(mesh.vertices))
+    return {
+        "vertices": mesh.vertices,
+        "quads": mesh.quads[kept],
+        "uv": mesh.uv,
+        "uv_quads": mesh.uv_quads[kept],
+        "part_edges": np.cumsum([0, *(len(span) for span in spans)], dtype=np.int32),
+        "unit_starts": units.starts,
+        "unit_moved": units.moved,
+        "unit_counts": units.counts,
+    }
+
+
+def _convert_rig(name: str) -> dict[str, np.ndarray]:
+    bones, weights = makehuman.read_rig(name)
+    vertex_count = len(makehuman.read_base_mesh().vertices)
+    rig = build_rig(bones, weights, makehuman.read_vertex_groups(), vertex_count)
+    return {**vars(rig), "names": np.array(rig.names)}
