@@ -1,0 +1,53 @@
+# The two commands: `make demo` shows it, `make test` checks it. Both install what they need first.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+BIN := .venv/bin
+REPORTS := var/test-reports
+
+.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser lock bench clean
+
+help:  ## this list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
+
+setup:  ## install into .venv/ and build web/dist/
+	@scripts/setup.sh
+
+demo: setup  ## a portrait brought to life through the HTTP API; ONCE=1, IMAGE=..., DRIVER=...
+	@$(BIN)/python scripts/demo.py $(if $(IMAGE),--image "$(IMAGE)") $(if $(DRIVER),--driver "$(DRIVER)") $(if $(ONCE),--once)
+
+test:  ## every check, each even if an earlier one failed
+	@scripts/setup.sh --for-tests
+	@scripts/test.sh
+
+lint:  ## ruff: lint and format
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+
+types:  ## mypy strict on the engine, tsc strict on the page
+	@$(BIN)/mypy
+	@cd web && npm run --silent types
+
+imports:  ## which package may import which
+	@$(BIN)/lint-imports
+
+unit:  ## pytest with coverage: engine, service, worker, shell
+	@mkdir -p $(REPORTS)
+	@$(BIN)/pytest --cov --cov-report=term:skip-covered --junitxml=$(REPORTS)/python.xml
+
+web-test: web-unit web-browser  ## the page: its parts, and the whole in a browser against a running service
+
+web-unit:
+	@cd web && npm run --silent unit -- --reporter=default --reporter=junit --outputFile=../$(REPORTS)/web-unit.xml
+
+web-browser:
+	@cd web && npm run --silent browser -- --reporter=default --reporter=junit --outputFile=../$(REPORTS)/web-browser.xml
+
+lock:  ## resolve the dependencies anew into requirements.lock and web/package-lock.json
+	@scripts/lock.sh
+
+bench:  ## the figures of the README
+	@$(BIN)/python -m benchmarks.portrait
+
+clean:  ## remove what can be made again (keeps .venv and node_modules)
+	@rm -rf web/dist demo var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis
