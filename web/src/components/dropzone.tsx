@@ -1,0 +1,108 @@
+/** A place to drop, browse for, or be given one file; shows what it holds. */
+
+import { useEffect, useId, useMemo, useState } from 'preact/hooks';
+import { size } from '../format';
+import { strings } from '../strings';
+
+interface Words {
+  drop: string;
+  browse: string;
+  chosen: (name: string) => string;
+  wrong: string;
+}
+
+interface Props {
+  file: File | null;
+  accept: string;
+  accepts: (file: File) => boolean;
+  words: Words;
+  media: 'image' | 'video';
+  onFile: (file: File) => void;
+}
+
+export function Dropzone({ file, accept, accepts, words, media, onFile }: Props) {
+  const [over, setOver] = useState(false);
+  const [refused, setRefused] = useState(false);
+  const error = useId();
+
+  const take = (candidate: File | undefined): void => {
+    if (!candidate) return;
+    setRefused(!accepts(candidate));
+    if (accepts(candidate)) onFile(candidate);
+  };
+  const drop = (event: DragEvent): void => {
+    event.preventDefault();
+    setOver(false);
+    take(event.dataTransfer?.files[0]);
+  };
+
+  return (
+    <div class={`dropzone ${media} ${over ? 'over' : ''} ${file ? 'filled' : ''}`}>
+      <label
+        onDragOver={(event) => {
+          event.preventDefault();
+          setOver(true);
+        }}
+        onDragLeave={() => setOver(false)}
+        onDrop={drop}
+      >
+        <input
+          type="file"
+          accept={accept}
+          aria-label={file ? words.chosen(file.name) : `${words.drop} ${words.browse}`}
+          aria-invalid={refused}
+          aria-describedby={refused ? error : undefined}
+          onChange={(event) => {
+            take(event.currentTarget.files?.[0]);
+            event.currentTarget.value = ''; // so that choosing the same file again counts as a choice
+          }}
+        />
+        {file ? <Preview file={file} media={media} /> : <Invitation words={words} />}
+      </label>
+      {refused && (
+        <p class="error" role="alert" id={error}>
+          {words.wrong}
+        </p>
+      )}
+    </div>
+  );
+}
+
+function Invitation({ words }: { words: Words }) {
+  return (
+    <span class="invitation" aria-hidden="true">
+      <svg viewBox="0 0 24 24" width="28" height="28">
+        <path d="M12 16V4m0 0L7 9m5-5 5 5M4 16v3a1 1 0 0 0 1 1h14a1 1 0 0 0 1-1v-3" />
+      </svg>
+      <strong>{words.drop}</strong>
+      <span>{words.browse}</span>
+    </span>
+  );
+}
+
+function Preview({ file, media }: { file: File; media: 'image' | 'video' }) {
+  const url = useObjectUrl(file);
+  const [unshowable, setUnshowable] = useState<File | null>(null);
+  const giveUp = (): void => setUnshowable(file);
+  const moving = media === 'video' && file.type !== 'image/gif';
+  return (
+    <span class="held">
+      {unshowable === file ? (
+        <span class="unshowable">{strings.studio.noPreview}</span>
+      ) : moving ? (
+        <video src={url} muted playsInline preload="metadata" onError={giveUp} aria-hidden="true" />
+      ) : (
+        <img src={url} alt="" onError={giveUp} />
+      )}
+      <span class="caption" aria-hidden="true">
+        <span class="name">{file.name}</span> <span class="size">{size(file.size)}</span>
+      </span>
+    </span>
+  );
+}
+
+function useObjectUrl(file: File): string {
+  const url = useMemo(() => URL.createObjectURL(file), [file]);
+  useEffect(() => () => URL.revokeObjectURL(url), [url]);
+  return url;
+}

@@ -1,0 +1,174 @@
+/** The result beside the performance that it acts out: one play button and one slider for both. */
+
+import { type RefObject } from 'preact';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { clock } from '../format';
+import { strings } from '../strings';
+import { apart, followerTime } from '../sync';
+
+interface Props {
+  result: string;
+  poster: string | undefined;
+  driver: string | null;
+  /** Where in the performance the result begins, in seconds. */
+  start: number;
+  hasSound: boolean;
+}
+
+const words = strings.player;
+const speeds = [1, 0.5, 0.25] as const;
+
+export function Player({ result, poster, driver, start, hasSound }: Props) {
+  const leader = useRef<HTMLVideoElement>(null);
+  const follower = useRef<HTMLVideoElement>(null);
+  const [playing, setPlaying] = useState(false);
+  const [time, setTime] = useState(0);
+  const [total, setTotal] = useState(0);
+  const [repeat, setRepeat] = useState(true);
+  const [muted, setMuted] = useState(true);
+  const [speed, setSpeed] = useState<number>(1);
+  const [unplayable, setUnplayable] = useState(false);
+  useInStep(leader, follower, start, playing, setTime);
+
+  useEffect(() => {
+    for (const video of [leader.current, follower.current]) if (video) video.playbackRate = speed;
+  }, [speed]);
+
+  const play = (): void => {
+    const video = leader.current;
+    if (!video) return;
+    if (video.ended) video.currentTime = 0;
+    void video.play().catch(() => setPlaying(false)); // a browser may refuse to begin by itself
+  };
+  const ended = (): void => {
+    setPlaying(false);
+    if (repeat) play();
+  };
+  const seek = (to: number): void => {
+    if (!leader.current) return;
+    leader.current.currentTime = to;
+    setTime(to);
+  };
+
+  return (
+    <section class="player" aria-label={words.label}>
+      <div class={driver ? 'pair' : 'pair single'}>
+        <figure>
+          <video
+            ref={leader}
+            src={result}
+            poster={poster}
+            muted={muted}
+            playsInline
+            preload="auto"
+            aria-label={strings.job.resultAlt}
+            onLoadedMetadata={(event) => {
+              setTotal(event.currentTarget.duration);
+              if (!matchMedia('(prefers-reduced-motion: reduce)').matches) play();
+            }}
+            onPlay={() => setPlaying(true)}
+            onPause={() => setPlaying(false)}
+            onEnded={ended}
+            onClick={() => (playing ? leader.current?.pause() : play())}
+          />
+          <figcaption>{strings.job.result}</figcaption>
+        </figure>
+        {driver && (
+          <figure>
+            {unplayable ? (
+              <p class="unshowable">{strings.job.driverUnplayable}</p>
+            ) : (
+              <video
+                ref={follower}
+                src={driver}
+                muted
+                playsInline
+                preload="auto"
+                aria-label={strings.job.driver}
+                onError={() => setUnplayable(true)}
+              />
+            )}
+            <figcaption>{strings.job.driver}</figcaption>
+          </figure>
+        )}
+      </div>
+      <div class="controls">
+        <button type="button" class="play" onClick={() => (playing ? leader.current?.pause() : play())}>
+          <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
+            <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
+          </svg>
+          <span class="unseen">{playing ? words.pause : words.play}</span>
+        </button>
+        <input
+          type="range"
+          class="scrub"
+          min="0"
+          max={total || 1}
+          step="0.01"
+          value={time}
+          aria-label={words.position}
+          aria-valuetext={words.time(clock(time), clock(total))}
+          onInput={(event) => seek(event.currentTarget.valueAsNumber)}
+        />
+        <span class="time" aria-hidden="true">
+          {clock(time)} / {clock(total)}
+        </span>
+        <button type="button" class="toggle" aria-pressed={repeat} onClick={() => setRepeat(!repeat)}>
+          {words.repeat}
+        </button>
+        {hasSound && (
+          <button type="button" class="toggle" aria-pressed={!muted} onClick={() => setMuted(!muted)}>
+            {words.sound}
+          </button>
+        )}
+        <select aria-label={words.speed} onChange={(event) => setSpeed(Number(event.currentTarget.value))}>
+          {speeds.map((s) => (
+            <option key={s} value={s} selected={s === speed}>
+              {words.speeds[s]}
+            </option>
+          ))}
+        </select>
+      </div>
+    </section>
+  );
+}
+
+/** Keeps the follower with the leader, frame by frame while they play and at every seek, and tells the time. */
+function useInStep(
+  leader: RefObject<HTMLVideoElement | null>,
+  follower: RefObject<HTMLVideoElement | null>,
+  start: number,
+  playing: boolean,
+  onTime: (time: number) => void,
+): void {
+  useEffect(() => {
+    const lead = leader.current;
+    const follow = follower.current;
+    if (!lead) return;
+
+    const align = (): void => {
+      onTime(lead.currentTime);
+      if (!follow || follow.seeking) return;
+      const wanted = followerTime(lead.currentTime, start, follow.duration);
+      if (apart(follow.currentTime, wanted) || lead.paused) follow.currentTime = wanted;
+      if (lead.paused !== follow.paused && !follow.ended) {
+        if (lead.paused) follow.pause();
+        else void follow.play().catch(() => undefined); // its format may not play here; the figure says so
+      }
+    };
+    let frame = 0;
+    const watch = (): void => {
+      align();
+      frame = requestAnimationFrame(watch);
+    };
+    if (playing) watch();
+    else align();
+    lead.addEventListener('seeked', align);
+    follow?.addEventListener('loadedmetadata', align);
+    return () => {
+      cancelAnimationFrame(frame);
+      lead.removeEventListener('seeked', align);
+      follow?.removeEventListener('loadedmetadata', align);
+    };
+  }, [playing, start]);
+}

@@ -1,0 +1,37 @@
+/** How far a job is: a bar, the time left, and the stages in plain words. */
+
+import type { Job } from '../api';
+import { duration, percent } from '../format';
+import { stageName, strings } from '../strings';
+
+const words = strings.job;
+
+export function Stages({ job, stages }: { job: Job; stages: string[] }) {
+  const queued = job.status === 'queued';
+  const { fraction, eta_seconds: eta, stage: current } = job.progress;
+  const headline = queued ? words.queued : current ? stageName(current) : words.starting;
+
+  return (
+    <div class="stages">
+      {/* Spoken when the stage changes, not with every percent. */}
+      <p class="headline" aria-live="polite">
+        {headline}
+      </p>
+      <progress aria-label={words.progress} max="1" value={queued ? undefined : fraction} />
+      <p class="figures">
+        <span>{queued ? '' : words.done(percent(fraction))}</span>
+        <span>{eta !== null && !queued ? words.left(duration(eta)) : ''}</span>
+      </p>
+      {stages.length > 0 && (
+        <ol aria-label={words.stages}>
+          {stages.map((stage) => (
+            <li key={stage} class={stage === current ? 'running' : 'done'} aria-current={stage === current && 'step'}>
+              {stageName(stage)}
+              <span class="unseen"> {stage === current ? words.stageRunning : words.stageDone}</span>
+            </li>
+          ))}
+        </ol>
+      )}
+    </div>
+  );
+}

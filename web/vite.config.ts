@@ -1,0 +1,9 @@
+import { defineConfig } from 'vite';
+
+// In development the page comes from Vite and everything under /v1 from a running `galatea serve`.
+const service = process.env.GALATEA_URL ?? 'http://127.0.0.1:8000';
+
+export default defineConfig({
+  build: { target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false } },
+  server: { proxy: { '/v1': { target: service, changeOrigin: true, headers: { origin: service } } } },
+});

@@ -1,0 +1,27 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vitest/config';
+
+// The tests stand in ../tests/web; what they import by name is installed here.
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+const alias = { 'playwright-core': here('node_modules/playwright-core'), '@web': here('src') };
+const root = here('../tests/web');
+
+export default defineConfig({
+  test: {
+    projects: [
+      { resolve: { alias }, test: { name: 'unit', root, include: ['unit/**/*.test.ts'] } },
+      {
+        resolve: { alias },
+        test: {
+          name: 'browser',
+          root,
+          include: ['browser/**/*.test.ts'],
+          globalSetup: ['browser/service.ts'],
+          testTimeout: 180_000,
+          hookTimeout: 180_000,
+          fileParallelism: false,
+        },
+      },
+    ],
+  },
+});
