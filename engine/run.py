@@ -22,6 +22,7 @@ from pydantic import BaseModel
 
 import engine
 from engine.errors import Canceled, Notice
+from engine.media.limits import Limits
 from engine.store import StageStore
 
 T = TypeVar("T")
@@ -46,6 +47,7 @@ class Run:
     on_progress : called with each `Progress`.
     canceled : asked between stages and inside long loops; True ends the run with `Canceled`.
     on_artifact : called with the path of an artifact that is complete before the run is (a preview).
+    limits : how large the inputs may be; whoever opens them hands these on to `engine.media`.
     """
 
     def __init__(
@@ -55,12 +57,14 @@ class Run:
         on_progress: Callable[[Progress], None] | None = None,
         canceled: Callable[[], bool] | None = None,
         on_artifact: Callable[[Path], None] | None = None,
+        limits: Limits | None = None,
     ):
         self._store = store
         self._shared = shared or store
         self._on_progress = on_progress or (lambda progress: None)
         self._canceled = canceled or (lambda: False)
         self._on_artifact = on_artifact or (lambda path: None)
+        self.limits = limits or Limits()
         self._keys: dict[int, tuple[Any, str]] = {}
         self._weights: dict[str, float] = {}
         self._done = 0.0
@@ -87,8 +91,9 @@ class Run:
         with self.timed(name):
             store = (self._shared if shared else self._store) if stored else None
             key = self.key(name, *arguments)
-            if store is not None and (found := store.find(key)) is not None:
-                notices, output = found.load(get_type_hints(function)["return"])
+            kept = store.load(key, get_type_hints(function)["return"]) if store is not None else None
+            if kept is not None:
+                notices, output = kept
                 self.notices.extend(notices)
                 self.reused.append(name)
             else:
@@ -96,8 +101,8 @@ class Run:
                 output = function(*arguments)
                 if store is not None:
                     store.save(key, output, self.notices[before:])
-                    if (kept := store.find(key)) is not None:
-                        _, output = kept.load(get_type_hints(function)["return"])
+                    if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
+                        _, output = kept
             self._keys[id(output)] = (output, key)
             return output
 
@@ -148,7 +153,11 @@ class Run:
         if isinstance(argument, BaseModel):
             return argument.model_dump(mode="json")
         if isinstance(argument, np.ndarray):
-            return [str(argument.dtype), argument.shape, hashlib.sha256(np.ascontiguousarray(argument)).hexdigest()]
+            return [
+                str(argument.dtype),
+                argument.shape,
+                hashlib.sha256(np.ascontiguousarray(argument).data).hexdigest(),
+            ]
         if is_dataclass(argument) and not isinstance(argument, type):
             return {k: self._part(v) for k, v in vars(argument).items()}
         if isinstance(argument, tuple | list):

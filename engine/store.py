@@ -10,6 +10,7 @@ import json
 import os
 import shutil
 import tempfile
+import zipfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
@@ -49,6 +50,20 @@ class StageStore:
         except FileNotFoundError:
             return None
         return Found(folder)
+
+    def load(self, key: str, kind: Any) -> tuple[list[Notice], Any] | None:
+        """The notices and the output stored under `key`; None if there is none that can be read.
+
+        One that cannot be read (the power failed before the disk had it all) is thrown away, to be made anew.
+        """
+        found = self.find(key)
+        if found is None:
+            return None
+        try:
+            return found.load(kind)
+        except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+            shutil.rmtree(found.folder, ignore_errors=True)
+            return None
 
     def save(self, key: str, output: Any, notices: Sequence[Notice] = ()) -> None:
         """Store a dataclass of arrays, numbers, strings, tuples, files and further such dataclasses.
