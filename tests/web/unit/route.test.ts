@@ -1,0 +1,16 @@
+import { jobLink, parseRoute } from '@web/route';
+import { describe, expect, it } from 'vitest';
+
+describe('addresses', () => {
+  it('finds the job that a link was made for', () => {
+    for (const id of ['0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f', 'a b/c']) {
+      expect(parseRoute(jobLink(id))).toEqual({ page: 'job', id });
+    }
+  });
+
+  it('takes everything else for the start page', () => {
+    for (const hash of ['', '#', '#/', '#/jobs/', '#/jobs/1/2', '#content']) {
+      expect(parseRoute(hash)).toEqual({ page: 'studio' });
+    }
+  });
+});
