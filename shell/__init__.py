@@ -1,0 +1,1 @@
+"""The `galatea` command."""

@@ -1,0 +1,1 @@
+"""The Celery worker: leases, the processes that do the work, progress, publishing, sweep and housekeeping."""

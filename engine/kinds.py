@@ -1,0 +1,10 @@
+"""The job kinds that the engine offers, by name: adding a system is adding its folder and one line here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from engine.kind import Kind
+
+KINDS: Mapping[str, Kind] = MappingProxyType({kind.name: kind for kind in ()})

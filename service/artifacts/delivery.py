@@ -1,0 +1,100 @@
+"""Sending what is stored: whole, in parts, or not at all where the client has it already."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import AsyncIterator, Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from email.utils import format_datetime
+from urllib.parse import quote
+
+from starlette.responses import Response, StreamingResponse
+
+from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
+from service.problems import Problem
+from service.storage import Storage
+
+
+@dataclass(frozen=True)
+class Stored:
+    """Something that can be sent."""
+
+    key: str
+    name: str
+    content_type: str
+    size: int
+    sha256: str
+    modified: datetime
+
+
+def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: bool) -> Response:
+    """The answer to a GET or HEAD request with these headers."""
+    etag = f'"{stored.sha256}"'
+    answer = {
+        "ETag": etag,
+        "Last-Modified": format_datetime(stored.modified.replace(microsecond=0), usegmt=True),
+        "Accept-Ranges": "bytes",
+        "Cache-Control": "private, no-cache",
+        "Content-Disposition": _disposition(stored.name),
+        # What a user gave must never act as a page of ours, whatever it holds.
+        "Content-Security-Policy": "default-src 'none'; sandbox",
+    }
+    if not_modified(headers.get("if-none-match"), headers.get("if-modified-since"), etag, stored.modified):
+        return Response(status_code=304, headers=answer)
+    asked = None
+    if not head and range_applies(headers.get("if-range"), etag, stored.modified):
+        try:
+            asked = parse_ranges(headers.get("range"), stored.size)
+        except Unsatisfiable:
+            raise Problem(
+                416,
+                "range_not_satisfiable",
+                f"The file has {stored.size} bytes.",
+                headers={"Content-Range": f"bytes */{stored.size}"},
+            ) from None
+    if asked is None:
+        answer |= {"Content-Type": stored.content_type, "Content-Length": str(stored.size)}
+        return Response(headers=answer) if head else _stream(storage.read(stored.key, 0, stored.size), 200, answer)
+    if len(asked) == 1:
+        start, end = asked[0]
+        answer |= {
+            "Content-Type": stored.content_type,
+            "Content-Length": str(end - start),
+            "Content-Range": f"bytes {start}-{end - 1}/{stored.size}",
+        }
+        return _stream(storage.read(stored.key, start, end), 206, answer)
+    return _multipart(stored, storage, asked, answer)
+
+
+def _multipart(
+    stored: Stored, storage: Storage, ranges: list[tuple[int, int]], answer: dict[str, str]
+) -> StreamingResponse:
+    boundary = secrets.token_hex(16)
+    heads = [
+        f"--{boundary}\r\nContent-Type: {stored.content_type}\r\n"
+        f"Content-Range: bytes {start}-{end - 1}/{stored.size}\r\n\r\n".encode()
+        for start, end in ranges
+    ]
+    tail = f"--{boundary}--\r\n".encode()
+    length = sum(len(h) + end - start + 2 for h, (start, end) in zip(heads, ranges, strict=True)) + len(tail)
+
+    async def parts() -> AsyncIterator[bytes]:
+        for head, (start, end) in zip(heads, ranges, strict=True):
+            yield head
+            async for piece in storage.read(stored.key, start, end):
+                yield piece
+            yield b"\r\n"
+        yield tail
+
+    answer |= {"Content-Type": f"multipart/byteranges; boundary={boundary}", "Content-Length": str(length)}
+    return _stream(parts(), 206, answer)
+
+
+def _stream(content: AsyncIterator[bytes], status: int, headers: dict[str, str]) -> StreamingResponse:
+    return StreamingResponse(content, status_code=status, headers=headers)
+
+
+def _disposition(name: str) -> str:
+    plain = "".join(c if c.isascii() and c.isprintable() and c not in '"\\%' else "_" for c in name)
+    return f"inline; filename=\"{plain}\"; filename*=UTF-8''{quote(name, safe='')}"

@@ -1,0 +1,32 @@
+"""GET /jobs/{id}/artifacts/{name}."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request
+from starlette.responses import Response
+
+from service.artifacts import repository
+from service.artifacts.delivery import Stored, deliver
+from service.context import InContext
+from service.problems import Problem, responses
+
+router = APIRouter(prefix="/jobs", tags=["jobs"])
+
+
+@router.head("/{job_id}/artifacts/{name}", include_in_schema=False)
+@router.get(
+    "/{job_id}/artifacts/{name}",
+    operation_id="get_artifact",
+    response_class=Response,
+    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+)
+def get_artifact(job_id: str, name: str, request: Request, context: InContext) -> Response:
+    """An artifact: whole, or the ranges asked for; unchanged ones are answered with 304."""
+    with context.database.read() as session:
+        artifact = repository.get(session, job_id, name)
+    if artifact is None:
+        raise Problem(404, "artifact_not_found", "The job has no artifact of this name (yet).")
+    stored = Stored(
+        artifact.key, artifact.name, artifact.content_type, artifact.size, artifact.sha256, artifact.created_at
+    )
+    return deliver(stored, context.storage, request.headers, request.method == "HEAD")

@@ -1,0 +1,40 @@
+"""Drivers as the API shows them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Literal
+
+from pydantic import BaseModel
+
+from service.drivers.models import Driver
+from service.files.models import File
+
+
+class DriverOut(BaseModel):
+    """A driving video that a job can name."""
+
+    name: str
+    source: Literal["built-in", "own"]
+    url: str
+    """Where the video is."""
+    size: int | None = None
+    content_type: str | None = None
+    created_at: datetime | None = None
+
+    @classmethod
+    def own(cls, driver: Driver, file: File) -> DriverOut:
+        return cls(
+            name=driver.name,
+            source="own",
+            url=f"/v1/drivers/{driver.name}/video",
+            size=file.size,
+            content_type=file.content_type,
+            created_at=driver.created_at,
+        )
+
+
+class DriverList(BaseModel):
+    """All drivers: the built-in ones first."""
+
+    items: list[DriverOut]

@@ -1,0 +1,45 @@
+"""Following a job: its events as they come, from any point on, until the final one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import AsyncIterator
+from typing import Any
+
+import anyio
+from anyio.to_thread import run_sync
+
+from service.context import Context
+from service.events import repository
+from service.events.models import Event
+from service.jobs import repository as jobs
+from service.jobs.models import Status
+
+POLL_SECONDS = 0.25
+
+
+async def follow(context: Context, job_id: str, after: int) -> AsyncIterator[dict[str, Any]]:
+    """The job's events that came after one, as the fields of a server-sent event. Ends after the final one, or when
+    the job is deleted."""
+    while True:
+        events, there = await run_sync(_look, context, job_id, after)
+        for event in events:
+            after = event.id
+            yield {"id": str(event.id), "event": event.type, "data": json.dumps(event.data)}
+            if final(event):
+                return
+        if not there:
+            return
+        if not events:
+            await anyio.sleep(POLL_SECONDS)
+
+
+def final(event: Event) -> bool:
+    """Whether nothing can come after this event."""
+    return event.type == "status" and Status(event.data["status"]).final
+
+
+def _look(context: Context, job_id: str, after: int) -> tuple[list[Event], bool]:
+    with context.database.read() as session:
+        there = jobs.get(session, job_id) is not None
+        return list(repository.after(session, job_id, after)), there

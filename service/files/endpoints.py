@@ -1,0 +1,90 @@
+"""POST /files, GET /files/{id} and its content."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from anyio.to_thread import run_sync
+from fastapi import APIRouter, Request
+from starlette.responses import Response
+
+from service.artifacts.delivery import Stored, deliver
+from service.context import Context, InContext
+from service.files import repository, service
+from service.files.intake import Form
+from service.files.models import File
+from service.files.schemas import FileOut
+from service.problems import Problem, responses
+
+router = APIRouter(prefix="/files", tags=["files"])
+
+UPLOAD: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "multipart/form-data": {
+                "schema": {
+                    "type": "object",
+                    "required": ["file"],
+                    "properties": {"file": {"type": "string", "format": "binary"}},
+                }
+            }
+        },
+    }
+}
+
+
+@router.post(
+    "",
+    status_code=201,
+    operation_id="create_file",
+    openapi_extra=UPLOAD,
+    responses=responses(413, 415, 422, 507),
+)
+async def create_file(request: Request, response: Response, context: InContext) -> FileOut:
+    """Upload one file. It is erased after a while if no job uses it."""
+    require_multipart(request)
+    async with Form(request, context.settings, most_files=1) as form:
+        if not form.files:
+            raise Problem(422, "file_missing", "Send the file as a part of the multipart body.")
+        file = await run_sync(service.keep, context, form.files[0])
+    response.headers["Location"] = f"/v1/files/{file.id}"
+    return FileOut.of(file)
+
+
+@router.get("/{file_id}", operation_id="get_file", responses=responses(404))
+def get_file(file_id: str, context: InContext) -> FileOut:
+    """What is known of a file."""
+    return FileOut.of(_found(context, file_id))
+
+
+@router.head("/{file_id}/content", include_in_schema=False)
+@router.get(
+    "/{file_id}/content",
+    operation_id="get_file_content",
+    response_class=Response,
+    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+)
+def get_file_content(file_id: str, request: Request, context: InContext) -> Response:
+    """The file itself: whole, or the ranges asked for."""
+    return send(_found(context, file_id), request, context)
+
+
+def send(file: File, request: Request, context: Context) -> Response:
+    """Answer with a file's content."""
+    stored = Stored(file.key, file.name, file.content_type, file.size, file.sha256, file.created_at)
+    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+
+
+def require_multipart(request: Request) -> None:
+    """Raise a 415 problem if the body is no form."""
+    if not request.headers.get("content-type", "").lower().startswith("multipart/form-data"):
+        raise Problem(415, "body_type_unsupported", "Send the body as multipart/form-data.")
+
+
+def _found(context: Context, file_id: str) -> File:
+    with context.database.read() as session:
+        file = repository.get(session, file_id)
+    if file is None:
+        raise Problem(404, "file_not_found", "There is no such file: it was erased, or it never was.")
+    return file

@@ -1,0 +1,83 @@
+"""Keeping others out while no keys are needed: the service is bound to loopback, and only programs of this machine
+may speak to it.
+
+Two ways lead in from outside all the same. A web page that the user visits can send requests to loopback: its
+`Origin` gives it away, and a name that was made to point here (DNS rebinding) gives itself away in `Host`. And a
+proxy on this machine can pass on what comes from the network: it is refused unless the operator lists it in
+`GALATEA_TRUSTED_PROXIES` and so vouches for whom it lets through.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from ipaddress import IPv4Network, IPv6Network, ip_address
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from service.problems import Problem
+
+FORWARDING = ("forwarded", "x-forwarded-for", "x-forwarded-host", "x-forwarded-proto", "x-real-ip", "via")
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a host name or address can only mean this machine."""
+    if host.lower() == "localhost" or host.lower().endswith(".localhost"):
+        return True
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+class LoopbackGuard:
+    """Refuses requests that a web page or a proxy brought in, and marks every answer as not to be guessed at."""
+
+    def __init__(self, app: ASGIApp, trusted_proxies: Sequence[IPv4Network | IPv6Network] = ()):
+        self.app = app
+        self.trusted_proxies = trusted_proxies
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+
+        async def send_marked(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = [(b"x-content-type-options", b"nosniff"), (b"referrer-policy", b"same-origin")]
+                message["headers"] = [*message["headers"], *headers]
+            await send(message)
+
+        problem = self.refusal(Headers(scope=scope), (scope.get("client") or ("", 0))[0])
+        if problem is not None:
+            await problem.response()(scope, receive, send_marked)
+        else:
+            await self.app(scope, receive, send_marked)
+
+    def refusal(self, headers: Headers, peer: str) -> Problem | None:
+        """Why a request is refused; None if it is not."""
+        host = headers.get("host", "")
+        if any(name in headers for name in FORWARDING):
+            if not self._trusts(peer):
+                return Problem(
+                    403,
+                    "proxy_not_trusted",
+                    f"The request came through a proxy ({peer}) that is not listed in GALATEA_TRUSTED_PROXIES.",
+                )
+            host = headers.get("x-forwarded-host", host).split(",")[0].strip()
+        elif not is_loopback(urlsplit(f"//{host}").hostname or ""):
+            return Problem(
+                403, "host_not_allowed", "The service answers on loopback only: use http://127.0.0.1 or localhost."
+            )
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            return Problem(403, "origin_not_allowed", "A web page of another origin may not use the service.")
+        return None
+
+    def _trusts(self, peer: str) -> bool:
+        try:
+            address = ip_address(peer)
+        except ValueError:
+            return False
+        return any(address in network for network in self.trusted_proxies)

@@ -1,0 +1,50 @@
+"""GET /healthz, /readyz and /metrics."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+from fastapi.responses import JSONResponse, PlainTextResponse
+from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_latest
+from sqlalchemy import text
+from sqlalchemy.exc import SQLAlchemyError
+
+from service.context import Context, InContext
+from service.disk import free_mb
+from service.health.metrics import ServiceCollector
+
+router = APIRouter(tags=["health"])
+
+
+@router.get("/healthz", operation_id="healthz")
+def healthz() -> dict[str, str]:
+    """The process lives."""
+    return {"status": "ok"}
+
+
+@router.get("/readyz", operation_id="readyz", responses={503: {"description": "Something that it needs is missing"}})
+def readyz(context: InContext) -> JSONResponse:
+    """What the service needs is there."""
+    checks = {
+        "database": _database(context),
+        "redis": context.queue.reachable(),
+        "disk": free_mb(context.settings) >= context.settings.disk_reserve_mb,
+    }
+    ready = all(checks.values())
+    return JSONResponse({"status": "ok" if ready else "unavailable", "checks": checks}, 200 if ready else 503)
+
+
+@router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
+def metrics(context: InContext) -> PlainTextResponse:
+    """Figures for Prometheus."""
+    registry = CollectorRegistry()
+    registry.register(ServiceCollector(context))
+    return PlainTextResponse(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
+
+
+def _database(context: Context) -> bool:
+    try:
+        with context.database.read() as session:
+            session.execute(text("SELECT 1"))
+    except SQLAlchemyError:
+        return False
+    return True

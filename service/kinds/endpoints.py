@@ -1,0 +1,16 @@
+"""GET /kinds."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from service.context import InContext
+from service.kinds.schemas import KindList, KindOut
+
+router = APIRouter(prefix="/kinds", tags=["kinds"])
+
+
+@router.get("", operation_id="list_kinds")
+def list_kinds(context: InContext) -> KindList:
+    """The job kinds, with the JSON schemas of their inputs and options."""
+    return KindList(items=[KindOut.of(kind) for kind in context.kinds.values()])

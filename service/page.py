@@ -1,0 +1,38 @@
+"""The built web page at the root, and its one document for every address that the page itself understands."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+
+from fastapi.responses import HTMLResponse
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+NOT_BUILT = """<!doctype html><title>Galatea</title><h1>Galatea</h1>
+<p>The service runs, but its web page is not built: run <code>make setup</code>.
+The API is described at <a href="/v1/openapi.json">/v1/openapi.json</a>."""
+
+
+class Page(StaticFiles):
+    """Static files; unknown addresses without a file's ending are answered with the page's document."""
+
+    def __init__(self, folder: Path):
+        super().__init__(directory=folder, html=True, check_dir=False)
+        self._folder = folder
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        if not (self._folder / "index.html").is_file():
+            if path == ".":
+                return HTMLResponse(NOT_BUILT)
+            raise HTTPException(404)
+        try:
+            return await super().get_response(path, scope)
+        except HTTPException as error:
+            if error.status_code != 404 or path.startswith("v1/") or PurePosixPath(path).suffix:
+                raise
+            return await super().get_response("index.html", scope)
+
+    async def check_config(self) -> None:
+        """The page may be built while the service runs: nothing to check at the start."""

@@ -1,0 +1,144 @@
+"""Errors as the API tells them: RFC 9457 problem documents with a stable `code`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from errno import EDQUOT, ENOSPC
+from http import HTTPStatus
+from typing import Any
+
+import structlog
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, ValidationError
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
+from starlette.responses import Response
+
+MEDIA_TYPE = "application/problem+json"
+
+
+class FieldError(BaseModel):
+    """One field that is wrong."""
+
+    pointer: str
+    """JSON pointer to the field."""
+    code: str
+    detail: str
+
+
+class ProblemDocument(BaseModel):
+    """What every error answers."""
+
+    type: str
+    title: str
+    status: int
+    code: str
+    """Stable: safe to compare with."""
+    detail: str
+    """What to do."""
+    errors: list[FieldError] | None = None
+
+
+class Problem(Exception):
+    """Raised anywhere behind the API to answer with a problem document."""
+
+    def __init__(
+        self,
+        status: int,
+        code: str,
+        detail: str,
+        errors: Sequence[FieldError] = (),
+        headers: Mapping[str, str] | None = None,
+    ):
+        super().__init__(f"{code}: {detail}")
+        self.status = status
+        self.code = code
+        self.detail = detail
+        self.errors = list(errors)
+        self.headers = dict(headers or {})
+
+    def response(self) -> JSONResponse:
+        document = ProblemDocument(
+            type=f"urn:galatea:problem:{self.code}",
+            title=HTTPStatus(self.status).phrase,
+            status=self.status,
+            code=self.code,
+            detail=self.detail,
+            errors=self.errors or None,
+        )
+        return JSONResponse(
+            document.model_dump(exclude_none=True), self.status, headers=self.headers, media_type=MEDIA_TYPE
+        )
+
+
+def field_errors(errors: Sequence[Any], prefix: str = "") -> list[FieldError]:
+    """pydantic's errors as JSON pointers."""
+
+    def pointer(location: Sequence[Any]) -> str:
+        return prefix + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
+
+    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors]
+
+
+def invalid(error: ValidationError, code: str, prefix: str = "") -> Problem:
+    """The 422 problem for a pydantic error."""
+    errors = field_errors(error.errors(include_url=False, include_context=False, include_input=False), prefix)
+    first = errors[0]
+    return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}", errors)
+
+
+def install(app: FastAPI) -> None:
+    """Make every error of the application a problem document."""
+
+    @app.exception_handler(Problem)
+    async def problem(request: Request, error: Problem) -> JSONResponse:
+        return error.response()
+
+    @app.exception_handler(RequestValidationError)
+    async def validation(request: Request, error: RequestValidationError) -> JSONResponse:
+        errors = field_errors(error.errors())
+        return Problem(422, "invalid_request", f"{errors[0].pointer}: {errors[0].detail}", errors).response()
+
+    @app.exception_handler(HTTPException)
+    async def http(request: Request, error: HTTPException) -> JSONResponse:
+        code = {404: "not_found", 405: "method_not_allowed"}.get(error.status_code, f"http_{error.status_code}")
+        detail = {
+            404: "There is nothing at this address.",
+            405: f"{request.method} is not offered at this address.",
+        }.get(error.status_code, str(error.detail))
+        return Problem(error.status_code, code, detail, headers=error.headers).response()
+
+    @app.exception_handler(ClientDisconnect)
+    async def disconnected(request: Request, error: ClientDisconnect) -> Response:
+        return Response(status_code=400)  # nobody is there to read it
+
+    @app.exception_handler(OSError)
+    @app.exception_handler(OperationalError)
+    async def storage(request: Request, error: OSError | OperationalError) -> JSONResponse:
+        if getattr(error, "errno", None) in (ENOSPC, EDQUOT) or "disk is full" in str(error):
+            return disk_full().response()
+        return await unexpected(request, error)
+
+    @app.exception_handler(Exception)
+    async def unexpected(request: Request, error: Exception) -> JSONResponse:
+        structlog.get_logger().error("unexpected_error", path=request.url.path, exc_info=error)
+        return Problem(500, "internal_error", "Something went wrong inside the service; its log says what.").response()
+
+
+def disk_full() -> Problem:
+    """The disk has no room for what was sent."""
+    return Problem(
+        507,
+        "disk_reserve",
+        "The disk is nearly full: nothing new is accepted until space is freed. Delete jobs that are no longer needed, "
+        "or lower GALATEA_DISK_RESERVE_MB.",
+    )
+
+
+def responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The problem answers of an endpoint, for the OpenAPI document."""
+    content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
+    return {status: {"description": HTTPStatus(status).phrase, "content": content} for status in statuses}

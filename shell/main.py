@@ -1,0 +1,69 @@
+"""`galatea`: serve, worker, doctor, and one command for each job kind."""
+
+from __future__ import annotations
+
+import click
+
+import engine
+
+
+class Kinds(click.Group):
+    """The fixed commands, and one made from each job kind; the kinds are loaded only where they are asked for."""
+
+    def list_commands(self, context: click.Context) -> list[str]:
+        from service.kinds.registry import load_kinds
+        from service.settings import Settings
+
+        return [*super().list_commands(context), *sorted(load_kinds(Settings().extra_kinds))]
+
+    def get_command(self, context: click.Context, name: str) -> click.Command | None:
+        fixed = super().get_command(context, name)
+        if fixed is not None:
+            return fixed
+        from service.kinds.registry import load_kinds
+        from service.settings import Settings
+        from shell.kind_command import kind_command
+
+        kind = load_kinds(Settings().extra_kinds).get(name)
+        return kind_command(kind) if kind is not None else None
+
+
+@click.group(cls=Kinds)
+@click.version_option(engine.__version__, prog_name="galatea")
+def main() -> None:
+    """Brings still pictures of people to life."""
+
+
+@main.command()
+@click.option("--host", help="The address to bind (GALATEA_HOST; 127.0.0.1).")
+@click.option("--port", type=click.IntRange(0, 65535), help="The port; 0 takes a free one (GALATEA_PORT; 8000).")
+def serve(host: str | None, port: int | None) -> None:
+    """API, web page, embedded Redis and workers in one command."""
+    from shell.serve import serve as run
+    from shell.settings import read_settings
+
+    run(read_settings(host=host, port=port))
+
+
+@main.command()
+def worker() -> None:
+    """Workers alone, for further machines."""
+    from service.logs import configure
+    from shell.settings import read_settings
+    from worker.app import run
+
+    settings = read_settings()
+    configure(settings)
+    run(settings)
+
+
+@main.command()
+def doctor() -> None:
+    """What is installed, what is missing, how to mend it."""
+    from shell.doctor import examine
+
+    raise SystemExit(examine())
+
+
+if __name__ == "__main__":
+    main()

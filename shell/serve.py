@@ -1,0 +1,127 @@
+"""`galatea serve`: everything in one command, and all of it gone when the command ends, however it ends."""
+
+from __future__ import annotations
+
+import fcntl
+import signal
+import socket
+import sys
+import time
+from pathlib import Path
+from types import FrameType
+from typing import IO
+
+import redis
+import structlog
+import uvicorn
+
+from service.app import make_app
+from service.context import Context
+from service.guard import is_loopback
+from service.logs import configure
+from service.redis_server import redis_command, socket_path
+from service.settings import Settings
+from shell.complaint import Complaint
+from shell.supervisor import Supervisor
+
+PATIENCE_SECONDS = 10.0
+
+
+def serve(settings: Settings) -> None:
+    """Serve until SIGINT or SIGTERM. Raises `Complaint` where that cannot begin."""
+    if not is_loopback(settings.host):
+        raise Complaint(
+            f"--host {settings.host} would open the service to the network, which is refused because it has no "
+            "access keys: bind it to 127.0.0.1 and reach it through an SSH tunnel or a proxy of your own "
+            "(GALATEA_TRUSTED_PROXIES)."
+        )
+    configure(settings)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _interrupt)
+    listening = _listen(settings)
+    with listening, _lock(settings.data_dir) as lock:
+        supervisor = Supervisor([lock.fileno()])
+        try:
+            _serve(settings, supervisor, listening)
+        except KeyboardInterrupt:
+            pass
+        finally:
+            for number in (signal.SIGINT, signal.SIGTERM):
+                signal.signal(number, signal.SIG_IGN)
+            supervisor.stop()
+
+
+def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket) -> None:
+    if settings.redis_url is None:
+        supervisor.keep("redis", redis_command(settings.data_dir), stop_seconds=5)
+        _await_redis(settings)
+    context = Context.open(settings)
+    supervisor.keep("worker", [sys.executable, "-m", "shell.main", "worker"], stop_seconds=10)
+    config = uvicorn.Config(
+        make_app(context),
+        log_config=None,
+        access_log=settings.log_level == "DEBUG",
+        proxy_headers=False,
+        server_header=False,
+        timeout_graceful_shutdown=3,
+        lifespan="off",
+    )
+    Server(config).run(sockets=[listening])
+
+
+class Server(uvicorn.Server):
+    """Says where it is once it answers."""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        for listening in sockets or []:
+            host, port = listening.getsockname()[:2]
+            shown = f"[{host}]" if ":" in host else host
+            print(f"Galatea serves at http://{shown}:{port}/", flush=True)
+
+
+def _listen(settings: Settings) -> socket.socket:
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    try:
+        return socket.create_server((settings.host, settings.port), family=family, backlog=2048)
+    except OSError as error:
+        raise Complaint(f"{settings.host}:{settings.port} cannot be bound: {error.strerror or error}") from error
+
+
+def _lock(data_dir: Path) -> IO[str]:
+    """Take the data folder for this service alone, waiting a while for what an earlier one left to end.
+
+    The programs inherit the lock: it is free only once the last of them is gone.
+    """
+    data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
+    lock = (data_dir / "serve.lock").open("w")
+    deadline = time.monotonic() + PATIENCE_SECONDS
+    while True:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                raise Complaint(f"Another `galatea serve` uses {data_dir} (GALATEA_DATA_DIR).") from None
+            time.sleep(0.1)
+        else:
+            return lock
+
+
+def _await_redis(settings: Settings) -> None:
+    client = redis.Redis(unix_socket_path=str(socket_path(settings.data_dir)))
+    deadline = time.monotonic() + PATIENCE_SECONDS
+    while True:
+        try:
+            client.ping()
+        except redis.RedisError as error:
+            if time.monotonic() > deadline:
+                raise Complaint(f"The embedded Redis does not start: {error}. `galatea doctor` says more.") from error
+            structlog.get_logger().debug("redis_not_ready", reason=str(error))
+            time.sleep(0.05)
+        else:
+            client.close()
+            return
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

@@ -1,0 +1,18 @@
+"""Reading the settings where a person reads the complaint."""
+
+from __future__ import annotations
+
+from pydantic import ValidationError
+
+from service.settings import Settings
+from shell.complaint import Complaint
+
+
+def read_settings(**given: object) -> Settings:
+    """The settings of the environment, with what was given on the command line. Raises `Complaint`."""
+    try:
+        return Settings(**{name: value for name, value in given.items() if value is not None})  # type: ignore[arg-type]
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = "GALATEA_" + "_".join(str(part) for part in first["loc"][:1]).upper()
+        raise Complaint(f"{name}: {first['msg']}") from error

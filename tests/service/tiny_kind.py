@@ -1,0 +1,116 @@
+"""A real job kind, small enough for tests: it reads a picture and leaves a few artifacts, in stages.
+
+Its options let it misbehave in the ways that inputs can make a job misbehave.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from engine.errors import InputError
+from engine.kind import Input, Kind
+from engine.run import Run, write_report
+
+
+class TinyOptions(BaseModel):
+    """How to behave."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    seconds: float = Field(0.0, ge=0)
+    """How long the second stage takes."""
+    polls: bool = True
+    """Whether it looks for cancellation meanwhile."""
+    crash: Literal["segv", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"] | None = None
+    crash_once: bool = False
+    """Crash at the first attempt only (there is a file in the stages' folder from then on)."""
+
+
+@dataclass(frozen=True)
+class Mean:
+    """The mean of a file's bytes."""
+
+    value: float
+    spectrum: np.ndarray
+
+
+def measure(image: Path) -> Mean:
+    data = np.frombuffer(image.read_bytes(), np.uint8)
+    return Mean(float(data.mean()), np.bincount(data, minlength=256))
+
+
+def rest(seconds: float, polls: bool, tick: object) -> Mean:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        time.sleep(0.02)
+        if polls:
+            tick(1 - (end - time.monotonic()) / seconds, "resting")  # type: ignore[operator]
+    return Mean(0.0, np.zeros(1))
+
+
+def misbehave(how: str | None, out: Path) -> None:
+    match how:
+        case "segv":
+            os.kill(os.getpid(), signal.SIGSEGV)
+        case "exit":
+            os._exit(3)
+        case "memory":
+            _ = [np.ones(1 << 24) for _ in range(10_000)]
+        case "disk":
+            with (out / "huge.bin").open("wb") as file:
+                while True:
+                    file.write(b"x" * 1_000_000)
+                    file.flush()
+                    time.sleep(0.005)
+        case "file":
+            with (out / "huge.bin").open("wb") as file:
+                file.truncate(1 << 40)
+        case "bug":
+            raise ZeroDivisionError
+        case "refuse":
+            raise InputError("no_face", "No face was found: choose another picture.", ("landmarks",))
+        case "hostile_name":
+            (out / "a b;c\n.html").write_text("<script>")
+        case "link":
+            (out / "secret.json").symlink_to("/etc/hostname")
+
+
+def work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, run: Run) -> None:
+    assert isinstance(options, TinyOptions)
+    image = inputs["image"]
+    assert isinstance(image, Path)
+    run.plan({"measure": 0.2, "rest": 0.7, "write": 0.1})
+    mean = run.stage("measure", measure, image)
+    (out / "preview.jpg").write_bytes(image.read_bytes())
+    run.publish(out / "preview.jpg")
+    crashed = out.parent.parent / "stages" / "crashed"
+    if not (options.crash_once and crashed.exists()):
+        crashed.touch()
+        misbehave(options.crash, out)
+    run.stage("rest", rest, options.seconds, options.polls, run.tick, stored=False)
+    with run.timed("write"):
+        (out / "spectrum.json").write_text(str(mean.spectrum.tolist()))
+        (out / "animation.mp4").write_bytes(bytes(range(256)) * 400)
+        size = len(image.read_bytes())
+        write_report(out / "report.json", "tiny", run, {"bytes": size}, {"mean": mean.value, "reused": len(run.reused)})
+
+
+KIND = Kind(
+    name="tiny",
+    summary="Measures a picture.",
+    inputs=(
+        Input("image", "image", "a picture"),
+        Input("driver", "video", "a video, or the name of a driver", required=False, library="performances"),
+    ),
+    options=TinyOptions,
+    work=work,
+)

@@ -1,0 +1,218 @@
+"""The worker's side of the processes that do the work: starting them warm, talking to them, ending them."""
+
+from __future__ import annotations
+
+import json
+import os
+import selectors
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from signal import SIGKILL
+from typing import Any
+
+import structlog
+
+from service.settings import MEGABYTE, Settings
+
+LONGEST_LINE = 1_000_000
+PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
+
+
+class ChildLost(Exception):
+    """The process ended, or speaks nonsense."""
+
+
+class Child:
+    """One process that runs jobs, one after another (see `worker.child`)."""
+
+    def __init__(self, settings: Settings):
+        self.jobs = 0
+        self._log = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115  (open as long as the process lives)
+        read_end, write_end = os.pipe()
+        try:
+            self._process = subprocess.Popen(  # noqa: S603  (our own program)
+                [
+                    sys.executable,
+                    "-m",
+                    "worker.child",
+                    str(os.getpid()),
+                    str(write_end),
+                    str(int(settings.job_memory_mb * MEGABYTE)),
+                    str(int(settings.job_file_mb * MEGABYTE)),
+                    *settings.extra_kinds,
+                ],
+                stdin=subprocess.PIPE,
+                stdout=self._log,
+                stderr=self._log,
+                pass_fds=[write_end],
+                env=_environment(),
+                start_new_session=True,
+            )
+        except BaseException:
+            os.close(read_end)
+            raise
+        finally:
+            os.close(write_end)
+        self._read_end = read_end
+        self._buffer = b""
+        os.set_blocking(read_end, False)
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(read_end, selectors.EVENT_READ)
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid
+
+    def send(self, command: Mapping[str, Any]) -> None:
+        """Give it a command. Raises `ChildLost`."""
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(json.dumps(command).encode() + b"\n")
+            self._process.stdin.flush()
+        except OSError as error:
+            raise ChildLost(self.obituary()) from error
+
+    def receive(self, timeout: float) -> list[dict[str, Any]]:
+        """What it has said, waiting up to `timeout` seconds for something. Raises `ChildLost`."""
+        if not self._selector.select(timeout):
+            return []
+        data = os.read(self._read_end, 1 << 16)
+        if not data:
+            raise ChildLost(self.obituary())
+        *lines, self._buffer = (self._buffer + data).split(b"\n")
+        if len(self._buffer) > LONGEST_LINE:
+            raise ChildLost("the job's process spoke nonsense")
+        try:
+            said = [json.loads(line, parse_constant=_no_number) for line in lines]
+        except ValueError as error:
+            raise ChildLost("the job's process spoke nonsense") from error
+        return [event for event in said if isinstance(event, dict)]
+
+    def memory_mb(self) -> float:
+        """The memory that it holds, without the files that it only maps."""
+        try:
+            with open(f"/proc/{self.pid}/statm") as statm:  # noqa: PTH123  (read several times a second)
+                _, resident, shared = statm.read().split()[:3]
+        except (OSError, ValueError):
+            return 0.0
+        return (int(resident) - int(shared)) * PAGE_BYTES / MEGABYTE
+
+    def log_tail(self, size: int = 4000) -> str:
+        """The last of what it printed, and forget it."""
+        end = self._log.seek(0, os.SEEK_END)
+        self._log.seek(max(end - size, 0))
+        tail = self._log.read(size).decode(errors="replace")
+        self._log.truncate(0)
+        return tail
+
+    def obituary(self) -> str:
+        """Why it ended."""
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(1)
+        code = self._process.returncode
+        if code is None or code >= 0:
+            return "the job's process ended unexpectedly"
+        return f"the job's process was ended by signal {-code}"
+
+    def kill(self) -> None:
+        """End it and whatever it started, now."""
+        with suppress(ProcessLookupError):
+            os.killpg(self.pid, SIGKILL)
+        with suppress(OSError):
+            self._process.kill()
+        self._process.wait()
+        if self._process.stdin is not None:
+            with suppress(OSError):
+                self._process.stdin.close()
+        self._selector.close()
+        os.close(self._read_end)
+        self._log.close()
+
+
+class WarmChildren:
+    """Keeps as many processes ready as jobs may run at once: importing the engine takes seconds.
+
+    One thread starts them all and lives as long as the worker, because a tethered process ends with the thread
+    that started it.
+    """
+
+    def __init__(self, settings: Settings):
+        self._settings = settings
+        self._changed = threading.Condition()
+        self._idle: list[Child] = []
+        self._busy: set[Child] = set()
+        self._closed = False
+        threading.Thread(target=self._keep_warm, name="warm-children", daemon=True).start()
+
+    def take(self) -> Child:
+        """A process for one job, waiting for it to be started."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._idle or self._closed)
+            if self._closed:
+                raise ChildLost("the worker is stopping")
+            child = self._idle.pop()
+            self._busy.add(child)
+            return child
+
+    def give_back(self, child: Child, reuse: bool) -> None:
+        """Return a process after its job. It is ended unless it may be used again and has not grown old or large."""
+        child.jobs += 1
+        young = child.jobs < self._settings.child_jobs
+        keep = reuse and young and child.memory_mb() < self._settings.child_memory_mb
+        if keep:
+            child.log_tail()
+        else:
+            child.kill()
+        with self._changed:
+            self._busy.discard(child)
+            if keep and not self._closed:
+                self._idle.append(child)
+            elif keep:
+                child.kill()
+            self._changed.notify_all()
+
+    def close(self) -> None:
+        """End the idle ones; the busy ones are ended by whoever holds them."""
+        with self._changed:
+            self._closed = True
+            for child in self._idle:
+                child.kill()
+            self._idle.clear()
+            self._changed.notify_all()
+
+    def _keep_warm(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(
+                    lambda: self._closed or len(self._idle) + len(self._busy) < self._settings.concurrency
+                )
+                if self._closed:
+                    break
+            try:
+                child = Child(self._settings)
+            except OSError:
+                structlog.get_logger().exception("child_not_started")
+                time.sleep(1)
+                continue
+            with self._changed:
+                if self._closed:
+                    child.kill()
+                    break
+                self._idle.append(child)
+                self._changed.notify_all()
+        threading.Event().wait()  # the processes that are still busy are tethered to this thread
+
+
+def _environment() -> dict[str, str]:
+    """The worker's environment without its settings: passwords and addresses are not the engine's business."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+    return kept | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+
+
+def _no_number(name: str) -> None:
+    raise ValueError(f"{name} is no JSON")
