@@ -17,7 +17,7 @@ install_debian() {
   command -v apt-get >/dev/null || fail "this machine has no apt-get: please install $* (or its equal) by hand"
   say "Installing $* (apt-get)"
   "${as_root[@]}" apt-get update -qq || true
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >&2 ||
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "$@" >/dev/null ||
     fail "apt-get could not install $*"
 }
 
