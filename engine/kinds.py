@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from engine import portrait
 from engine.kind import Kind
 
-KINDS: Mapping[str, Kind] = MappingProxyType({kind.name: kind for kind in ()})
+KINDS: Mapping[str, Kind] = MappingProxyType({kind.name: kind for kind in (portrait.KIND,)})

@@ -1,0 +1,98 @@
+"""A canonical face, the head's pose against it by PnP, and meshes from placed landmarks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RBFInterpolator
+
+from engine.errors import InputError
+from engine.perception.landmarks import MESH_SIZE, RIGID, fiducials
+
+FOCAL = 1.5
+"""Assumed focal length of a portrait's camera, in longer sides of the picture."""
+
+
+@dataclass(frozen=True)
+class HeadPose:
+    """Angles in radians: `yaw` > 0 turns the face to the picture's right, `pitch` > 0 downwards,
+    `roll` > 0 clockwise as seen. `error` is the reprojection's root mean square in eye distances."""
+
+    yaw: float
+    pitch: float
+    roll: float
+    error: float
+
+
+@cache
+def canonical_face() -> NDArray[np.float32]:
+    """(478, 3) mean neutral face, symmetric, frontal: origin between the eyes, x to the picture's right,
+    y down, z away from the viewer, the eye distance is 1. A median over many tracked faces."""
+    with np.load(Path(__file__).with_name("canonical_face.npz")) as data:
+        return np.asarray(data["mesh"], np.float32)
+
+
+@cache
+def mirror_vertices() -> NDArray[np.int16]:
+    """(478,) the vertex that each one becomes in a mirrored face."""
+    with np.load(Path(__file__).with_name("canonical_face.npz")) as data:
+        return np.asarray(data["mirror"], np.int16)
+
+
+def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
+    """The head's angles by PnP of the rigid vertices of a mesh (478, 2 or 3) in a picture of `size` (w, h)."""
+    chosen = list(RIGID)
+    model, seen = canonical_face()[chosen].astype(float), mesh[chosen, :2].astype(float)
+    focal = FOCAL * max(size)
+    camera = np.array([[focal, 0, (size[0] - 1) / 2], [0, focal, (size[1] - 1) / 2], [0, 0, 1.0]])
+    unit = float(np.linalg.norm(mesh[[33, 133], :2].mean(axis=0) - mesh[[263, 362], :2].mean(axis=0)))
+    start = np.array([[seen[:, 0].mean() - camera[0, 2]], [seen[:, 1].mean() - camera[1, 2]], [focal]]) / max(
+        unit, 1e-6
+    )
+    _, rotation, shift = cv2.solvePnP(
+        model, seen, camera, np.zeros(4), np.zeros((3, 1)), start, useExtrinsicGuess=True, flags=cv2.SOLVEPNP_ITERATIVE
+    )
+    back, _ = cv2.projectPoints(model, rotation, shift, camera, np.zeros(4))
+    error = float(np.sqrt(((back[:, 0] - seen) ** 2).sum(axis=1).mean())) / max(unit, 1e-6)
+    r = cv2.Rodrigues(rotation)[0]
+    forward = -r[:, 2]
+    return HeadPose(
+        yaw=float(np.arctan2(forward[0], -forward[2])),
+        pitch=float(np.arctan2(forward[1], np.hypot(forward[0], forward[2]))),
+        roll=float(np.arctan2(r[1, 0], r[0, 0])),
+        error=error,
+    )
+
+
+def mesh_from_fiducials(points: NDArray[np.floating]) -> NDArray[np.float32]:
+    """A face mesh (478, 3) that passes through 68 placed points (68, 2), pixels.
+
+    The canonical face is turned into place and then bent smoothly (thin-plate spline), so that drawings,
+    masks and emoji without a face that a detector would see can be animated too.
+
+    Raises `InputError` `landmarks_invalid` where the points are not those of a face.
+    """
+    points = np.asarray(points, float)
+    if points.shape not in ((68, 2), (MESH_SIZE, 2), (MESH_SIZE, 3)) or not np.isfinite(points).all():
+        raise InputError("landmarks_invalid", "Give 68 landmarks as [x, y] in pixels of the picture.", ("landmarks",))
+    if len(points) == MESH_SIZE:
+        depth = points[:, 2:] if points.shape[1] == 3 else _depth(points)
+        return np.column_stack([points[:, :2], depth]).astype(np.float32)
+    canonical = canonical_face().astype(float)
+    known = fiducials(canonical)[:, :2]
+    if np.linalg.matrix_rank(points - points.mean(axis=0), tol=1.0) < 2:
+        raise InputError("landmarks_invalid", "The placed landmarks all lie on one line.", ("landmarks",))
+    bend = RBFInterpolator(known, points, kernel="thin_plate_spline", smoothing=1e-6)
+    plane = bend(canonical[:, :2])
+    return np.column_stack([plane, _depth(plane)]).astype(np.float32)
+
+
+def _depth(plane: NDArray[np.floating]) -> NDArray[np.float64]:
+    canonical = canonical_face().astype(float)
+    unit = np.linalg.norm(plane[[33, 133], :2].mean(axis=0) - plane[[263, 362], :2].mean(axis=0))
+    return np.asarray(canonical[:, 2:] * unit, float)

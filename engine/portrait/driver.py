@@ -1,0 +1,175 @@
+"""What a driving video says: tracked face, tracked surroundings, and its face's appearance, frame by frame.
+
+The analysis is made in one pass over the frames and kept by content, so that a driver seen before costs
+no decoding and no tracking. Memory stays flat: appearance goes to a file as it comes.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.media.limits import Limits
+from engine.media.video import probe_video, read_video
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import MESH_SIZE
+from engine.perception.temporal_filter import steady
+from engine.portrait.alignment import Similarity, fit_similarity
+from engine.portrait.periphery import PeripheryTracker
+
+CROP = (320, 288)
+"""Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
+CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
+"""Where the eyes' centres lie in it."""
+EASE_BACK = 8
+"""Frames over which a face that had vanished eases from its held place back to where it was found again."""
+
+
+@dataclass(frozen=True)
+class DriverTrack:
+    """A driver's analysis.
+
+    size : (width, height). fps. has_sound.
+    meshes : (N, 478, 3) float32 face meshes, steadied, pixels; held where no face was found.
+    found : (N,) bool. periphery : (N, K, 2) float32 points tracked around head and shoulders, pixels.
+    tracked : (N, K) bool: the forward-backward check passed.
+    crops : file of JPEG pictures of the face, `crop_ends` (N,) the end of each; `crop_places` (N, 2, 3)
+    carries pixels of the frame to pixels of the crop.
+    """
+
+    size: tuple[int, int]
+    fps: float
+    has_sound: bool
+    meshes: NDArray[np.float32]
+    raw_meshes: NDArray[np.float32]
+    found: NDArray[np.bool_]
+    periphery: NDArray[np.float32]
+    tracked: NDArray[np.bool_]
+    crops: Path
+    crop_ends: NDArray[np.int64]
+    crop_places: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.meshes)
+
+    def crop(self, frame: int) -> NDArray[np.uint8]:
+        """The face's appearance in one frame: uint8 (*CROP, 3)."""
+        start = int(self.crop_ends[frame - 1]) if frame else 0
+        with self.crops.open("rb") as file:
+            file.seek(start)
+            data = np.frombuffer(file.read(int(self.crop_ends[frame]) - start), np.uint8)
+        return np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR_RGB), np.uint8)
+
+    def in_crop(self, frame: int) -> NDArray[np.float32]:
+        """The frame's mesh in its crop's pixels, (478, 2)."""
+        place = self.crop_places[frame]
+        return np.asarray(self.meshes[frame, :, :2] @ place[:, :2].T + place[:, 2], np.float32)
+
+
+def track_driver(
+    path: Path,
+    fps: float | None,
+    trim: tuple[float, float] | None,
+    limits: Limits,
+    tick: Callable[[float], None] = lambda fraction: None,
+    warn: Callable[[str, str], None] = lambda code, message: None,
+) -> DriverTrack:
+    """Analyse a driving video.
+
+    Raises
+    ------
+    InputError : `no_face_in_driver` where no frame shows a face, and what reading the video may raise.
+    """
+    info = probe_video(path, limits)
+    expected = max(1, round(info.seconds * (fps or info.fps)))
+    meshes, found, places, ends = [], [], [], [0]
+    periphery = PeripheryTracker()
+    crops = Path(tempfile.mkdtemp(prefix="galatea-crops-")) / "crops.jpegs"
+    with FaceTracker() as tracker, crops.open("wb") as file:
+        for index, frame in enumerate(read_video(path, fps=fps, trim=trim, limits=limits, warn=warn)):
+            tick(min(index / expected, 1.0))
+            faces = tracker(frame.rgb)
+            found.append(bool(faces))
+            mesh = faces[0] if faces else (meshes[-1] if meshes else np.full((MESH_SIZE, 3), np.nan, np.float32))
+            meshes.append(mesh)
+            places.append(_crop_place(mesh) if np.isfinite(mesh).all() else np.eye(2, 3))
+            file.write(
+                _jpeg(
+                    cv2.warpAffine(
+                        frame.rgb, places[-1], CROP[::-1], flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
+                    )
+                )
+            )
+            ends.append(file.tell())
+            periphery.follow(frame.rgb, mesh if found[-1] else None)
+    if not any(found):
+        raise InputError(
+            "no_face_in_driver",
+            "No face was found in the driving video: use one that shows a face from the front.",
+            ("driver",),
+        )
+    raw = _hold(np.array(meshes, np.float32), np.array(found))
+    points, tracked = periphery.result()
+    if not all(found):
+        lost = len(found) - sum(found)
+        warn(
+            "driver_face_lost",
+            f"The driver's face was not seen in {lost} of {len(found)} frames: it holds still there.",
+        )
+    return DriverTrack(
+        size=(info.width, info.height),
+        fps=fps or info.fps,
+        has_sound=info.has_sound,
+        meshes=steady(raw),
+        raw_meshes=raw,
+        found=np.array(found),
+        periphery=steady(points),
+        tracked=tracked,
+        crops=crops,
+        crop_ends=np.array(ends[1:], np.int64),
+        crop_places=np.array(places),
+    )
+
+
+def _crop_place(mesh: NDArray[np.float32]) -> NDArray[np.float64]:
+    eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])
+    return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
+
+
+def _jpeg(rgb: NDArray[np.uint8]) -> bytes:
+    done, data = cv2.imencode(".jpg", rgb[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 92])
+    assert done
+    return data.tobytes()
+
+
+def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Where the face was lost the last mesh holds; where it comes back the motion eases over to it."""
+    first = int(np.argmax(found))
+    meshes[:first] = meshes[first]
+    held, out = meshes.copy(), meshes.copy()
+    back = None
+    for i in range(1, len(meshes)):
+        if found[i] and not found[i - 1] and i > first:
+            back = i
+        if back is not None and i < back + EASE_BACK:
+            t = (i - back + 1) / (EASE_BACK + 1)
+            out[i] = held[back - 1] + (t * t * (3 - 2 * t)) * (held[i] - held[back - 1])
+    return out
+
+
+def in_crop_alignment(track: DriverTrack, frame: int) -> Similarity:
+    """The crop's placement as a similarity."""
+    place = track.crop_places[frame]
+    return Similarity(place[:, :2], place[:, 2])
+
+
+def crops(track: DriverTrack) -> Iterator[NDArray[np.uint8]]:
+    """All crops in order."""
+    return (track.crop(i) for i in range(len(track)))

@@ -1,0 +1,67 @@
+"""The driver's motion taken apart: how the head moves as a whole, and what the face does on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import RIGID
+
+SOFT_WEIGHT = 0.05
+"""What a vertex that expressions move counts for, against 1 for one of the rigid set."""
+
+
+@dataclass(frozen=True)
+class HeadMotion:
+    """For each frame: mesh = scale * rotation @ (neutral + expression) + shift.
+
+    scale (N,), rotation (N, 3, 3), shift (N, 3) in pixels, expression (N, 478, 3) in pixels of the
+    neutral frame; neutral (478, 3).
+    """
+
+    neutral: NDArray[np.float64]
+    scale: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    shift: NDArray[np.float64]
+    expression: NDArray[np.float32]
+
+
+def fit_rigid(
+    source: NDArray[np.floating], destination: NDArray[np.floating], weights: NDArray[np.floating]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Weighted similarity in 3D for many destinations at once (Umeyama 1991).
+
+    Parameters
+    ----------
+    source : (V, 3). destination : (N, V, 3). weights : (V,).
+
+    Returns
+    -------
+    scale (N,), rotation (N, 3, 3), shift (N, 3): destination = scale * rotation @ source + shift.
+    """
+    w = weights / weights.sum()
+    source_mean, destination_mean = w @ source, np.einsum("v,nvi->ni", w, destination)
+    a, b = source - source_mean, destination - destination_mean[:, None]
+    covariance = np.einsum("v,nvi,vj->nij", w, b, a)
+    u, s, vt = np.linalg.svd(covariance)
+    sign = np.ones((len(destination), 3))
+    sign[:, 2] = np.sign(np.linalg.det(u @ vt))
+    rotation = (u * sign[:, None]) @ vt
+    scale = (s * sign).sum(axis=1) / float(w @ (a**2).sum(axis=1))
+    return scale, rotation, destination_mean - scale[:, None] * (rotation @ source_mean)
+
+
+def split_motion(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> HeadMotion:
+    """Separate the head's rigid motion from the expression.
+
+    Parameters
+    ----------
+    meshes : (N, 478, 3) tracked meshes, pixels. neutral : (478, 3) the mesh of the neutral frame.
+    """
+    weights = np.full(len(neutral), SOFT_WEIGHT)
+    weights[list(RIGID)] = 1.0
+    scale, rotation, shift = fit_rigid(neutral, meshes, weights)
+    at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
+    return HeadMotion(neutral.astype(float), scale, rotation, shift, (at_rest - neutral).astype(np.float32))

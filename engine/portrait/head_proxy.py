@@ -1,0 +1,108 @@
+"""Head turns by a 3D proxy: the face mesh, carried on to ears, hair and neck.
+
+The paper warps in the plane and names turns of the head as its limit (section 7.3); its outlook is "to map
+the face over a template 3D face". Here every control point of the head has a depth, the driver's motion is
+split into the head's rigid motion and the expression, and the rigid part moves the points in 3D. Towards
+the shoulders it hands over to the 2D warp. The driver's tracked points correct the proxy: what they do
+beyond its prediction for the driver's own head is carried over in the plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID
+from engine.portrait.head_motion import HeadMotion, fit_rigid
+
+LARGEST_TURN = np.deg2rad(25.0)
+"""Turns beyond are held back to this."""
+NECK = (0.9, 2.0)
+"""The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
+BACK_OF_HAIR = 0.35
+"""Outside the face the surface falls back to the ears' depth within this share of the face's width."""
+
+
+@dataclass(frozen=True)
+class HeadProxy:
+    """`points` (C, 3) control points with depth, pixels; `share` (C,) how far each belongs to the head [0, 1]."""
+
+    points: NDArray[np.float64]
+    share: NDArray[np.float64]
+
+
+def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -> HeadProxy:
+    """Depth and belonging of points (C, 2) around a face: the mesh's own 478 first, then any others."""
+    others = points[MESH_SIZE:]
+    depth = np.concatenate([mesh[:, 2].astype(float), surface_depth(mesh, others)])
+    share = np.concatenate([np.ones(MESH_SIZE), head_share(mesh, others)])
+    return HeadProxy(np.column_stack([points, depth]), share)
+
+
+def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Depth (P,) at points outside the face: the face's rim, falling back to the ears' depth, pixels."""
+    mesh = mesh.astype(float)
+    oval = mesh[list(FACE_OVAL)]
+    width = float(np.linalg.norm(mesh[454, :2] - mesh[234, :2]))
+    back = float(mesh[[127, 356, 234, 454, 93, 323], 2].mean())
+    apart = np.linalg.norm(oval[None, :, :2] - points[:, None], axis=2)
+    nearest = apart.min(axis=1)
+    near = np.exp(-0.5 * ((apart - nearest[:, None]) / (0.1 * width)) ** 2)
+    rim = near @ oval[:, 2] / near.sum(axis=1)
+    t = np.clip(nearest / (BACK_OF_HAIR * width), 0, 1)
+    return np.asarray((1 - t) * rim + t * back, float)
+
+
+def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """How far points (P, 2) belong to the head: 1 above the chin, fading to 0 down the neck."""
+    eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
+    down = mesh[152, :2] - eyes
+    below = (points - eyes) @ down / float(down @ down)
+    t = np.clip((below - NECK[0]) / (NECK[1] - NECK[0]), 0, 1)
+    return np.asarray(1 - t * t * (3 - 2 * t), float)
+
+
+def move_head(
+    proxy: HeadProxy, motion: HeadMotion, target: NDArray[np.floating], expression: NDArray[np.floating] | None = None
+) -> NDArray[np.float32]:
+    """Where the head's rigid motion takes the points of a proxy.
+
+    Parameters
+    ----------
+    motion : the driver's, relative to its neutral frame. target : (478, 3) mesh.
+    expression : (N, 478, 3) offsets of the face, already in the target's frame and size, pixels.
+
+    Returns
+    -------
+    (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`.
+    """
+    weights = np.full(MESH_SIZE, 0.05)
+    weights[list(RIGID)] = 1.0
+    size, between, _ = fit_rigid(motion.neutral, target[None].astype(float), weights)
+    rotation = limit_rotation(between[0] @ motion.rotation @ between[0].T)
+    pivot_driver = motion.neutral[list(RIGID)].mean(axis=0)
+    pivot = target[list(RIGID)].astype(float).mean(axis=0)
+    moved = motion.scale[:, None] * (motion.rotation @ pivot_driver) + motion.shift - pivot_driver
+    shift = size[0] * moved @ between[0].T
+    points = np.repeat(proxy.points[None], len(rotation), axis=0)
+    if expression is not None:
+        points[:, :MESH_SIZE] += expression
+    turned = np.einsum("nij,ncj->nci", rotation, points - pivot)
+    return np.asarray(motion.scale[:, None, None] * turned + pivot + shift[:, None], np.float32)
+
+
+def limit_rotation(rotation: NDArray[np.float64], largest: float = LARGEST_TURN) -> NDArray[np.float64]:
+    """Rotations (N, 3, 3) with turns out of the picture plane held back softly to `largest` radians."""
+    limited = rotation.copy()
+    for i, r in enumerate(rotation):
+        vector = cv2.Rodrigues(r)[0][:, 0]
+        turn = float(np.hypot(vector[0], vector[1]))
+        if turn > 0.8 * largest:
+            start = 0.8 * largest
+            held = start + (largest - start) * np.tanh((turn - start) / (largest - start))
+            vector[:2] *= held / turn
+            limited[i] = cv2.Rodrigues(vector)[0]
+    return limited

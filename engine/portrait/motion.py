@@ -1,0 +1,138 @@
+"""From the driver's track to the control points of the target, frame by frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import MESH_SIZE, eye_distance
+from engine.portrait.alignment import Similarity, align
+from engine.portrait.control_points import ControlPoints, carry_fiducials, carry_periphery
+from engine.portrait.driver import DriverTrack
+from engine.portrait.expression_transfer import carry_expression, local_maps
+from engine.portrait.head_motion import HeadMotion, split_motion
+from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.portrait.options import Part, PortraitOptions
+
+CHUNK = 32
+"""Frames whose control points are computed together: enough for vectorised work, little memory."""
+
+
+@dataclass(frozen=True)
+class ControlMotion:
+    """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer."""
+
+    frame: int
+    offsets: NDArray[np.float32]
+    depth: NDArray[np.float32]
+
+
+def carry_motion(
+    track: DriverTrack,
+    neutral: int,
+    target: NDArray[np.float32],
+    control: ControlPoints,
+    proxy: HeadProxy | None,
+    options: PortraitOptions,
+) -> Iterator[ControlMotion]:
+    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D.
+
+    Parameters
+    ----------
+    neutral : the driver's neutral frame. target : (478, 3) mesh, pixels. proxy : None keeps to the plane.
+    """
+    rest = track.meshes[neutral]
+    phi = align(rest, target)
+    unit = float(eye_distance(target[:, :2]))
+    maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
+    follow = part_weights(options.follow)
+    head = options.strength if "head" in options.follow else 0.0
+    for start in range(0, len(track), CHUNK):
+        some = slice(start, min(start + CHUNK, len(track)))
+        motion = split_motion(track.meshes[some], rest)
+        around = track.periphery[some] - track.periphery[neutral]
+        if proxy is not None:
+            around = around - predicted(motion, track.periphery[neutral])
+        trusted = track.tracked[some] & track.tracked[neutral]
+        around = head * carry_periphery(
+            phi, track.periphery[neutral], around, trusted, control.points[control.periphery], unit
+        )
+        expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
+        if proxy is None:
+            yield from _in_plane(some, phi, motion, expression, around, target, control, head)
+        else:
+            yield from _in_space(some, motion, expression, around, target, control, proxy, head)
+
+
+def _in_plane(
+    some: slice, phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
+    target: NDArray, control: ControlPoints, head: float,
+) -> Iterator[ControlMotion]:  # fmt: skip
+    """The paper's own form: the rigid part is carried as offsets in the plane, like everything else."""
+    scaled = scale_motion(motion, head)
+    rigid = (
+        scaled.scale[:, None, None] * np.einsum("nij,vj->nvi", scaled.rotation, motion.neutral) + scaled.shift[:, None]
+    )
+    face = carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2]
+    for k in range(len(around)):
+        offsets = np.zeros((len(control.points), 2), np.float32)
+        offsets[:MESH_SIZE] = face[k] + expression[k, :, :2]
+        offsets[control.periphery] = around[k]
+        yield ControlMotion(some.start + k, offsets, np.zeros(len(offsets), np.float32))
+
+
+def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """What a proxy of the driver's own head says of its tracked points (K, 2): offsets (N, K, 2), pixels."""
+    neutral = motion.neutral
+    proxy = build_head_proxy(np.concatenate([neutral[:, :2], points]), neutral)
+    moved = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2]
+    return np.asarray(proxy.share[MESH_SIZE:, None] * (moved - points), float)
+
+
+def _in_space(
+    some: slice, motion: HeadMotion, expression: NDArray, around: NDArray,
+    target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
+) -> Iterator[ControlMotion]:  # fmt: skip
+    moved = move_head(proxy, scale_motion(motion, head), target, expression)
+    share = proxy.share[:, None].astype(np.float32)
+    for k in range(len(around)):
+        offsets = share * (moved[k, :, :2] - proxy.points[:, :2])
+        offsets[control.periphery] += around[k]
+        offsets[control.border] = 0.0
+        yield ControlMotion(some.start + k, offsets.astype(np.float32), moved[k, :, 2])
+
+
+def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:
+    """The same motion of the head, stronger or weaker; 0 leaves it where the neutral frame has it."""
+    if strength == 1.0:
+        return motion
+    import cv2
+
+    centre = motion.neutral.mean(axis=0)
+    moved = motion.scale[:, None] * (motion.rotation @ centre) + motion.shift - centre
+    rotation = np.array([cv2.Rodrigues(strength * cv2.Rodrigues(r)[0])[0] for r in motion.rotation])
+    scale = motion.scale**strength
+    shift = centre + strength * moved - scale[:, None] * (rotation @ centre)
+    return HeadMotion(motion.neutral, scale, rotation, shift, motion.expression)
+
+
+def part_weights(follow: tuple[Part, ...]) -> NDArray[np.float32]:
+    """(478,) how much each vertex's expression follows the driver, 1 for the parts named in `follow`.
+
+    The parts meet softly: brows above the eyes, eyes around them, mouth from the nose's wings down.
+    """
+    y = canonical_face()[:, 1].astype(float)
+    brows = _step(y, -0.15, -0.25)
+    mouth = _step(y, 0.3, 0.55)
+    weights = {"brows": brows, "mouth": mouth, "eyes": (1 - brows) * (1 - mouth)}
+    total = np.sum([weights[part] for part in weights if part in follow], axis=0) if follow else 0.0
+    return np.broadcast_to(np.asarray(total, np.float32), (len(y),)).copy()
+
+
+def _step(x: NDArray[np.floating], start: float, end: float) -> NDArray[np.float64]:
+    t = np.clip((x - start) / (end - start), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), float)

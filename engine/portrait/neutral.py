@@ -1,0 +1,58 @@
+"""The driver's neutral frame s*: closed mouth, open eyes, frontal, near the clip's own mean (section 4)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.perception.landmarks import RIGID, eye_opening, fiducials, mouth_opening
+from engine.portrait.driver import DriverTrack
+from engine.portrait.head_motion import fit_rigid
+
+MOUTH, EYES, TURN, MEAN = 4.0, 2.0, 1.5, 3.0
+"""What counts how much: mouth opening, closing of the eyes, radians of turn, and distance from the mean."""
+
+
+def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> int:
+    """The frame of the driver that shows what the target shows.
+
+    For a neutral target that is the driver's neutral frame. For one that smiles or is turned it is the frame
+    whose expression is nearest, because equation 1 carries differences against it.
+
+    Parameters
+    ----------
+    target : (478, 3) the target's mesh. chosen : the user's own choice.
+
+    Raises `InputError` `neutral_frame_out_of_range`.
+    """
+    if chosen is not None:
+        if chosen >= len(track):
+            raise InputError(
+                "neutral_frame_out_of_range",
+                f"The driver has {len(track)} frames: neutral_frame counts from 0.",
+                ("neutral_frame",),
+            )
+        return chosen
+    cost = neutral_cost(track.meshes, target)
+    return int(np.argmin(np.where(track.found, cost, np.inf)))
+
+
+def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how far each frame's mesh (478, 3) is from showing the target's expression, 0 is a match."""
+    weights = np.full(meshes.shape[1], 0.05)
+    weights[list(RIGID)] = 1.0
+    mean = meshes[len(meshes) // 2].astype(float)
+    for _ in range(2):
+        scale, rotation, shift = fit_rigid(mean, meshes, weights)
+        at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
+        mean = np.median(at_rest, axis=0)
+    unit = float(np.linalg.norm(mean[33] - mean[263]))
+    far = np.linalg.norm(fiducials(at_rest - mean)[:, 17:], axis=-1).mean(axis=-1) / unit
+    _, turn, _ = fit_rigid(target.astype(float), meshes, weights)
+    angle = np.arccos(np.clip(turn[:, 2, 2], -1, 1))
+    opening = np.abs(mouth_opening(meshes) - float(mouth_opening(target)))
+    eyes = eye_opening(meshes)
+    usual = np.quantile(eyes, 0.8, axis=0)
+    closing = np.clip(1 - eyes / np.maximum(usual, 1e-3), 0, 1).max(axis=1)
+    return np.asarray(MOUTH * opening + EYES * closing + TURN * angle + MEAN * far, float)

@@ -1,0 +1,63 @@
+"""What a user may choose about an animated portrait."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Part = Literal["eyes", "mouth", "brows", "head"]
+PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
+Side = Annotated[int, Field(ge=64, le=4096)]
+Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
+
+
+class PortraitOptions(BaseModel):
+    """Options of the portrait system; every one has a sound default."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    size: tuple[Side, Side] | None = Field(
+        None,
+        description="Width and height of the result in pixels; the target is fitted into it. Default: the target's own size, the longest side at most 1920.",
+    )
+    fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
+        None, description="Frames a second of the result. Default: one frame for each frame of the driver."
+    )
+    format: Literal["mp4", "webm", "webp", "png"] = Field(
+        "mp4", description="Container of the animation; png is a zip of numbered pictures."
+    )
+    neutral_frame: Annotated[int, Field(ge=0)] | None = Field(
+        None, description="Frame of the driver that matches the target's expression. Default: found automatically."
+    )
+    face_index: Annotated[int, Field(ge=0)] = Field(
+        0, description="Which face of the target, counted from the largest."
+    )
+    strength: Annotated[float, Field(ge=0, le=2)] = Field(
+        1.0, description="How strongly the motion is carried over; 1 is as the driver does it."
+    )
+    follow: tuple[Part, ...] = Field(PARTS, description="Which parts follow the driver.")
+    head_3d: bool = Field(
+        True, description="Turn the head by a 3D proxy; false keeps to the paper's warp in the plane."
+    )
+    crop: Literal["none", "face", "bust"] | tuple[Coordinate, Coordinate, Coordinate, Coordinate] = Field(
+        "none",
+        description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels.",
+    )
+    trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
+        None, description="Start and end of the part of the driver to use, in seconds."
+    )
+    loop: bool = Field(
+        False, description="Ease the end back into the beginning, so that the result repeats without a jump."
+    )
+    sound: bool = Field(False, description="Keep the driver's sound.")
+    landmarks: tuple[tuple[Coordinate, Coordinate], ...] | None = Field(
+        None,
+        min_length=68,
+        max_length=68,
+        description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.",
+    )
+
+    def framing(self) -> PortraitOptions:
+        """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
+        return PortraitOptions(size=self.size, crop=self.crop, face_index=self.face_index, landmarks=self.landmarks)

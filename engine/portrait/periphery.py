@@ -1,0 +1,101 @@
+"""Peripheral points of the driver, tracked around head and shoulders (section 4, Bouguet 2001)."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.person import person_mask
+
+MOST_POINTS = 160
+WORKING_HEIGHT = 360
+"""Frames are tracked at about this height; points outside the face need no more."""
+FORWARD_BACKWARD = 1.0
+"""A point that does not come back to within this many working pixels is not trusted in that frame."""
+ANCHOR = 3.0
+"""How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
+WINDOW = (21, 21)
+
+
+class PeripheryTracker:
+    """Follows points from the first frame that shows a face: frame to frame, then anchored to the first."""
+
+    def __init__(self) -> None:
+        self._scale = 1.0
+        self._first: NDArray[np.uint8] | None = None
+        self._last: NDArray[np.uint8] | None = None
+        self._start = np.zeros((0, 2), np.float32)
+        self._points: list[NDArray[np.float32]] = []
+        self._tracked: list[NDArray[np.bool_]] = []
+        self._before = 0
+
+    def follow(self, rgb: NDArray[np.uint8], mesh: NDArray[np.float32] | None) -> None:
+        """Take in the next frame; `mesh` is its face, None where none was found."""
+        if self._first is None:
+            if mesh is None:
+                self._before += 1
+                return
+            self._scale = min(1.0, WORKING_HEIGHT / rgb.shape[0])
+            self._first = self._last = self._grey(rgb)
+            self._start = _choose(rgb, mesh, self._scale)
+            self._points = [self._start]
+            self._tracked = [np.ones(len(self._start), bool)]
+            return
+        grey = self._grey(rgb)
+        if len(self._start):
+            points, good = self._step(grey)
+            self._points.append(points)
+            self._tracked.append(good)
+        self._last = grey
+
+    def result(self) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+        """(N, K, 2) positions in pixels of the frame and (N, K) whether they are trusted."""
+        frames = max(len(self._points), 1)
+        if not len(self._start):
+            frames = max(frames, 1)
+            return np.zeros((self._before + frames, 0, 2), np.float32), np.zeros((self._before + frames, 0), bool)
+        points = np.array([self._points[0]] * self._before + self._points, np.float32)
+        tracked = np.array([self._tracked[0]] * self._before + self._tracked)
+        return (points + 0.5) / self._scale - 0.5, tracked
+
+    def _grey(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
+        if self._scale < 1:
+            grey = cv2.resize(grey, None, fx=self._scale, fy=self._scale, interpolation=cv2.INTER_AREA)
+        return np.asarray(grey, np.uint8)
+
+    def _step(self, grey: NDArray[np.uint8]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+        assert self._last is not None and self._first is not None
+        last = self._points[-1]
+        moved, good = _lucas_kanade(self._last, grey, last, last)
+        moved = np.where(good[:, None], moved, last).astype(np.float32)
+        # against the first frame, from where the track is now: takes the drift out
+        anchored, sound = _lucas_kanade(self._first, grey, self._start, moved)
+        sound &= np.linalg.norm(anchored - moved, axis=1) < ANCHOR
+        return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
+
+
+def _lucas_kanade(
+    a: NDArray[np.uint8], b: NDArray[np.uint8], points: NDArray[np.float32], guess: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    there, ok, _ = cv2.calcOpticalFlowPyrLK(
+        a, b, points[:, None], guess[:, None].copy(), winSize=WINDOW, maxLevel=3, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
+    )
+    back, ok_back, _ = cv2.calcOpticalFlowPyrLK(
+        b, a, there, points[:, None].copy(), winSize=WINDOW, maxLevel=3, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
+    )
+    near = np.linalg.norm(back[:, 0] - points, axis=1) < FORWARD_BACKWARD
+    return there[:, 0], near & (ok[:, 0] == 1) & (ok_back[:, 0] == 1)
+
+
+def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> NDArray[np.float32]:
+    """Good features on the person, outside the face, at working scale (K, 2)."""
+    person = (person_mask(rgb) > 0.8).astype(np.uint8)
+    cv2.fillConvexPoly(person, cv2.convexHull(mesh[:, :2].round().astype(np.int32)), 0)
+    small = cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) if scale < 1 else rgb
+    mask = cv2.resize(person, small.shape[1::-1], interpolation=cv2.INTER_NEAREST)
+    mask = cv2.erode(mask, np.ones((5, 5), np.uint8))
+    grey = cv2.cvtColor(small, cv2.COLOR_RGB2GRAY)
+    found = cv2.goodFeaturesToTrack(grey, MOST_POINTS, 0.01, 0.02 * np.hypot(*grey.shape), mask=mask)
+    return np.zeros((0, 2), np.float32) if found is None else found[:, 0].astype(np.float32)

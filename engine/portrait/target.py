@@ -1,0 +1,188 @@
+"""The target: one picture, its face, and its layers: the person, and the background behind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.export.video import even_size
+from engine.imaging.inpaint import background_plate
+from engine.imaging.matting import estimate_foreground
+from engine.media.image import read_image
+from engine.media.limits import Limits
+from engine.perception.faces import find_faces
+from engine.perception.head_pose import head_pose, mesh_from_fiducials
+from engine.perception.landmarks import FACE_OVAL, eye_distance, mouth_opening
+from engine.perception.person import person_mask
+from engine.portrait.options import PortraitOptions
+
+LONGEST_SIDE = 1920
+"""Pixels of the result by default (the project's conventions)."""
+LEAST_EYE_DISTANCE = 16.0
+"""Pixels; a smaller face has nothing to animate."""
+MOST_TURNED = (35.0, 30.0)
+"""Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
+NEUTRAL = (12.0, 12.0, 0.08)
+"""Degrees of yaw and pitch, and mouth opening, up to which a target counts as neutral and frontal."""
+
+
+@dataclass(frozen=True)
+class TargetFace:
+    """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
+    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture."""
+
+    rgb: NDArray[np.uint8]
+    alpha: NDArray[np.float32] | None
+    mesh: NDArray[np.float32]
+    faces: NDArray[np.float32]
+    original_size: tuple[int, int]
+    place: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Layers:
+    """The person as a layer over the background plate.
+
+    person : (H, W, 4) uint8, colours without the background in them, and alpha. plate : (H, W, 3) uint8.
+    """
+
+    person: NDArray[np.uint8]
+    plate: NDArray[np.uint8]
+
+
+def find_target_face(
+    path: Path, options: PortraitOptions, limits: Limits, warn: Callable[[str, str], None]
+) -> TargetFace:
+    """Read the picture, choose the face, and bring both to the result's size.
+
+    Raises
+    ------
+    InputError : `no_face`, `face_index_out_of_range`, `face_too_small`, `face_too_turned`, and what reading
+    a picture may raise.
+    """
+    picture = read_image(path, limits)
+    height, width = picture.rgb.shape[:2]
+    if options.landmarks is not None:
+        meshes = [mesh_from_fiducials(np.array(options.landmarks))]
+    else:
+        meshes = find_faces(_over_grey(picture.rgb, picture.alpha))
+        if not meshes:
+            raise InputError(
+                "no_face",
+                "No face was found in the picture: use one that shows a face from the front, or place the landmarks by hand.",
+                ("landmarks",),
+            )
+    if options.face_index >= len(meshes):
+        raise InputError(
+            "face_index_out_of_range",
+            f"The picture shows {len(meshes)} face(s): face_index counts from 0.",
+            ("face_index",),
+        )
+    mesh = meshes[options.face_index if options.landmarks is None else 0]
+    place, size = _placement(mesh, (width, height), options)
+    _check_face(mesh, (width, height), options, warn)
+    rgb = _warp(picture.rgb, place, size)
+    alpha = None if picture.alpha is None else _warp(picture.alpha, place, size)
+    moved = mesh.copy()
+    scale = float(place[0, 0])
+    moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5 + 0
+    moved[:, 2] *= scale
+    boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
+    if float(eye_distance(moved[:, :2])) < LEAST_EYE_DISTANCE:
+        raise InputError(
+            "face_too_small",
+            f"The face is too small: its eyes must be at least {LEAST_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
+            ("crop", "size"),
+        )
+    return TargetFace(rgb, alpha, moved, boxes, (width, height), place)
+
+
+def separate_layers(target: TargetFace) -> Layers:
+    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds)."""
+    height, width = target.rgb.shape[:2]
+    seed = np.zeros((height, width), np.float32)
+    cv2.fillConvexPoly(seed, target.mesh[list(FACE_OVAL), :2].round().astype(np.int32), 1.0)
+    alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha)
+    colours = np.clip(estimate_foreground(target.rgb, alpha) + 0.5, 0, 255).astype(np.uint8)
+    person = np.dstack([colours, (alpha * 255 + 0.5).astype(np.uint8)])
+    return Layers(person, background_plate(target.rgb, alpha))
+
+
+def _check_face(
+    mesh: NDArray[np.float32], size: tuple[int, int], options: PortraitOptions, warn: Callable[[str, str], None]
+) -> None:
+    if options.landmarks is not None:
+        return
+    pose = head_pose(mesh, size)
+    yaw, pitch = np.rad2deg(abs(pose.yaw)), np.rad2deg(abs(pose.pitch))
+    if yaw > MOST_TURNED[0] or pitch > MOST_TURNED[1]:
+        raise InputError(
+            "face_too_turned",
+            f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MOST_TURNED[0]:.0f} and {MOST_TURNED[1]:.0f} can be animated. Use a more frontal picture.",
+            ("landmarks", "face_index"),
+        )
+    if yaw > NEUTRAL[0] or pitch > NEUTRAL[1] or float(mouth_opening(mesh)) > NEUTRAL[2]:
+        warn(
+            "target_not_neutral",
+            "The face is turned or its mouth is open: the driver's frame nearest to it was taken as neutral.",
+        )
+
+
+def _placement(
+    mesh: NDArray[np.float32], size: tuple[int, int], options: PortraitOptions
+) -> tuple[NDArray[np.float64], tuple[int, int]]:
+    """(2, 3) scale and shift (for pixel corners) from the picture to the result, and the result's (w, h)."""
+    box = _crop_box(mesh, size, options)
+    if options.size is not None:
+        scale = min(options.size[0] / box[2], options.size[1] / box[3])
+    else:
+        scale = min(1.0, LONGEST_SIDE / max(box[2], box[3]))
+    out = even_size(box[2] * scale, box[3] * scale)
+    return np.array([[scale, 0, -box[0] * scale], [0, scale, -box[1] * scale]]), out
+
+
+def _crop_box(mesh: NDArray[np.float32], size: tuple[int, int], options: PortraitOptions) -> tuple[float, ...]:
+    if options.crop == "none":
+        return 0.0, 0.0, float(size[0]), float(size[1])
+    if isinstance(options.crop, tuple):
+        x, y, w, h = options.crop
+        x0, y0 = max(x, 0.0), max(y, 0.0)
+        x1, y1 = min(x + w, float(size[0])), min(y + h, float(size[1]))
+        if x1 - x0 < 16 or y1 - y0 < 16:
+            raise InputError(
+                "crop_outside", "The crop lies outside the picture or is smaller than 16 pixels.", ("crop",)
+            )
+        return x0, y0, x1 - x0, y1 - y0
+    centre = mesh[:, :2].mean(axis=0)
+    side = float(np.ptp(mesh[:, 1])) * (1.9 if options.crop == "face" else 3.2)
+    up = 0.55 if options.crop == "face" else 0.4
+    x0, y0 = max(centre[0] - side / 2, 0.0), max(centre[1] - side * up, 0.0)
+    return x0, y0, min(side, size[0] - x0), min(side, size[1] - y0)
+
+
+def _warp(image: NDArray, place: NDArray[np.float64], size: tuple[int, int]) -> NDArray:
+    matrix = place.copy()
+    matrix[:, 2] += 0.5 * place[0, 0] - 0.5  # pixel centres
+    if place[0, 0] == 1 and not (matrix[:, 2] % 1).any():
+        x, y = (-matrix[:, 2]).astype(int)
+        cut = image[y : y + size[1], x : x + size[0]]
+        if cut.shape[:2] == size[::-1]:
+            return np.ascontiguousarray(cut)
+    if place[0, 0] < 1:  # area filter first, then the exact placement
+        source = cv2.GaussianBlur(image, (0, 0), 0.35 / place[0, 0])
+        return cv2.warpAffine(source, matrix, size, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return cv2.warpAffine(image, matrix, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+
+
+def _over_grey(rgb: NDArray[np.uint8], alpha: NDArray[np.float32] | None) -> NDArray[np.uint8]:
+    """Transparent pictures as a detector wants them: their hidden colours may be anything."""
+    if alpha is None:
+        return rgb
+    a = alpha[..., None]
+    return (rgb * a + 127.0 * (1 - a) + 0.5).astype(np.uint8)
