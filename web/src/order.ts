@@ -36,8 +36,8 @@ export async function send(order: Order, onStep: (step: Sending) => void, signal
   const driver = performance.by === 'name' ? performance.name : await upload(performance.file, 'video');
   onStep({ step: 'ordering' });
   const names = {
-    portrait: stem(portrait.name),
-    performance: performance.by === 'name' ? plain(performance.name) : stem(performance.file.name),
+    portrait: plain(stem(portrait.name)),
+    performance: plain(performance.by === 'name' ? performance.name : stem(performance.file.name)),
   };
   return createPortrait({ image, driver }, order.options, names, order.key);
 }

@@ -28,6 +28,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
   const [muted, setMuted] = useState(true);
   const [speed, setSpeed] = useState<number>(1);
   const [unplayable, setUnplayable] = useState(false);
+  const [aspects, setAspects] = useState({ result: 1, driver: 1 });
   useInStep(leader, follower, start, playing, setTime);
 
   useEffect(() => {
@@ -52,8 +53,8 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
 
   return (
     <section class="player" aria-label={words.label}>
-      <div class={driver ? 'pair' : 'pair single'}>
-        <figure>
+      <div class="pair">
+        <figure style={{ '--aspect': aspects.result }}>
           <video
             ref={leader}
             src={result}
@@ -63,7 +64,9 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
             preload="auto"
             aria-label={strings.job.resultAlt}
             onLoadedMetadata={(event) => {
-              setTotal(event.currentTarget.duration);
+              const video = event.currentTarget;
+              setTotal(video.duration);
+              setAspects((known) => ({ ...known, result: aspectOf(video) }));
               if (!matchMedia('(prefers-reduced-motion: reduce)').matches) play();
             }}
             onPlay={() => setPlaying(true)}
@@ -74,7 +77,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
           <figcaption>{strings.job.result}</figcaption>
         </figure>
         {driver && (
-          <figure>
+          <figure style={{ '--aspect': aspects.driver }}>
             {unplayable ? (
               <p class="unshowable">{strings.job.driverUnplayable}</p>
             ) : (
@@ -85,6 +88,10 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
                 playsInline
                 preload="auto"
                 aria-label={strings.job.driver}
+                onLoadedMetadata={(event) => {
+                  const video = event.currentTarget;
+                  setAspects((known) => ({ ...known, driver: aspectOf(video) }));
+                }}
                 onError={() => setUnplayable(true)}
               />
             )}
@@ -128,10 +135,17 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
             </option>
           ))}
         </select>
+        {document.fullscreenEnabled && (
+          <button type="button" class="toggle" onClick={() => void leader.current?.requestFullscreen()}>
+            {words.fullScreen}
+          </button>
+        )}
       </div>
     </section>
   );
 }
+
+const aspectOf = (video: HTMLVideoElement): number => video.videoWidth / video.videoHeight || 1;
 
 /** Keeps the follower with the leader, frame by frame while they play and at every seek, and tells the time. */
 function useInStep(

@@ -25,7 +25,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
       {stages.length > 0 && (
         <ol aria-label={words.stages}>
           {stages.map((stage) => (
-            <li key={stage} class={stage === current ? 'running' : 'done'} aria-current={stage === current && 'step'}>
+            <li key={stage} class={stage === current ? 'current' : 'done'} aria-current={stage === current && 'step'}>
               {stageName(stage)}
               <span class="unseen"> {stage === current ? words.stageRunning : words.stageDone}</span>
             </li>

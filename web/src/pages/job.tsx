@@ -97,7 +97,7 @@ function Running({ job, stages, onProblem }: BodyProps) {
     });
   };
   return (
-    <div class="running">
+    <div class="underway">
       <figure class="impression">
         {preview ? <img src={preview.url} alt={words.previewAlt} /> : <div class="awaited" aria-hidden="true" />}
         <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>

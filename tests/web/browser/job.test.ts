@@ -1,0 +1,140 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { complaints, faceless, launch, open, order, portrait } from './page';
+
+let browser: Browser;
+let done: string;
+beforeAll(async () => {
+  browser = await launch();
+  done = await order(portrait, 'happy');
+});
+afterAll(() => browser.close());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+describe('a job that succeeds', () => {
+  it('shows its stages and a first impression on the way, then the result beside the performance', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: 120_000 });
+    await page.getByRole('img', { name: 'A first frame of the result' }).waitFor();
+    expect(await page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: 120_000 });
+    expect(await page.getByRole('progressbar').count()).toBe(0);
+    await page.getByText('Done', { exact: true }).first().waitFor();
+  });
+
+  it('plays both in step', async () => {
+    const page = await open(browser, `#/jobs/${done}`, { reducedMotion: 'reduce' });
+    await loaded(page);
+    expect(await times(page)).toEqual([0, 0]); // reduced motion: nothing moves by itself
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 1);
+    await page.getByRole('button', { name: 'Pause' }).click();
+    await inStep(page);
+    await page.getByLabel('Position').fill('0.4');
+    await inStep(page);
+    expect((await times(page))[0]).toBeCloseTo(0.4, 1);
+  });
+
+  it('gives the video and all files', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('link', { name: 'Download video' }).click(),
+    ]);
+    expect(download.suggestedFilename()).toBe('animation.mp4');
+    const archive = await page.getByRole('link', { name: 'All files' }).getAttribute('href');
+    const zip = await fetch(inject('address') + archive);
+    expect(zip.headers.get('content-type')).toBe('application/zip');
+    expect(new TextDecoder().decode((await zip.arrayBuffer()).slice(0, 2))).toBe('PK');
+  });
+
+  it('is found among the recent ones, with its poster', async () => {
+    const page = await open(browser);
+    const entry = page.locator(`a[href="#/jobs/${done}"]`);
+    await entry.locator('img').waitFor();
+    await entry.click();
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor();
+  });
+
+  it.each([320, 390, 1440])('fits a window of %i pixels, start page and result', async (width) => {
+    const page = await open(browser, `#/jobs/${done}`, { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
+    await loaded(page);
+    const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    expect(await overflow()).toBeLessThanOrEqual(0);
+    await page.getByRole('link', { name: 'Make another' }).click();
+    await page.getByRole('radio').first().waitFor({ state: 'attached' });
+    expect(await overflow()).toBeLessThanOrEqual(0);
+  });
+});
+
+describe('a job that does not', () => {
+  it('says why it failed and what to do', async () => {
+    const id = await order(faceless, 'happy');
+    const page = await open(browser, `#/jobs/${id}`);
+    const alert = page.getByRole('alert');
+    await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: 120_000 });
+    const job = (await (await fetch(`${inject('address')}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
+    expect(await alert.innerText()).toContain(job.error.detail);
+    await page.getByRole('link', { name: 'Make another' }).waitFor();
+  });
+
+  it('is canceled at a click', async () => {
+    const page = await open(browser, `#/jobs/${await order(portrait, 'surprise')}`);
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await page.getByText('This job was stopped before it was done').waitFor({ timeout: 10_000 });
+  });
+
+  it('is deleted only after a question', async () => {
+    const id = await order(faceless, 'idle');
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByRole('button', { name: 'Delete' }).click({ timeout: 120_000 });
+    await page.getByRole('button', { name: 'Keep it' }).click();
+    await page.getByRole('button', { name: 'Delete' }).click();
+    await page.getByRole('button', { name: 'Delete for good' }).click();
+    await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
+    expect((await fetch(`${inject('address')}/v1/jobs/${id}`)).status).toBe(404);
+  });
+
+  it('is missed in plain words', async () => {
+    const page = await open(browser, '#/jobs/0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f');
+    await page.getByRole('heading', { name: 'There is no such job' }).waitFor();
+    complaints.length = 0; // the browser reports the 404 itself
+  });
+});
+
+describe('a broken line', () => {
+  it('is told, and mends itself', async () => {
+    const id = await order(portrait, 'idle');
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByRole('button', { name: 'Cancel' }).waitFor();
+    await page.context().setOffline(true);
+    await page.evaluate(() => dispatchEvent(new Event('offline')));
+    await page.getByText('The line to the service is interrupted').waitFor({ timeout: 60_000 });
+    await page.context().setOffline(false);
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: 120_000 });
+    complaints.length = 0; // the browser reports the failed requests itself
+  });
+});
+
+const times = (page: Page): Promise<number[]> =>
+  page.evaluate(() => Array.from(document.querySelectorAll('video'), (video) => video.currentTime));
+
+async function loaded(page: Page): Promise<void> {
+  await page.waitForFunction(() => {
+    const videos = Array.from(document.querySelectorAll('video'));
+    return videos.length === 2 && videos.every((video) => video.readyState >= 3);
+  });
+}
+
+/** Waits until both videos rest on the same moment; two frames may lie between them. */
+async function inStep(page: Page): Promise<void> {
+  await page.waitForFunction(() => {
+    const [result, driver] = Array.from(document.querySelectorAll('video'));
+    return (
+      result && driver && !result.seeking && !driver.seeking && Math.abs(result.currentTime - driver.currentTime) < 0.08
+    );
+  });
+}

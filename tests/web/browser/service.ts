@@ -1,0 +1,71 @@
+/** Starts a real `galatea serve` on a free port with an empty data folder, for all browser tests of a run. */
+
+import { type ChildProcess, spawn } from 'node:child_process';
+import { mkdtempSync, openSync, readFileSync, rmSync } from 'node:fs';
+import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import type { TestProject } from 'vitest/node';
+
+declare module 'vitest' {
+  export interface ProvidedContext {
+    address: string;
+  }
+}
+
+const root = resolve(import.meta.dirname, '../../..');
+
+export default async function setup(project: TestProject): Promise<() => Promise<void>> {
+  const data = mkdtempSync(join(tmpdir(), 'galatea-web-'));
+  const log = join(data, 'serve.log');
+  const address = `http://127.0.0.1:${await freePort()}`;
+  const output = openSync(log, 'w');
+  const service = spawn(
+    join(root, '.venv/bin/galatea'),
+    ['serve', '--host', '127.0.0.1', '--port', new URL(address).port],
+    { env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data') }, stdio: ['ignore', output, output] },
+  );
+  try {
+    await untilReady(service, address, log);
+  } catch (error) {
+    await stop(service);
+    throw error;
+  }
+  project.provide('address', address);
+  return async () => {
+    await stop(service);
+    rmSync(data, { recursive: true, force: true });
+  };
+}
+
+async function untilReady(service: ChildProcess, address: string, log: string): Promise<void> {
+  const deadline = Date.now() + 120_000;
+  while (Date.now() < deadline && service.exitCode === null) {
+    try {
+      if ((await fetch(`${address}/readyz`)).ok) return;
+    } catch {
+      // not listening yet
+    }
+    await new Promise((wake) => setTimeout(wake, 200));
+  }
+  throw new Error(`galatea serve did not become ready:\n${readFileSync(log, 'utf8')}`);
+}
+
+function stop(service: ChildProcess): Promise<void> {
+  if (service.exitCode !== null) return Promise.resolve();
+  return new Promise((done) => {
+    service.once('exit', () => done());
+    service.kill('SIGTERM');
+  });
+}
+
+function freePort(): Promise<number> {
+  return new Promise((found, failed) => {
+    const probe = createServer();
+    probe.once('error', failed);
+    probe.listen(0, '127.0.0.1', () => {
+      const address = probe.address();
+      probe.close(() => (address && typeof address === 'object' ? found(address.port) : failed(new Error('no port'))));
+    });
+  });
+}
