@@ -1,4 +1,4 @@
-"""Opening a video file safely, and what its packets say without decoding any of them."""
+"""Opening a video file safely; what its headers and packets say, with nothing decoded."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from av.video.stream import VideoStream
 
 from engine.errors import InputError
 from engine.media.limits import Limits
-from engine.media.sniff import VIDEO_TYPES, sniff
+from engine.media.timing import without_echoes
 
-# The demuxer is chosen by our own look at the first bytes: FFmpeg's guessing would also take playlists and
-# scripts, which name other files and addresses to read.
+# The demuxer is chosen by our own look at the first bytes: FFmpeg's guessing would also take playlists and scripts,
+# which name further files and addresses to read.
 _DEMUXERS = {
     "video/mp4": "mov",
     "video/quicktime": "mov",
@@ -32,86 +32,124 @@ _DEMUXERS = {
 
 
 @dataclass(frozen=True)
-class Packets:
-    """The timetable of a video stream: `times` (n,) float64 seconds, sorted, when each frame is to be shown;
-    `end` seconds, when the last one ends; `container_end` seconds, when the last packet of any stream ends;
-    `damaged` whether the file broke off while it was read."""
+class Header:
+    """What a file claims of its video: `width`, `height` in pixels as coded, `fps` (0 if unknown), `seconds` (0 if
+    unknown), `frames` (0 if unknown), `has_sound`, `codec` (FFmpeg's name), `pixel_aspect` width to height."""
+
+    width: int
+    height: int
+    fps: float
+    seconds: float
+    frames: int
+    has_sound: bool
+    codec: str
+    pixel_aspect: float = 1.0
+
+
+@dataclass(frozen=True)
+class Timetable:
+    """When the frames are to be shown: `times` (n,) float64 seconds on the file's clock, ascending; `last` seconds
+    that the last one stays; `cut` whether the file ends before what its header announces."""
 
     times: np.ndarray
-    end: float
-    container_end: float
-    damaged: bool
+    last: float
+    cut: bool
 
+    @property
+    def seconds(self) -> float:
+        """From the first frame's beginning to the last one's end."""
+        return float(self.times[-1] - self.times[0]) + self.last
 
-def admit_video(path: Path, limits: Limits) -> str:
-    """The media type of a file that may be a video. Raises `InputError` where it cannot be one."""
-    size = path.stat().st_size
-    if size == 0:
-        raise InputError("file_empty", "The video file is empty (0 bytes): send it again.")
-    if size > limits.video_bytes:
-        raise InputError(
-            "file_too_large",
-            f"The video file has {size / 1e6:.0f} MB, the limit is {limits.video_bytes / 1e6:.0f} MB: send a shorter "
-            "or smaller one.",
-        )
-    media_type = sniff(path)
-    if media_type is not None and media_type.startswith("audio/"):
-        raise _no_stream()
-    if media_type not in VIDEO_TYPES:
-        what = f"a file of type {media_type}" if media_type else "no video"
-        raise InputError("not_a_video", f"This is {what}: send an MP4, MOV, WebM, MKV or GIF video.")
-    return media_type
+    @property
+    def step(self) -> float:
+        """The usual seconds between two frames."""
+        return float(np.median(np.diff(self.times))) if len(self.times) > 1 else self.last
 
 
 @contextmanager
 def open_video(path: Path, media_type: str, limits: Limits) -> Iterator[tuple[InputContainer, VideoStream]]:
     """The container and its video stream (not a cover picture). Raises `video_unreadable`, `no_video_stream`."""
-    options = {"protocol_whitelist": "file", "max_pixels": str(int(limits.video_megapixels * 1e6))}
+    decoder = {"max_pixels": str(int(limits.video_megapixels * 1.1e6))}  # in case a frame belies the header
     try:
-        container = av.open(str(path), "r", format=_DEMUXERS[media_type], options=options)
+        container = av.open(
+            str(path), "r", format=_DEMUXERS[media_type], options={"protocol_whitelist": "file", **decoder}
+        )
     except (av.FFmpegError, ValueError) as error:
         raise unreadable() from error
     with container:
         streams = [s for s in container.streams.video if not s.disposition & Disposition.attached_pic]
         if not streams:
-            raise _no_stream()
+            raise without_picture()
         stream = streams[0]
+        if stream.codec_context is None:  # a codec that FFmpeg cannot decode
+            raise unreadable()
+        stream.codec_context.options = decoder
         stream.thread_type = "AUTO"
         stream.codec_context.thread_count = min(os.cpu_count() or 1, 4)
         yield container, stream
 
 
-def scan_packets(container: InputContainer, stream: VideoStream, limits: Limits) -> Packets:
-    """Read the timetable by demuxing, until the end or until a limit is clearly passed."""
+def header_of(container: InputContainer, stream: VideoStream) -> Header:
+    """What the file claims."""
+    seconds = float(stream.duration * stream.time_base) if stream.duration and stream.time_base else 0.0
+    if not seconds and container.duration:
+        seconds = container.duration / av.time_base
+    aspect = float(stream.sample_aspect_ratio or 1)
+    return Header(
+        width=stream.width,
+        height=stream.height,
+        fps=float(stream.average_rate or stream.guessed_rate or 0),
+        seconds=max(seconds, 0.0),
+        frames=stream.frames,
+        has_sound=bool(container.streams.audio),
+        codec=stream.codec_context.name,
+        pixel_aspect=aspect if 0.25 <= aspect <= 4 else 1.0,  # beyond, it is a mistake
+    )
+
+
+def timetable_of(container: InputContainer, stream: VideoStream, header: Header, limits: Limits) -> Timetable:
+    """Read all packets' timestamps, until the end or until a limit is passed (which the caller then finds).
+
+    Raises `video_unreadable` where there is no packet at all.
+    """
     times: list[float] = []
-    end = container_end = -np.inf
-    damaged = False
-    base = float(stream.time_base or 0)
-    step = 1.0 / float(stream.guessed_rate or 25)
+    step = 1 / header.fps if header.fps else 1 / 25
+    end, any_end, cut, earliest = -np.inf, -np.inf, False, np.inf
     try:
         for packet in container.demux():
-            if packet.size == 0 or packet.time_base is None or packet.is_discard:
+            if packet.size == 0 or packet.is_discard:
                 continue
-            scale = float(packet.time_base)
-            stamp = packet.pts if packet.pts is not None else packet.dts
-            length = (packet.duration or 0) * scale
-            time = stamp * scale if stamp is not None else None
+            time, length = _seconds(packet)
             if packet.stream_index == stream.index:
-                if time is None or base == 0:
+                if time is None:
                     time = times[-1] + step if times else 0.0
                 times.append(time)
+                earliest = min(earliest, time)
                 end = max(end, time + (length or step))
+                if len(times) > limits.video_frames or end - earliest > limits.video_seconds + 1:
+                    break
             if time is not None:
-                container_end = max(container_end, time + length)
-            if len(times) > limits.video_frames or (times and end - times[0] > limits.video_seconds + 1):
-                break
+                any_end = max(any_end, time + length)
     except av.FFmpegError:
-        damaged = True
-    return Packets(np.unique(np.array(times)), end, max(container_end, end), damaged)
+        cut = True
+    if not times:
+        raise unreadable()
+    shown = without_echoes(np.array(times))
+    # A stream without a length of its own is measured by the container's, which is that of its longest stream.
+    reached = (end if stream.duration else max(end, any_end)) - earliest
+    cut = cut or reached < header.seconds - max(0.5, 3 * step) or len(times) < header.frames - 3
+    return Timetable(shown, max(float(end - shown[-1]), 1e-3), bool(cut))
+
+
+def _seconds(packet: av.Packet) -> tuple[float | None, float]:
+    stamp = packet.pts if packet.pts is not None else packet.dts
+    if stamp is None or not packet.time_base:
+        return None, 0.0
+    return float(stamp * packet.time_base), float((packet.duration or 0) * packet.time_base)
 
 
 def unreadable() -> InputError:
-    """The error for a video that cannot be opened or of which no frame decodes."""
+    """The error for a video that cannot be opened, or of which no frame decodes."""
     return InputError(
         "video_unreadable",
         "The video cannot be read: it is damaged, cut off before its index, or of an unknown codec. Send it again, or "
@@ -119,5 +157,6 @@ def unreadable() -> InputError:
     )
 
 
-def _no_stream() -> InputError:
+def without_picture() -> InputError:
+    """The error for a file of sound alone."""
     return InputError("no_video_stream", "The file has sound but no moving picture: send a video.")

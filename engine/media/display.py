@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
-from av.sidedata.sidedata import Type
+from av.sidedata.sidedata import SideData
 from av.video.frame import VideoFrame
 
 _TURNS: dict[tuple[int, int, int, int], Callable[[np.ndarray], np.ndarray]] = {
@@ -40,10 +41,10 @@ class Orientation:
 
 def orientation_of(frame: VideoFrame) -> Orientation:
     """The orientation that the file asks for; turns that are not quarter turns are taken to the nearest one."""
-    side = next((data for data in frame.side_data if data.type == Type.DISPLAYMATRIX), None)
+    side = cast(SideData | None, frame.side_data.get("DISPLAYMATRIX"))
     if side is None:
         return Orientation()
-    a, b, _, c, d = np.frombuffer(bytes(side), "<i4")[:5].astype(float)
+    a, b, _, c, d = np.frombuffer(memoryview(side), "<i4")[:5].astype(float)
     if abs(a) + abs(d) >= abs(b) + abs(c):
         signs = (int(np.sign(a)), 0, 0, int(np.sign(d)))
     else:

@@ -31,6 +31,13 @@ def sniff(path: Path) -> str | None:
         return sniff_bytes(file.read(_HEAD))
 
 
+def is_still_webp(path: Path) -> bool:
+    """Whether a file is a WebP without animation (whose flag is in the extended header, VP8X)."""
+    with path.open("rb") as file:
+        head = file.read(21)
+    return head[8:12] == b"WEBP" and not (head[12:16] == b"VP8X" and head[20:21] and head[20] & 2)
+
+
 def sniff_bytes(head: bytes) -> str | None:
     """The media type of a file that begins with `head` (up to 4096 bytes are looked at)."""
     if head.startswith(b"\xff\xd8\xff"):
@@ -43,7 +50,8 @@ def sniff_bytes(head: bytes) -> str | None:
     if head[:4] == b"RIFF":
         return {b"WEBP": "image/webp", b"AVI ": "video/x-msvideo", b"WAVE": "audio/wav"}.get(head[8:12])
     if head.startswith(b"\x1a\x45\xdf\xa3"):
-        return "video/webm" if b"webm" in head[:64] else "video/x-matroska"
+        kind = head.find(b"\x42\x82")  # the element DocType
+        return "video/webm" if head[kind + 3 : kind + 7] == b"webm" else "video/x-matroska"
     if head[4:8] in (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot"):
         return _sniff_iso_media(head)
     return _sniff_sound(head)

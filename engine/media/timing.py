@@ -1,8 +1,9 @@
-"""From timestamps to a constant rate: what the rate of a clip is, and which frame is shown when."""
+"""From timestamps to a constant rate: the rate of a clip, and which frame is on show when."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeVar
 
@@ -10,34 +11,59 @@ import numpy as np
 
 Shown = TypeVar("Shown")
 
-_COMMON_RATES = (5, 6, 8, 10, 12, 12.5, 15, 20, 24000 / 1001, 24, 25, 30000 / 1001, 30, 48, 50, 60000 / 1001, 60)
+_USUAL_RATES = (5, 6, 8, 10, 12, 15, 20, 24, 25, 30, 48, 50, 60)
 _JITTER = 0.35
-"""Of a frame: timestamps this near to an even grid are a constant rate. Milliseconds (Matroska) and hundredths (GIF)
-round by less; half a frame would be ambiguous."""
+"""Of a frame: timestamps this near to an even grid are a constant rate. Files round them to milliseconds (Matroska) or
+hundredths (GIF), phones let them tremble a little; at half a frame the place on the grid would be ambiguous."""
 
 
-def constant_rate(times: np.ndarray, candidates: Iterable[float]) -> float | None:
-    """The first rate of `candidates` (1/s), or else the mean rate, whose even grid the `times` (n,) s keep to."""
-    if len(times) < 2:
-        return next(iter(candidates), None)
-    mean = (len(times) - 1) / (times[-1] - times[0])
-    for rate in (*candidates, mean):
-        places = (times - times[0]) * rate
-        if np.abs(places - np.arange(len(times)) - np.median(places - np.arange(len(times)))).max() < _JITTER:
-            return float(rate)
-    return None
+@dataclass(frozen=True)
+class Rate:
+    """Frames a second of a clip; where they are `constant`, the k-th frame is on show from about `phase + k / fps`
+    seconds after the first timestamp; else `fps` is a usual rate that hardly loses a frame."""
+
+    fps: float
+    phase: float
+    constant: bool
 
 
-def nominal_rate(times: np.ndarray) -> float:
-    """A usual rate for a clip of variable rate: the smallest that loses (almost) no frames of the mean rate."""
-    mean = (len(times) - 1) / max(times[-1] - times[0], 1e-6)
-    return float(next((rate for rate in _COMMON_RATES if rate >= 0.97 * mean), _COMMON_RATES[-1]))
+def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
+    """The rate of a clip by its timestamps.
+
+    Parameters
+    ----------
+    times : (n,) seconds, ascending, n >= 2.
+    stated : rates that the file's header claims; the first one that the timestamps keep to is taken, else the rate of
+        the straight line through them.
+    """
+    places = np.arange(len(times))
+    slope = float(np.polyfit(places, times, 1)[0])
+    for fps in (*stated, 1 / slope):
+        offsets = (times - times[0]) * fps - places
+        middle = (offsets.max() + offsets.min()) / 2
+        if np.ptp(offsets) / 2 < _JITTER:
+            return Rate(float(fps), float(middle / fps), True)
+    mean = (len(times) - 1) / float(times[-1] - times[0])
+    return Rate(float(next((rate for rate in _USUAL_RATES if rate >= 0.97 * mean), _USUAL_RATES[-1])), 0.0, False)
+
+
+def without_echoes(times: np.ndarray) -> np.ndarray:
+    """The timestamps without those that follow the one before within a quarter of the usual step.
+
+    Hidden reference frames (VP8) are packets of their own, a tick away from the frame that is shown.
+    """
+    times = np.unique(times)
+    if len(times) < 3:
+        return times
+    steps = np.diff(times)
+    return times[np.concatenate([[True], steps > 0.25 * np.median(steps)])]
 
 
 def exact_rate(fps: float) -> Fraction:
-    """A rate in frames a second as a fraction; 29.97 and its kin become n * 1000/1001."""
+    """Frames a second as a fraction; 23.976, 29.97 and 59.94 become n * 1000/1001."""
     ntsc = Fraction(round(fps * 1.001) * 1000, 1001)
-    return ntsc if abs(float(ntsc) - fps) < 5e-4 * fps and round(fps) != fps else Fraction(fps).limit_denominator(1000)
+    near = abs(float(ntsc) - fps) < 5e-4 and abs(round(fps) - fps) > 5e-4
+    return ntsc if near else Fraction(fps).limit_denominator(1000)
 
 
 def resample(
@@ -45,7 +71,7 @@ def resample(
 ) -> Iterator[tuple[float, Shown]]:
     """Frames at constant rate: the k-th is the one on show at the middle of its span, `start + (k + 1/2) / fps`.
 
-    Taking the middle is without lag, and gives a clip that already has this rate back unchanged, frame by frame.
+    Taking the middle is without lag, and gives a clip that has this rate back unchanged, frame by frame.
 
     Parameters
     ----------
@@ -65,7 +91,6 @@ def resample(
         held = (time, frame)
     if held is None:
         return
-    end = held[0] + last
-    while start + (made + 0.5) / fps < end:
+    while start + (made + 0.5) / fps < held[0] + last:
         yield start + made / fps, held[1]
         made += 1

@@ -1,0 +1,73 @@
+"""Rates from timestamps, and resampling by them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from engine.media.timing import exact_rate, rate_of, resample, without_echoes
+
+
+@given(
+    fps=st.floats(5, 120),
+    count=st.integers(2, 300),
+    tremble=st.floats(0, 0.3),
+    seed=st.integers(0, 1000),
+    origin=st.floats(-5, 1000),
+)
+def test_a_trembling_grid_comes_back_frame_by_frame(
+    fps: float, count: int, tremble: float, seed: int, origin: float
+) -> None:
+    times = origin + (np.arange(count) + np.random.default_rng(seed).uniform(-tremble, tremble, count)) / fps
+    rate = rate_of(times, [fps])
+    assert rate.constant
+    frames = resample(((time - times[0], k) for k, time in enumerate(times)), rate.fps, rate.phase, 1 / rate.fps)
+    assert [k for _, k in frames] == list(range(count))
+
+
+def test_the_header_is_believed_only_where_the_timestamps_agree() -> None:
+    times = np.arange(1000) / 29.97
+    assert rate_of(times, [30000 / 1001]).fps == 30000 / 1001
+    assert rate_of(times, [25.0]).fps == pytest.approx(29.97, abs=1e-6)
+
+
+def test_a_changing_rate_is_not_constant() -> None:
+    times = np.concatenate([np.arange(30) / 30, 1 + np.arange(15) / 15])
+    rate = rate_of(times, [22.5])
+    assert not rate.constant and rate.fps == 24
+
+
+def test_hidden_reference_frames_are_left_out() -> None:
+    shown = np.arange(40) / 30
+    packets = np.sort(np.concatenate([shown, shown[8::16] + 0.001]))
+    assert np.array_equal(without_echoes(packets), shown)
+
+
+def test_a_held_frame_is_repeated_until_the_next() -> None:
+    frames = list(resample([(0.0, "a"), (0.3, "b")], 10, 0.0, 0.2))
+    assert [name for _, name in frames] == ["a", "a", "a", "b", "b"]
+    assert [time for time, _ in frames] == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+
+
+def test_nothing_in_nothing_out() -> None:
+    assert list(resample([], 25, 0.0, 1.0)) == []
+
+
+@pytest.mark.parametrize(
+    ("fps", "fraction"),
+    [
+        (30, Fraction(30)),
+        (29.97, Fraction(30000, 1001)),
+        (30000 / 1001, Fraction(30000, 1001)),
+        (23.976, Fraction(24000, 1001)),
+        (59.94, Fraction(60000, 1001)),
+        (12.5, Fraction(25, 2)),
+        (1, Fraction(1)),
+    ],
+)
+def test_exact_rates(fps: float, fraction: Fraction) -> None:
+    assert exact_rate(fps) == fraction
