@@ -1,4 +1,4 @@
-/** What a job's portrait and performance are called, and where the performance's video is. */
+/** What a job's portrait and performance are called, and where they are. */
 
 import type { Job } from './api';
 import { plain, strings } from './strings';
@@ -14,6 +14,12 @@ export const portraitName = (job: Job): string => text(job.metadata.portrait) ??
 export function performanceName(job: Job): string | null {
   const driver = text(job.inputs.driver);
   return text(job.metadata.performance) ?? (driver && !fileId.test(driver) && !isUrl(driver) ? plain(driver) : null);
+}
+
+/** Where the portrait itself is, as it was sent. */
+export function portraitUrl(job: Job): string | null {
+  const image = text(job.inputs.image);
+  return image && fileId.test(image) ? `/v1/files/${image}/content` : null;
 }
 
 /** Where the performance's video plays from: an uploaded file, or a named driver. */

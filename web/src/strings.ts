@@ -65,6 +65,7 @@ export const strings = {
     stageRunning: 'running',
     preview: 'First impression',
     previewAlt: 'A first frame of the result',
+    sentAlt: 'The portrait, as it was sent',
     previewSoon: 'A first impression appears here shortly.',
     interrupted: 'The line to the service is interrupted. Trying again.',
     cancel: 'Cancel',

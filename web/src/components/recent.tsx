@@ -4,9 +4,10 @@ import { useEffect, useState } from 'preact/hooks';
 import { type Job, listJobs } from '../api';
 import { ago, percent } from '../format';
 import { useLoaded } from '../loading';
-import { performanceName, portraitName } from '../names';
+import { performanceName, portraitName, portraitUrl } from '../names';
 import { jobLink } from '../route';
 import { strings } from '../strings';
+import { Picture } from './picture';
 
 const REFRESH_MS = 4000;
 
@@ -62,12 +63,16 @@ function Entry({ job }: { job: Job }) {
     job.status === 'running' ? percent(job.progress.fraction) : strings.status[job.status];
   return (
     <a class="entry" href={jobLink(job.id)}>
-      <span class="poster">{picture && <img src={picture.url} alt="" loading="lazy" />}</span>
+      <span class="poster">
+        <Picture url={picture?.url ?? portraitUrl(job)} alt="" lazy />
+      </span>
       <span class="name">{portraitName(job)}</span>
       <span class="details">
         {performance && <span>{performance}</span>}
-        {job.status !== 'succeeded' && <span class={`chip ${job.status}`}>{status}</span>}
-        <time dateTime={job.created_at}>{ago(job.created_at)}</time>
+        <span class="state">
+          {job.status !== 'succeeded' && <span class={`chip ${job.status}`}>{status}</span>}
+          <time dateTime={job.created_at}>{ago(job.created_at)}</time>
+        </span>
       </span>
     </a>
   );

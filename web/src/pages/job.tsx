@@ -2,13 +2,14 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { cancelJob, deleteJob, type Job, type Problem } from '../api';
+import { Picture } from '../components/picture';
 import { Removal } from '../components/removal';
 import { Result } from '../components/result';
 import { Stages } from '../components/stages';
 import { Trouble } from '../components/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
-import { performanceName, portraitName } from '../names';
+import { performanceName, portraitName, portraitUrl } from '../names';
 import { studioLink } from '../route';
 import { strings } from '../strings';
 
@@ -78,9 +79,19 @@ function Body({ job, stages, onProblem }: BodyProps) {
     case 'succeeded':
       return <Result job={job} />;
     case 'failed':
-      return <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''} />;
+      return (
+        <div class="ended">
+          <Picture url={portraitUrl(job)} alt={words.sentAlt} />
+          <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''} />
+        </div>
+      );
     case 'canceled':
-      return <p>{words.canceledDetail}</p>;
+      return (
+        <div class="ended">
+          <Picture url={portraitUrl(job)} alt={words.sentAlt} />
+          <p>{words.canceledDetail}</p>
+        </div>
+      );
     default:
       return <Running job={job} stages={stages} onProblem={onProblem} />;
   }
@@ -99,7 +110,11 @@ function Running({ job, stages, onProblem }: BodyProps) {
   return (
     <div class="underway">
       <figure class="impression">
-        {preview ? <img src={preview.url} alt={words.previewAlt} /> : <div class="awaited" aria-hidden="true" />}
+        {preview ? (
+          <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
+        ) : (
+          <Picture key="portrait" class="awaiting" url={portraitUrl(job)} alt="" />
+        )}
         <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
       </figure>
       <div>
