@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 METRES = 0.1
 """Metres in one unit of MakeHuman."""
@@ -120,6 +121,13 @@ def read_rig(name: str) -> tuple[dict[str, Any], dict[str, list[list[float]]]]:
     bones = json.loads((folder / f"rig.{name}.json").read_text())
     weights = json.loads((folder / f"weights.{name}.json").read_text())["weights"]
     return bones.get("bones", bones), weights
+
+
+def read_mask(name: str) -> NDArray[np.float32]:
+    """A mask over the template's texture coordinates, (H, W) float32 in [0, 1]: `ears`, `eyelids`, `face`,
+    `fingernails`, `inside-mouth`, `lips`, ..."""
+    with Image.open(data_folder() / f"mpfb2/textures/mpfb_{name}.jpg") as image:
+        return np.asarray(image.convert("L"), np.float32) / 255
 
 
 def read_vertex_groups() -> dict[str, list[list[int]]]:

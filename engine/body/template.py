@@ -92,6 +92,16 @@ def load_template() -> Template:
     )
 
 
+def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
+    """One of MakeHuman's masks (`engine.body.makehuman.read_mask`) at the template's vertices: (V,) float32."""
+    mask = makehuman.read_mask(name)
+    height, width = mask.shape
+    place = (np.clip(template.uv, 0, 1) * [width - 1, height - 1]).round().astype(int)
+    values = np.zeros(len(template.vertices), np.float32)
+    values[template.quads.ravel()] = mask[place[:, 1], place[:, 0]][template.uv_quads.ravel()]
+    return values
+
+
 def load_rig(name: str) -> Rig:
     """Load one of `engine.body.rig.RIGS`; the first time, convert it (some seconds)."""
     stored = cached_arrays(f"rig-{name}", lambda: _convert_rig(name))

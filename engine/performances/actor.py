@@ -1,0 +1,182 @@
+"""The actor: body, skin, eyes and teeth put together, and set into a pose as one scene of meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.subdivision import catmull_clark
+from engine.body.template import vertex_mask
+from engine.performances import chart
+from engine.performances.brows import Rooted, grow_brows, grow_lashes, plant
+from engine.performances.eyes import Eyeball, build_eyeball
+from engine.performances.figure import Figure, Pose, Posed, build_figure, pose_figure
+from engine.performances.hair import Crop, grow_crop, hair_cover
+from engine.performances.shade import light_through
+from engine.performances.shirt import Shirt, drape, sew_shirt
+from engine.performances.skin import Skin, paint_skin
+from engine.performances.teeth import Arch, Dentition, build_dentition
+from engine.render.light import Lamps
+from engine.render.surface import triangulate, vertex_normals
+
+
+class Part(IntEnum):
+    """What a triangle of the scene belongs to."""
+
+    SKIN = 0
+    LEFT_EYE = 1
+    RIGHT_EYE = 2
+    TEETH = 3
+    TONGUE = 4
+    CLOTH = 5
+
+
+UPPER_ARCH = Arch(gum=0.7304, front=0.1442, up=-1)
+LOWER_ARCH = Arch(gum=0.7122, front=0.1415, up=1)
+
+
+@dataclass(frozen=True)
+class Actor:
+    """All that stays the same from frame to frame.
+
+    `casting`: eyeball and teeth again with fewer triangles, for shadows.
+    By vertex of the fine skin: `chart` (N, 2) place on the map of the head, `inner` (N,) inside of the mouth,
+    `margin` (N,) moist rims of the lids, `scalp` (N,) under the hair, [0, 1] each.
+    """
+
+    figure: Figure
+    skin: Skin
+    eyeball: Eyeball
+    upper: Dentition
+    lower: Dentition
+    casting: tuple[Eyeball, Dentition, Dentition]
+    chart: NDArray[np.float32]
+    inner: NDArray[np.float32]
+    margin: NDArray[np.float32]
+    scalp: NDArray[np.float32]
+    tongue: tuple[object, NDArray[np.int32]]
+    shirt: Shirt
+    crop: Crop
+    passed: NDArray[np.float32]
+    rooted: tuple[Rooted, ...]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """The actor in a pose: `vertices` (V, 3), `normals` (V, 3), `triangles` (T, 3), `part` (T,) uint8; the fine
+    skin's vertices come first. `casters`: a lighter mesh of the same for shadows.
+    `hairs`: points (S, K, 3) of the crop, then of each of the actor's `rooted` hairs."""
+
+    vertices: NDArray[np.float32]
+    normals: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    part: NDArray[np.uint8]
+    casters: tuple[NDArray[np.float32], NDArray[np.int32]]
+    hairs: tuple[NDArray[np.float32], ...]
+    posed: Posed
+
+
+def build_actor(lamps: Lamps) -> Actor:
+    """Make the actor, half a minute; `lamps` are those that light the hair (see `Actor.passed`)."""
+    figure = build_figure()
+    rest = (figure.fine @ figure.rest).astype(np.float32)
+    inner = np.clip(figure.fine @ vertex_mask(figure.template, "inside-mouth"), 0, 1)
+    from_eye = np.min([np.linalg.norm(rest - eye.centre, axis=1) for eye in figure.eyes], axis=0)
+    template = figure.template
+    once = catmull_clark(template.quads[template.faces("tongue")], len(figure.rest))
+    places = chart.coordinates(rest)
+    eyeball = build_eyeball()
+    crop = grow_crop(figure, places)
+    return Actor(
+        figure=figure,
+        skin=paint_skin(),
+        eyeball=eyeball,
+        upper=build_dentition(UPPER_ARCH),
+        lower=build_dentition(LOWER_ARCH, seed=4),
+        casting=(build_eyeball(14, 24), build_dentition(UPPER_ARCH, detail=0.4), build_dentition(LOWER_ARCH, 0.4, seed=4)),
+        chart=places,
+        inner=inner.astype(np.float32),
+        margin=chart.step(from_eye, 0.0172, 0.0162),
+        scalp=chart.step(hair_cover(places), -0.001, 0.006) * chart.step(rest[:, 1], 0.70, 0.72),
+        tongue=(once.points, once.quads),
+        shirt=sew_shirt(figure),
+        crop=crop,
+        passed=light_through(crop.points, crop.normals, crop.widths, lamps),
+        rooted=(grow_brows(figure, places), grow_lashes(figure, eyeball)),
+    )
+
+
+def stage(actor: Actor, pose: Pose) -> Scene:
+    """Set the actor into a pose."""
+    posed = pose_figure(actor.figure, pose)
+    points, tongue_quads = actor.tongue
+    tongue = np.asarray(points @ posed.cage, np.float32)  # type: ignore[operator]
+    tongue_part = (tongue, triangulate(tongue_quads), Part.TONGUE)
+    rest = [*_rigid_parts(actor, posed, actor.eyeball, actor.upper, actor.lower), tongue_part]
+    skin_triangles = triangulate(actor.figure.quads)
+    normals = vertex_normals(posed.skin, skin_triangles)
+    cloth = drape(actor.shirt, posed.skin, normals)
+    fine = _join([(posed.skin, skin_triangles, Part.SKIN), *rest, (cloth, actor.shirt.triangles, Part.CLOTH)])
+    crop = _move(posed.head, actor.crop.points.reshape(-1, 3)).reshape(actor.crop.points.shape)
+    centres = np.stack([m[:3, :3] @ e.centre + m[:3, 3] for m, e in zip(posed.eyes, actor.figure.eyes, strict=True)])
+    rooted = [plant(hairs, posed.skin, normals, centres) for hairs in actor.rooted]
+    light = _join(
+        [
+            (posed.coarse_skin, triangulate(actor.figure.coarse_quads), Part.SKIN),
+            *_rigid_parts(actor, posed, *actor.casting),
+            tongue_part,
+            (cloth, actor.shirt.light_triangles, Part.CLOTH),
+            (*_ribbons(crop), Part.CLOTH),
+        ]
+    )
+    return Scene(
+        vertices=fine[0],
+        normals=vertex_normals(fine[0], fine[1]),
+        triangles=fine[1],
+        part=fine[2],
+        casters=(light[0], light[1]),
+        hairs=(crop, *rooted),
+        posed=posed,
+    )
+
+
+Piece = tuple[NDArray, NDArray, Part]
+
+
+def _rigid_parts(actor: Actor, posed: Posed, eyeball: Eyeball, upper: Dentition, lower: Dentition) -> list[Piece]:
+    eyes = zip(actor.figure.eyes, posed.eyes, (Part.LEFT_EYE, Part.RIGHT_EYE), strict=True)
+    return [
+        *((_move(motion, eyeball.vertices + eye.centre), eyeball.triangles, part) for eye, motion, part in eyes),
+        (_move(posed.head, upper.vertices), upper.triangles, Part.TEETH),
+        (_move(posed.jaw, lower.vertices), lower.triangles, Part.TEETH),
+    ]
+
+
+def _ribbons(hairs: NDArray[np.float32], every: int = 9, width: float = 0.0011) -> tuple[NDArray, NDArray]:
+    """Every ninth hair as a ribbon wide enough to cast the shadow of all: vertices and triangles."""
+    chosen = hairs[::every, ::3]
+    ahead = np.gradient(chosen, axis=1)
+    across = np.cross(ahead, [0.3, 0.2, 1.0])
+    across *= width / 2 / np.maximum(np.linalg.norm(across, axis=2, keepdims=True), 1e-9)
+    vertices = np.stack([chosen - across, chosen + across], 2)
+    index = np.arange(vertices.size // 3).reshape(vertices.shape[:3])
+    quads = np.stack([index[:, :-1, 0], index[:, :-1, 1], index[:, 1:, 1], index[:, 1:, 0]], 2).reshape(-1, 4)
+    return vertices.reshape(-1, 3), triangulate(quads)
+
+
+def _move(motion: NDArray[np.float64], points: NDArray[np.floating]) -> NDArray[np.float32]:
+    return (points @ motion[:3, :3].T + motion[:3, 3]).astype(np.float32)
+
+
+def _join(
+    pieces: list[Piece],
+) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.uint8]]:
+    counts = np.cumsum([0, *(len(vertices) for vertices, _, _ in pieces)])
+    return (
+        np.concatenate([vertices for vertices, _, _ in pieces]).astype(np.float32),
+        np.concatenate([t + n for (_, t, _), n in zip(pieces, counts, strict=False)]).astype(np.int32),
+        np.concatenate([np.full(len(t), part, np.uint8) for _, t, part in pieces]),
+    )

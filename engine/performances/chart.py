@@ -1,0 +1,108 @@
+"""A map of the actor's head: the skin unrolled from a cylinder around the vertical axis of the skull.
+
+Everything that is painted on the face (blood, freckles, pores, furrows) is painted on this map, in metres:
+u runs to the sitter's left along the cylinder, v upwards. It covers face, ears and neck; what is painted there
+sticks to the skin as it moves.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
+
+AXIS = 0.045
+"""z of the cylinder's axis in the rest pose, metres."""
+
+RADIUS = 0.1
+"""Metres of u for one radian."""
+
+TEXELS = 4000.0
+"""Texels in a metre: four to the millimetre, a little finer than the supersampled picture."""
+
+LEFT, RIGHT, TOP, BOTTOM = -0.22, 0.22, 0.95, 0.55
+SHAPE = (round((TOP - BOTTOM) * TEXELS), round((RIGHT - LEFT) * TEXELS))
+
+
+def coordinates(points: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(V, 3) points of the rest pose to (V, 2) float32 chart coordinates (u, v), metres."""
+    turn = np.arctan2(points[:, 0], points[:, 2] - AXIS)
+    return np.stack([RADIUS * turn, points[:, 1]], 1).astype(np.float32)
+
+
+def texture_coordinates(chart: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Chart coordinates (..., 2) to those of a texture of `SHAPE`, (0, 0) its top left, (1, 1) its bottom right."""
+    return np.stack([(chart[..., 0] - LEFT) / (RIGHT - LEFT), (TOP - chart[..., 1]) / (TOP - BOTTOM)], -1).astype(
+        np.float32
+    )
+
+
+def grid() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """u and v at the centres of the texels, (H, W) float32 each."""
+    u = LEFT + (np.arange(SHAPE[1], dtype=np.float32) + 0.5) / TEXELS
+    v = TOP - (np.arange(SHAPE[0], dtype=np.float32) + 0.5) / TEXELS
+    return np.broadcast_to(u, SHAPE), np.broadcast_to(v[:, None], SHAPE)
+
+
+def blob(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
+    """A Gaussian of height one: `spread` are its standard deviations along its axes, `turn` radians."""
+    u, v = grid()
+    du, dv = u - centre[0], v - centre[1]
+    c, s = np.cos(turn), np.sin(turn)
+    return np.exp(-0.5 * (((c * du + s * dv) / spread[0]) ** 2 + ((c * dv - s * du) / spread[1]) ** 2))
+
+
+def both(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
+    """The same blob on both sides of the face; `centre` and `turn` are those of the sitter's left."""
+    return blob(centre, spread, turn) + blob((-centre[0], centre[1]), spread, -turn)
+
+
+def smooth_curve(points: list[tuple[float, float]], count: int = 400) -> NDArray[np.float64]:
+    """A cubic spline through (u, v) points, as `count` points evenly spread over its parameter."""
+    p = np.array(points)
+    steps = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
+    if len(p) == 2:
+        return p[0] + np.linspace(0, 1, count)[:, None] * (p[1] - p[0])
+    return CubicSpline(steps, p)(np.linspace(0, steps[-1], count))
+
+
+def along(
+    points: list[tuple[float, float]], reach: float
+) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[slice, slice]]:
+    """Distance to a smooth curve, with sign (positive to its left), and the place along it [0, 1].
+
+    Only for the texels within `reach` metres of its bounding box, whose span in the chart is returned third.
+    """
+    curve = smooth_curve(points)
+    low, high = curve.min(0) - reach, curve.max(0) + reach
+    columns = slice(max(int((low[0] - LEFT) * TEXELS), 0), min(int((high[0] - LEFT) * TEXELS) + 1, SHAPE[1]))
+    rows = slice(max(int((TOP - high[1]) * TEXELS), 0), min(int((TOP - low[1]) * TEXELS) + 1, SHAPE[0]))
+    u, v = grid()
+    texels = np.stack([u[rows, columns], v[rows, columns]], -1)
+    distance, nearest = cKDTree(curve).query(texels)
+    ahead = np.gradient(curve, axis=0)[nearest]
+    offset = texels - curve[nearest]
+    side = np.where(ahead[..., 0] * offset[..., 1] - ahead[..., 1] * offset[..., 0] >= 0, 1, -1)
+    place = nearest / (len(curve) - 1)
+    return (distance * side).astype(np.float32), place.astype(np.float32), (rows, columns)
+
+
+def noise(rng: np.random.Generator, size: float, octaves: int = 1) -> NDArray[np.float32]:
+    """Smooth random variation, mean 0 and standard deviation 1, with features of about `size` metres; each
+    further octave halves the size and the strength."""
+    frequencies = np.hypot(np.fft.fftfreq(SHAPE[0])[:, None], np.fft.rfftfreq(SHAPE[1])[None]) * TEXELS
+    total = np.zeros(SHAPE, np.float32)
+    for octave in range(octaves):
+        scale = size / 2**octave
+        band = np.exp(-0.5 * ((frequencies * scale - 0.7) / 0.35) ** 2)
+        spectrum = np.fft.rfft2(rng.standard_normal(SHAPE, np.float32)) * band
+        layer = np.fft.irfft2(spectrum, SHAPE).astype(np.float32)
+        total += layer / (layer.std() * 2**octave)
+    return total / total.std()
+
+
+def step(value: NDArray[np.floating], low: float, high: float) -> NDArray[np.float32]:
+    """A smooth ramp from 0 at `low` to 1 at `high` (which may be the smaller)."""
+    t = np.clip((value - low) / (high - low), 0, 1)
+    return (t * t * (3 - 2 * t)).astype(np.float32)

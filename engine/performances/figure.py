@@ -1,0 +1,204 @@
+"""The actor's body: a person made from the template, posed by face units, head turns and breath."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.body import Phenotype, Template, load_shape_space, load_template
+from engine.body.rig import Rig
+from engine.body.skinning import bone_transforms, skin
+from engine.body.subdivision import catmull_clark
+from engine.body.template import load_rig
+from engine.performances.eyes import RADIUS, profile
+from engine.render.surface import triangulate
+
+PERSON = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
+
+FEATURES = {
+    "neck-scale-horiz-decr": 0.35,
+    "neck-scale-depth-decr": 0.25,
+}
+"""Local changes that make the average face a person."""
+
+NECK = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
+"""How a turn of the head is shared out between the joints."""
+
+FRAMED = 0.45
+"""Metres: what lies lower in the template's rest pose is never in the picture."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """One moment of the performance. Angles in degrees, lengths in metres.
+
+    `units`: weights of the face units. `head`: (pitch, yaw, roll), positive down, to the sitter's left, towards
+    the sitter's left shoulder. `gaze`: (up, left) of the eyes within the head. `breath`: 0 empty to 1 full.
+    """
+
+    units: Mapping[str, float] = field(default_factory=dict)
+    head: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    lean: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    gaze: tuple[float, float] = (0.0, 0.0)
+    breath: float = 0.0
+
+
+@dataclass(frozen=True)
+class Eye:
+    """An eyeball of the rest pose: its centre (3,), metres."""
+
+    centre: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """What does not change from frame to frame.
+
+    `rest` (V, 3) the person's own template, arms down. `fine` (N, V) sparse and `quads` (F, 4): the skin, twice
+    subdivided, cut to what the picture shows; `coarse` and `coarse_quads`: the same once subdivided, for shadows.
+    `head` is the index of the head's bone, `brow` of fine vertices ...
+    """
+
+    template: Template
+    rig: Rig
+    rest: NDArray[np.float32]
+    heads: NDArray[np.float32]
+    fine: sp.csr_array
+    quads: NDArray[np.int32]
+    coarse: sp.csr_array
+    coarse_quads: NDArray[np.int32]
+    eyes: tuple[Eye, Eye]
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A pose carried out: `cage` (V, 3) the template's vertices, `skin` (N, 3) and `coarse_skin` the subdivided
+    surfaces, `head` and `jaw` (4, 4) what the skull and the lower teeth do to their rest pose, `eyes` (4, 4) each."""
+
+    cage: NDArray[np.float32]
+    skin: NDArray[np.float32]
+    coarse_skin: NDArray[np.float32]
+    head: NDArray[np.float64]
+    jaw: NDArray[np.float64]
+    eyes: tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
+def build_figure() -> Figure:
+    """Make the actor's body."""
+    template, rig = load_template(), load_rig("default")
+    shape = load_shape_space().shape(PERSON, FEATURES)
+    arms_down = _arms_down(rig, shape)
+    skin_quads = template.quads[template.faces("body")]
+    framed = arms_down[skin_quads][:, :, 1].min(1) > FRAMED
+    near = np.abs(arms_down[skin_quads][:, :, 0]).max(1) < 0.26
+    cage = skin_quads[framed & near]
+    once = catmull_clark(cage, len(shape))
+    twice = catmull_clark(once.quads, once.points.shape[0])
+    fine, quads = _compact(sp.csr_array(twice.points @ once.points), twice.quads)
+    coarse, coarse_quads = _compact(once.points, once.quads)
+    eyes = tuple(_fit_eye(arms_down[template.vertices_of(f"{side}_eye")]) for side in ("left", "right"))
+    return Figure(template, rig, arms_down, rig.joints(arms_down)[0], fine, quads, coarse, coarse_quads, eyes)  # type: ignore[arg-type]
+
+
+def pose_figure(figure: Figure, pose: Pose) -> Posed:
+    """Carry out a pose."""
+    units = {name: weight for name, weight in pose.units.items() if weight}
+    moved = figure.rest + figure.template.face_units.displacement(units)
+    transforms = bone_transforms(figure.rig, figure.heads, _rotations(figure.rig, pose), np.asarray(pose.lean))
+    cage = skin(moved, figure.rig.bones, figure.rig.weights, transforms)
+    head = transforms[figure.rig.index("head")]
+    teeth = figure.template.vertices_of("lower_teeth")
+    jaw = head @ rigid_motion(figure.rest[teeth], moved[teeth])
+    eyes = tuple(head @ _about(eye.centre, _gaze(pose.gaze)) for eye in figure.eyes)
+    surfaces = []
+    for points in (figure.fine, figure.coarse):
+        surface = (points @ cage).astype(np.float32)
+        for eye, motion in zip(figure.eyes, eyes, strict=True):
+            _keep_off(surface, motion, motion[:3, :3] @ eye.centre + motion[:3, 3])
+        surfaces.append(surface)
+    return Posed(cage, surfaces[0], surfaces[1], head, jaw, eyes)  # type: ignore[arg-type]
+
+
+def rigid_motion(before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The rotation and shift, (4, 4), that best carry (N, 3) points to others, by least squares (Kabsch)."""
+    b, a = np.asarray(before, np.float64), np.asarray(after, np.float64)
+    turn, _ = Rotation.align_vectors(a - a.mean(0), b - b.mean(0))
+    motion = np.eye(4)
+    motion[:3, :3] = turn.as_matrix()
+    motion[:3, 3] = a.mean(0) - motion[:3, :3] @ b.mean(0)
+    return motion
+
+
+def _rotations(rig: Rig, pose: Pose) -> NDArray[np.float64]:
+    turns = np.tile(np.eye(3), (len(rig.names), 1, 1))
+    pitch, yaw, roll = pose.head
+    for name, share in NECK.items():
+        turn = Rotation.from_euler("YXZ", [share * yaw, share * pitch, -share * roll], degrees=True)
+        turns[rig.index(name)] = turn.as_matrix()
+    for side, sign in (("L", 1), ("R", -1)):
+        lift = Rotation.from_euler("z", sign * 1.1 * pose.breath, degrees=True)
+        turns[rig.index(f"clavicle.{side}")] = lift.as_matrix()
+    turns[rig.index("spine01")] = Rotation.from_euler("x", -0.5 * pose.breath, degrees=True).as_matrix()
+    return turns
+
+
+def _arms_down(rig: Rig, shape: NDArray[np.float32]) -> NDArray[np.float32]:
+    turns = np.tile(np.eye(3), (len(rig.names), 1, 1))
+    for side, sign in (("L", 1), ("R", -1)):
+        for bone, angle in (("clavicle", -5), ("upperarm01", -34)):
+            turns[rig.index(f"{bone}.{side}")] = Rotation.from_euler("z", sign * angle, degrees=True).as_matrix()
+    return skin(shape, rig.bones, rig.weights, bone_transforms(rig, rig.joints(shape)[0], turns))
+
+
+def _compact(points: sp.csr_array, quads: NDArray[np.int32]) -> tuple[sp.csr_array, NDArray[np.int32]]:
+    """Leave out the vertices that no face uses."""
+    used, renumbered = np.unique(quads, return_inverse=True)
+    return sp.csr_array(points[used]), renumbered.reshape(-1, 4).astype(np.int32)
+
+
+def _fit_eye(points: NDArray[np.float32]) -> Eye:
+    """The sphere through the back of an eye of the template; its surface is the limit surface of that cage."""
+    p = points[points[:, 2] < np.quantile(points[:, 2], 0.7)].astype(np.float64)
+    solution = np.linalg.lstsq(np.c_[2 * p, np.ones(len(p))], (p**2).sum(1), rcond=None)[0]
+    return Eye(solution[:3])
+
+
+LID_GAP = 0.0006
+"""Metres between the eyeball and the skin's surface on it."""
+
+
+def _keep_off(surface: NDArray[np.float32], eye: NDArray[np.float64], centre: NDArray[np.float64]) -> None:
+    """Push lid skin that a straight blend would sink into the eyeball out to its surface, in place.
+
+    `eye` (4, 4) places the eye's own axes (it looks along +z), whose origin `centre` lies at its middle.
+    """
+    near = np.flatnonzero(np.abs(surface - centre).max(1) < 1.5 * RADIUS)
+    local = (surface[near] - centre) @ eye[:3, :3]
+    distance = np.linalg.norm(local, axis=1)
+    cosine = local[:, 2] / np.maximum(distance, 1e-9)
+    wanted = profile(cosine) + LID_GAP
+    inside = (distance < wanted) & (cosine > 0.25)
+    local[inside] *= (wanted[inside] / distance[inside])[:, None]
+    surface[near] = local @ eye[:3, :3].T + centre
+
+
+def _gaze(angles: tuple[float, float]) -> NDArray[np.float64]:
+    up, left = angles
+    return Rotation.from_euler("YX", [left, -up], degrees=True).as_matrix()
+
+
+def _about(centre: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    motion = np.eye(4)
+    motion[:3, :3] = rotation
+    motion[:3, 3] = centre - rotation @ centre
+    return motion
+
+
+def skin_triangles(figure: Figure) -> NDArray[np.int32]:
+    """The fine skin's triangles."""
+    return triangulate(figure.quads)

@@ -1,0 +1,94 @@
+"""Geometry of surfaces that renderers ask for: normals, and the directions in which a chart runs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+
+def triangulate(quads: NDArray[np.integer]) -> NDArray[np.int32]:
+    """(F, 4) quads to (2F, 3) triangles: the first halves of all, then the second halves."""
+    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+
+
+def vertex_normals(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float32]:
+    """(V, 3) float32 unit normals, triangles weighted by their area; zero where a vertex has no triangle."""
+    return _normals(np.ascontiguousarray(vertices, np.float32), np.ascontiguousarray(triangles, np.int32))
+
+
+def chart_tangents(
+    vertices: NDArray[np.floating], chart: NDArray[np.floating], triangles: NDArray[np.integer]
+) -> NDArray[np.float32]:
+    """How a surface point moves along its chart, (V, 6) float32: dP/du and dP/dv, means over the triangles.
+
+    `chart` (V, 2) are the coordinates (u, v) of the vertices on the chart; triangles across its seam should be
+    left out.
+    """
+    return _tangents(
+        np.ascontiguousarray(vertices, np.float32),
+        np.ascontiguousarray(chart, np.float32),
+        np.ascontiguousarray(triangles, np.int32),
+    )
+
+
+def bump(
+    normals: NDArray[np.floating], tangents: NDArray[np.floating], slopes: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """Unit normals (N, 3) of a surface raised by a height over its chart.
+
+    `tangents` (N, 6) are dP/du and dP/dv, `slopes` (N, 2) dh/du and dh/dv, heights in the unit of P.
+    Source: J. Blinn, Simulation of wrinkled surfaces, SIGGRAPH 1978.
+    """
+    along_u, along_v = tangents[:, :3], tangents[:, 3:]
+    from_u, from_v = np.cross(along_v, normals), np.cross(normals, along_u)
+    determinant = (along_u * from_u).sum(1, keepdims=True)
+    turn = np.where(determinant < 0, -1.0, 1.0)
+    raised = np.abs(determinant) * normals - turn * (slopes[:, :1] * from_u + slopes[:, 1:] * from_v)
+    return (raised / np.maximum(np.linalg.norm(raised, axis=1, keepdims=True), 1e-12)).astype(np.float32)
+
+
+@njit(cache=True)
+def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    out = np.zeros_like(vertices)
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        ux, uy, uz = vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
+        vx, vy, vz = vertices[c, 0] - vertices[a, 0], vertices[c, 1] - vertices[a, 1], vertices[c, 2] - vertices[a, 2]
+        x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        for k in (a, b, c):
+            out[k, 0] += x
+            out[k, 1] += y
+            out[k, 2] += z
+    for i in range(len(out)):
+        length = np.sqrt(out[i, 0] ** 2 + out[i, 1] ** 2 + out[i, 2] ** 2)
+        if length > 0:
+            out[i] /= length
+    return out
+
+
+@njit(cache=True)
+def _tangents(vertices: np.ndarray, chart: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    out = np.zeros((len(vertices), 6), np.float32)
+    weights = np.zeros(len(vertices), np.float32)
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        u1, v1 = chart[b, 0] - chart[a, 0], chart[b, 1] - chart[a, 1]
+        u2, v2 = chart[c, 0] - chart[a, 0], chart[c, 1] - chart[a, 1]
+        area = u1 * v2 - u2 * v1
+        if abs(area) < 1e-14:
+            continue
+        weight = abs(area)
+        for k in range(3):
+            p1, p2 = vertices[b, k] - vertices[a, k], vertices[c, k] - vertices[a, k]
+            along_u = weight * (p1 * v2 - p2 * v1) / area
+            along_v = weight * (p2 * u1 - p1 * u2) / area
+            for i in (a, b, c):
+                out[i, k] += along_u
+                out[i, 3 + k] += along_v
+        for i in (a, b, c):
+            weights[i] += weight
+    for i in range(len(out)):
+        if weights[i] > 0:
+            out[i] /= weights[i]
+    return out
