@@ -63,10 +63,12 @@ def run(image: Path, driver: str, once: bool) -> None:
             raise DemoError((job["error"] or {}).get("detail") or f"the job was {job['status']}")
         video = fetch(client, job, FOLDER / f"{image.stem}-{Path(driver).stem}.mp4")
         console.print(f"\nVideo  {video.relative_to(Path.cwd()) if video.is_relative_to(Path.cwd()) else video}")
-        console.print(f"Page   {page}")
+        for warning in answer(client.get(job["artifacts"]["report.json"]["url"])).json()["warnings"]:
+            console.print(f"Note   {warning['message']}")
         if not once:
-            console.print("\nServing until Ctrl-C.")
+            console.print(f"Page   {page}\n\nServing until Ctrl-C.")
             process.wait()
+            raise DemoError("the service ended; see demo/serve.log")
 
 
 def sample_portrait() -> Path:
