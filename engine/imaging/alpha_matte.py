@@ -20,7 +20,7 @@ from engine.imaging.resample import resized
 WINDOW_NOISE = 2e-5
 """Regularisation of a window's colour covariance (colours in [0, 1]): grain of scans and JPEG."""
 
-SAMPLE_WEIGHT = 0.02
+SAMPLE_WEIGHT = 1.0
 """Weight of an alpha found from a pair of colours beside the Laplacian, at full confidence."""
 
 

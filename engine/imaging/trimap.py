@@ -1,0 +1,134 @@
+"""Which pixels along an outline are to be matted, given a rough belief of where the layer is.
+
+The belief (a network's probability, say) is coarse and smooth. Most of the outline needs a narrow band
+around it, or cloth and skin grow soft. Two things reach out of that band: strands of hair over a plain
+background, and slivers of that background seen between strands. Both show as colours that the plain
+background explains too badly, or too well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.resample import resized
+
+Mask = NDArray[np.float32]
+
+SURE = 0.8
+"""Belief above which a pixel is taken for the layer, and below one minus which for the background."""
+BAND = 0.008
+"""Half width of the band that is always matted, as a share of the square root of the layer's area."""
+STRAND = 0.12
+"""How far strands are followed, as a share of the same."""
+SCALE = 10.0
+"""Standard deviation in pixels of the neighbourhood that predicts the background's colour."""
+NOISE = 4.0
+"""Grey levels (over three channels) of noise that even the plainest background has."""
+PLAIN = 14.0
+"""Largest standard deviation of a background (same unit) against which strands can be told."""
+CONTRAST = 60.0
+"""Grey levels a channel by which a sliver must differ from the layer around it."""
+
+
+@dataclass(frozen=True)
+class Trimap:
+    """What is known of a layer: `known` (H, W) is 1 inside, 0 outside, 0.5 where alpha is to be found;
+    `prior` and `weight` (H, W) are the alpha believed there and how much (see `alpha_matte`)."""
+
+    known: Mask
+    prior: Mask
+    weight: Mask
+
+
+def outline_trimap(rgb: NDArray[np.uint8], belief: Mask, prior_weight: float = 0.03) -> Trimap:
+    """Trimap of the layer that `belief` (H, W) in [0, 1] says is in `rgb` (H, W, 3) uint8."""
+    inside = belief > 0.5
+    size = float(np.sqrt(inside.sum()))
+    band = max(3.0, BAND * size)
+    depth = _distance(inside) - _distance(~inside)
+    known = np.full(belief.shape, 0.5, np.float32)
+    known[(belief > SURE) & (depth > band)] = 1
+    known[(belief < 1 - SURE) & (depth < -band)] = 0
+    known[_islands(known)] = 1
+    strands, slivers = _strands_and_slivers(rgb, depth, band, max(8.0, STRAND * size))
+    known[strands & (known == 0)] = 0.5
+    known[slivers & (known == 1)] = 0.5
+    weight = prior_weight * np.square(2 * belief - 1)
+    weight[strands | slivers] = 0.02 * prior_weight
+    return Trimap(known, np.clip(2 * belief - 0.5, 0, 1).astype(np.float32), weight.astype(np.float32))
+
+
+def _distance(mask: NDArray[np.bool_]) -> Mask:
+    return np.asarray(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5), np.float32)
+
+
+def _islands(known: Mask) -> NDArray[np.bool_]:
+    """Doubtful parts that touch no background: inside of the layer, where only the belief wavered."""
+    count, labels = cv2.connectedComponents((known < 1).astype(np.uint8))
+    island = np.ones(count, bool)
+    island[np.unique(labels[known == 0])] = False
+    island[0] = False
+    return np.asarray(island[labels])
+
+
+def _strands_and_slivers(
+    rgb: NDArray[np.uint8], depth: Mask, band: float, reach: float
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Hair outside the band that hangs on to the layer, and background inside of it (both (H, W) bool)."""
+    height, width = depth.shape
+    half = (max(1, width // 2), max(1, height // 2))
+    small = resized(rgb.astype(np.float32), half)
+    small_depth = resized(depth, half)
+    mean, spread = _plain_background(small, small_depth < -band)
+    miss = _squared(rgb - resized(mean, (width, height)))
+    noise = resized(spread, (width, height))
+    plain = noise < PLAIN**2
+    noise += NOISE**2
+
+    strands = plain & (miss > 9 * noise) & (depth < -band) & (depth > -reach)
+    closed = cv2.morphologyEx(strands.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0
+    count, labels = cv2.connectedComponents((closed | (depth > -band - 1.5)).astype(np.uint8))
+    hangs_on = np.zeros(count, bool)
+    hangs_on[np.unique(labels[depth > 0])] = True
+    strands = closed & hangs_on[labels]
+
+    layer = (small_depth > band).astype(np.float32)
+    layer_mean = _local_mean(small, layer, 0.75 * SCALE)
+    layer_spread = _local_mean(_squared(small - layer_mean), layer, 0.75 * SCALE)
+    layer_miss = _squared(rgb - resized(layer_mean, (width, height)))
+    unlike = (layer_miss > 3 * CONTRAST**2) & (layer_miss > 9 * resized(layer_spread, (width, height)))
+    slivers = plain & (miss < 9 * noise) & unlike & (layer_miss > 9 * miss) & (depth > 0) & (depth < 4 * band)
+    return _grown(strands, 2), _grown(slivers, 3)
+
+
+def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_]) -> tuple[NDArray[np.float32], Mask]:
+    """Local mean colour (H, W, 3) and squared spread (H, W) of the background, strands left out of it."""
+    odd = np.zeros(background.shape, bool)
+    for _ in range(3):
+        weight = (background & ~odd).astype(np.float32)
+        near = np.asarray(cv2.GaussianBlur(weight, (0, 0), SCALE / 2), np.float32)
+        mean = _local_mean(image, weight, SCALE / 2)
+        mean = np.where(near[..., None] > 1e-3, mean, _local_mean(image, weight, 1.5 * SCALE)).astype(np.float32)
+        miss = _squared(image - mean)
+        spread = _local_mean(miss, weight, 2 * SCALE)
+        odd = background & (miss > 9 * (spread + NOISE**2))
+    return mean, spread
+
+
+def _local_mean(values: NDArray[np.float32], weight: Mask, scale: float) -> NDArray[np.float32]:
+    mass = cv2.GaussianBlur(weight, (0, 0), scale) + 1e-6
+    if values.ndim == 2:
+        return np.asarray(cv2.GaussianBlur(values * weight, (0, 0), scale) / mass, np.float32)
+    return np.asarray(cv2.GaussianBlur(values * weight[..., None], (0, 0), scale) / mass[..., None], np.float32)
+
+
+def _squared(difference: NDArray[np.float32]) -> Mask:
+    return np.asarray(np.square(difference).sum(-1), np.float32)
+
+
+def _grown(mask: NDArray[np.bool_], by: int) -> NDArray[np.bool_]:
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((2 * by + 1, 2 * by + 1), np.uint8)) > 0)

@@ -1,0 +1,67 @@
+"""A drawn figure on plain paper: what cannot be reached from the picture's border without crossing a line.
+
+Networks trained on photographs see little in a child's drawing, whose inside has the paper's colour. Its
+outline is enough: find the strokes, close small gaps, and flood the paper from the border.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.resample import resized, size_within
+
+SIZE = 400
+"""Longest side, in pixels, at which strokes are looked for."""
+STROKE = 18.0
+"""Grey levels by which a stroke is darker, or of another colour, than the paper around it."""
+PLAIN = 0.04
+"""Largest share of the border that may differ from the paper."""
+UNSURE = 0.35
+"""Share of the figure that the networks must leave in doubt (belief between 0.1 and 0.9) or miss."""
+
+
+def figure_on_plain_ground(rgb: NDArray[np.uint8], belief: NDArray[np.float32]) -> NDArray[np.float32] | None:
+    """The figure's mask (H, W) in [0, 1], or None if this is no drawing on plain paper that networks miss.
+
+    `belief` (H, W) is what the networks saw. The figure is taken only where they are unsure of most of it.
+    """
+    size = size_within(rgb.shape, SIZE)
+    small = resized(np.ascontiguousarray(rgb), size).astype(np.float32)
+    rough = resized(belief, size)
+    strokes = _strokes(small)
+    frame = np.concatenate([strokes[2, 2:-2], strokes[-3, 2:-2], strokes[2:-2, 2], strokes[2:-2, -3]])
+    if frame.mean() > PLAIN:
+        return None
+    figure = _enclosed(strokes)
+    if figure is None:
+        return None
+    doubt = (rough[figure] < 0.9).mean()
+    if doubt < UNSURE or not (rough[figure] > 0.5).any():
+        return None
+    return np.clip(resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])), 0, 1)
+
+
+def _strokes(image: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Where the colour differs from the paper's, the paper being the brightest of a wide neighbourhood."""
+    side = 2 * (max(image.shape[:2]) // 8) + 1
+    grey = np.asarray(image.min(-1), np.float32)
+    paper = np.asarray(cv2.medianBlur(grey.astype(np.uint8), min(side, 101)), np.float32)
+    lit = np.asarray(cv2.GaussianBlur(np.maximum(paper, grey), (0, 0), side / 4), np.float32)
+    return np.asarray(lit - grey > STROKE)
+
+
+def _enclosed(strokes: NDArray[np.bool_]) -> NDArray[np.bool_] | None:
+    """The largest thing that the strokes enclose; None if it is too small to be a figure."""
+    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
+    closed = cv2.morphologyEx(np.pad(strokes.astype(np.uint8), 8), cv2.MORPH_CLOSE, disk)
+    flooded = closed.copy()
+    cv2.floodFill(flooded, None, (0, 0), (2,))
+    inside = (flooded != 2)[8:-8, 8:-8]
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(inside.astype(np.uint8))
+    if count < 2:
+        return None
+    largest = 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))
+    figure = np.asarray(labels == largest)
+    return figure if figure.mean() > 0.03 else None
