@@ -57,7 +57,7 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
     xs = xs + (np.arange(len(xs)) % 2)[:, None] * spacing / 2
     grid = np.stack([xs.ravel(), ys.ravel()], axis=1)
     grid = grid[(grid[:, 0] > spacing / 2) & (grid[:, 0] < width - 1 - spacing / 2)]
-    reach = 2 * int(round(spacing)) + 1
+    reach = 2 * round(spacing) + 1
     around = cv2.dilate((person > 0.3).astype(np.uint8), cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
     grid = grid[around[grid[:, 1].astype(int), grid[:, 0].astype(int)] > 0]
     oval = mesh[list(FACE_OVAL), :2].astype(np.float32)

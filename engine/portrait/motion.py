@@ -13,9 +13,11 @@ from engine.perception.landmarks import MESH_SIZE, eye_distance
 from engine.portrait.alignment import Similarity, align
 from engine.portrait.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.portrait.driver import DriverTrack
+from engine.portrait.eyes import gaze
 from engine.portrait.expression_transfer import carry_expression, local_maps
 from engine.portrait.head_motion import HeadMotion, split_motion
 from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.portrait.lids_and_lips import lid_ratio, meet
 from engine.portrait.options import Part, PortraitOptions
 
 CHUNK = 32
@@ -24,11 +26,13 @@ CHUNK = 32
 
 @dataclass(frozen=True)
 class ControlMotion:
-    """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer."""
+    """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer;
+    `look` (2, 2) of the irises, see `eyes.gaze`."""
 
     frame: int
     offsets: NDArray[np.float32]
     depth: NDArray[np.float32]
+    look: NDArray[np.float32]
 
 
 def carry_motion(
@@ -51,6 +55,7 @@ def carry_motion(
     maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
     follow = part_weights(options.follow)
     head = options.strength if "head" in options.follow else 0.0
+    eyes = options.strength if "eyes" in options.follow else 0.0
     for start in range(0, len(track), CHUNK):
         some = slice(start, min(start + CHUNK, len(track)))
         motion = split_motion(track.meshes[some], rest)
@@ -62,16 +67,21 @@ def carry_motion(
             phi, track.periphery[neutral], around, trusted, control.points[control.periphery], unit
         )
         expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
+        ratio = 1 + eyes * (lid_ratio(rest + motion.expression, rest) - 1)
+        expression = meet(target + expression, target, np.maximum(ratio, 0)) - target
+        look = eyes * gaze(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         if proxy is None:
-            yield from _in_plane(some, phi, motion, expression, around, target, control, head)
+            frames = _in_plane(phi, motion, expression, around, target, control, head)
         else:
-            yield from _in_space(some, motion, expression, around, target, control, proxy, head)
+            frames = _in_space(motion, expression, around, target, control, proxy, head)
+        for k, (offsets, depth) in enumerate(frames):
+            yield ControlMotion(start + k, offsets, depth, look[k].astype(np.float32))
 
 
 def _in_plane(
-    some: slice, phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
+    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
     target: NDArray, control: ControlPoints, head: float,
-) -> Iterator[ControlMotion]:  # fmt: skip
+) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
     """The paper's own form: the rigid part is carried as offsets in the plane, like everything else."""
     scaled = scale_motion(motion, head)
     rigid = (
@@ -82,7 +92,7 @@ def _in_plane(
         offsets = np.zeros((len(control.points), 2), np.float32)
         offsets[:MESH_SIZE] = face[k] + expression[k, :, :2]
         offsets[control.periphery] = around[k]
-        yield ControlMotion(some.start + k, offsets, np.zeros(len(offsets), np.float32))
+        yield offsets, np.zeros(len(offsets), np.float32)
 
 
 def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -94,16 +104,16 @@ def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.fl
 
 
 def _in_space(
-    some: slice, motion: HeadMotion, expression: NDArray, around: NDArray,
+    motion: HeadMotion, expression: NDArray, around: NDArray,
     target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
-) -> Iterator[ControlMotion]:  # fmt: skip
+) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
     moved = move_head(proxy, scale_motion(motion, head), target, expression)
     share = proxy.share[:, None].astype(np.float32)
     for k in range(len(around)):
         offsets = share * (moved[k, :, :2] - proxy.points[:, :2])
         offsets[control.periphery] += around[k]
         offsets[control.border] = 0.0
-        yield ControlMotion(some.start + k, offsets.astype(np.float32), moved[k, :, 2])
+        yield offsets.astype(np.float32), moved[k, :, 2]
 
 
 def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:

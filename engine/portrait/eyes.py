@@ -1,0 +1,167 @@
+"""Eyes that look and close: the eyeball stays behind, the lids' skin moves over it.
+
+The paper warps the eye with the face, so that a closing lid squeezes the iris, and names eyes that do not
+close as its limit (section 7.3). Here the eyeball is a layer of its own, prepared once: the white, continued
+behind lids and iris, and the iris, completed to its full disk. A frame draws it into the opening that the
+lids leave, with the iris where the driver looks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+
+SIDES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
+MARGIN = 0.5
+"""Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
+LEAST_WIDTH = 14.0
+"""Pixels; smaller eyes move with the face's warp alone."""
+
+
+@dataclass(frozen=True)
+class Eyeball:
+    """One eye's layer at rest.
+
+    white, iris : (h, w, 3) float32; iris_alpha (h, w); corner (2,) of the layer in the picture;
+    rest (16, 2) the opening; width of the eye, centre and radius of the iris, pixels of the picture.
+    """
+
+    white: NDArray[np.float32]
+    iris: NDArray[np.float32]
+    iris_alpha: NDArray[np.float32]
+    corner: NDArray[np.float32]
+    ends: NDArray[np.float32]
+    width: float
+
+
+def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N, 2, 2) how far each iris has moved against the neutral frame, right eye first, in eye widths along
+    and across the line between the eye's corners. A shut eye does not look anywhere: it moves back to rest."""
+    return np.stack([_look(meshes, s) - _look(neutral[None], s) for s in SIDES], axis=1)
+
+
+def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:  # type: ignore[type-arg]
+    _, iris, outer, inner = side
+    a, b = meshes[:, outer, :2], meshes[:, inner, :2]
+    along = b - a
+    width = np.linalg.norm(along, axis=1, keepdims=True)
+    along = along / width
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    centre = meshes[:, iris[0], :2] - (a + b) / 2
+    return np.stack([(centre * along).sum(1), (centre * across).sum(1)], axis=1) / width
+
+
+def prepare_eyes(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[Eyeball | None, Eyeball | None]:
+    """The two eyeballs of a target, right eye first; None where an eye is too small or shut in the picture."""
+    return tuple(_prepare(rgb, mesh, side) for side in SIDES)  # type: ignore[return-value]
+
+
+def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) -> Eyeball | None:  # type: ignore[type-arg]
+    contour, iris, outer, inner = side
+    ends = mesh[[outer, inner], :2].astype(np.float32)
+    width = float(np.linalg.norm(ends[1] - ends[0]))
+    opening = mesh[list(contour), :2].astype(np.float32)
+    area = float(cv2.contourArea(opening))
+    low = np.floor(opening.min(axis=0) - MARGIN * width).astype(int)
+    high = np.ceil(opening.max(axis=0) + MARGIN * width).astype(int)
+    low, high = np.maximum(low, 0), np.minimum(high, (rgb.shape[1], rgb.shape[0]))
+    if width < LEAST_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
+        return None
+    patch = rgb[low[1] : high[1], low[0] : high[0]].astype(np.float32)
+    centre = mesh[iris[0], :2] - low
+    radius = float(np.linalg.norm(mesh[list(iris[1:]), :2] - mesh[iris[0], :2], axis=1).mean())
+    ys, xs = np.mgrid[: patch.shape[0], : patch.shape[1]].astype(np.float32)
+    distance = np.hypot(xs - centre[0], ys - centre[1])
+    seen = _fill(opening - low, patch.shape[:2])
+    seen = cv2.erode(seen, np.ones((3, 3), np.uint8)) if width > 30 else seen
+    inside_iris = distance < 1.12 * radius
+    white = _continue(patch, (seen > 0) & ~inside_iris)
+    if white is None:
+        return None
+    disk = _complete_iris(patch, (seen > 0) & inside_iris, distance, radius)
+    alpha = np.clip((1.08 * radius - distance) / max(0.12 * radius, 1.0) + 0.5, 0, 1)
+    return Eyeball(white, disk, alpha.astype(np.float32), low.astype(np.float32), ends, width)
+
+
+def _fill(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.uint8]:
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(points).astype(np.int32)], 1)
+    return mask
+
+
+def _continue(patch: NDArray[np.float32], known: NDArray[np.bool_]) -> NDArray[np.float32] | None:
+    """The white of the eye continued over the whole layer by a wide normalised blur, exact where known."""
+    if known.sum() < 6:
+        return None
+    total, weight = np.zeros_like(patch), np.zeros(patch.shape[:2], np.float32)
+    mask = known.astype(np.float32)
+    for sigma in (2.0, 5.0, 12.0, 40.0):
+        total += cv2.GaussianBlur(patch * mask[..., None], (0, 0), sigma) * 10.0 ** (-sigma / 4)
+        weight += cv2.GaussianBlur(mask, (0, 0), sigma) * 10.0 ** (-sigma / 4)
+    smooth = total / np.maximum(weight, 1e-20)[..., None]
+    edge = np.minimum(cv2.distanceTransform(known.astype(np.uint8), cv2.DIST_L2, 3) / 2, 1)[..., None]
+    return np.asarray(smooth + edge * (patch - smooth), np.float32)
+
+
+def _complete_iris(
+    patch: NDArray[np.float32], known: NDArray[np.bool_], distance: NDArray[np.float32], radius: float
+) -> NDArray[np.float32]:
+    """The iris as a full disk: what the lids hide takes the mean colour at its distance from the pupil."""
+    rings = np.minimum((distance / max(radius, 1) * 12).astype(int), 15)
+    count = np.bincount(rings[known], minlength=16).astype(np.float32)
+    profile = np.stack([np.bincount(rings[known], patch[..., k][known], 16) for k in range(3)], axis=1)
+    filled = np.flatnonzero(count > 0)
+    if len(filled) == 0:
+        return patch.copy()
+    profile = profile[filled] / count[filled, None]
+    profile = np.stack([np.interp(np.arange(16), filled, profile[:, k]) for k in range(3)], axis=1)
+    modelled = cv2.GaussianBlur(profile[rings].astype(np.float32), (0, 0), max(radius / 12, 0.5))
+    edge = np.minimum(cv2.distanceTransform(known.astype(np.uint8), cv2.DIST_L2, 3) / 2, 1)[..., None]
+    return np.asarray(modelled + edge * (patch - modelled), np.float32)
+
+
+def draw_eye(
+    frame: NDArray[np.uint8], eye: Eyeball, mesh: NDArray[np.floating], side: int, look: NDArray[np.floating]
+) -> None:
+    """Draw an eyeball into the opening that the lids leave in a frame, in place.
+
+    Parameters
+    ----------
+    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `gaze`.
+    """
+    contour, _, outer, inner = SIDES[side]
+    opening = mesh[list(contour), :2].astype(np.float32)
+    low = np.maximum(np.floor(opening.min(axis=0)).astype(int) - 1, 0)
+    high = np.minimum(np.ceil(opening.max(axis=0)).astype(int) + 2, (frame.shape[1], frame.shape[0]))
+    if (high - low).min() < 2:
+        return
+    shape = (int(high[1] - low[1]), int(high[0] - low[0]))
+    cover = np.zeros(shape, np.uint8)
+    cv2.fillPoly(cover, [np.round((opening - low) * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    place = _place(eye, mesh[[outer, inner], :2], low)
+    white = cv2.warpAffine(eye.white, place, shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    along = place[:, :2] @ (eye.ends[1] - eye.ends[0])
+    across = np.array([-along[1], along[0]])
+    shifted = place.copy()
+    shifted[:, 2] += look[0] * along + look[1] * across
+    iris = cv2.warpAffine(eye.iris, shifted, shape[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    disk = cv2.warpAffine(eye.iris_alpha, shifted, shape[::-1], flags=cv2.INTER_LINEAR)[..., None]
+    ball = white + disk * (iris - white)
+    below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
+    alpha = cover[..., None].astype(np.float32) / 255
+    frame[low[1] : high[1], low[0] : high[0]] = np.clip(below + alpha * (ball - below) + 0.5, 0, 255).astype(np.uint8)
+
+
+def _place(eye: Eyeball, ends: NDArray[np.floating], low: NDArray[np.int64]) -> NDArray[np.float64]:
+    """(2, 3) from the layer's pixels to those of the box at `low`: the similarity of the eye's corners."""
+    before, after = (eye.ends[1] - eye.ends[0]).astype(float), (ends[1] - ends[0]).astype(float)
+    norm = float(before @ before)
+    c, s = float(before @ after) / norm, float(before[0] * after[1] - before[1] * after[0]) / norm
+    linear = np.array([[c, -s], [s, c]])
+    shift = ends.mean(axis=0) - low - linear @ (eye.ends.mean(axis=0) - eye.corner)
+    return np.column_stack([linear, shift])

@@ -1,0 +1,203 @@
+"""Creases and wrinkles: expression ratio images, refined (section 6; Liu et al. 2001).
+
+All ratio images live on the driver's neutral face: every frame is warped onto it, so that pixels correspond
+over time, and one fixed map carries the ratios on to the target. There they shade the still picture before
+it is warped, which is the same as shading the warped frame by the warped ratio.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from engine.imaging.mesh_warp import inverse_map
+from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
+from engine.portrait.alignment import fit_similarity
+from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.outliers import Outliers, find_outliers
+
+BRIGHTENING = 0.01
+"""Section 6: ratios above one are tuned down by this factor."""
+WINDOW = 21
+"""Section 6: frames of the temporal Gaussian."""
+DARKEST = 0.55
+"""No crease darkens by more: a lower ratio is a shadow or a misfit."""
+FLOOR = 12.0
+"""Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
+BLUR = 1.2
+"""Pixels of the driver's crop: finer structure is noise of the video."""
+UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
+"""Eye distance in the crop, pixels. The paper's pixel distances are meant for faces of about this size."""
+
+
+@dataclass(frozen=True)
+class DetailMap:
+    """Where ratios land on the target.
+
+    box : x0, y0, x1, y1 of the face in the target. origin : (h, w, 2) the place on the driver's neutral crop
+    for each of its pixels. weight : (h, w) [0, 1], the face's region without eyes and mouth, feathered.
+    """
+
+    box: tuple[int, int, int, int]
+    origin: NDArray[np.float32]
+    weight: NDArray[np.float32]
+
+
+def luminance(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """f of equation 2: the luminance (H, W) float32, lightly smoothed."""
+    return cv2.GaussianBlur(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32), (0, 0), BLUR)
+
+
+def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+    """The face with its forehead, without hair: an ellipse on the chin's points, refined by GrabCut.
+
+    (H, W) float32 in [0, 1], feathered.
+    """
+    chin = fiducials(mesh[:, :2])[:17].astype(np.float32)
+    unit = float(eye_distance(mesh[:, :2]))
+    mirrored = 2 * mesh[168, :2] - chin  # the chin alone leaves the ellipse's top open
+    ellipse = cv2.fitEllipse(np.concatenate([chin, mirrored[4:13]]).astype(np.float32))
+    x0, y0 = np.maximum(np.floor(mesh[:, :2].min(axis=0) - unit), 0).astype(int)
+    x1, y1 = np.minimum(np.ceil(mesh[:, :2].max(axis=0) + unit), rgb.shape[1::-1]).astype(int)
+    scale = min(1.0, 60.0 / unit)
+    patch = cv2.resize(rgb[y0:y1, x0:x1], None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    centre = ((ellipse[0][0] - x0) * scale, (ellipse[0][1] - y0) * scale)
+    axes = (ellipse[1][0] * scale, ellipse[1][1] * scale)
+    probable, sure = np.zeros(patch.shape[:2], np.uint8), np.zeros(patch.shape[:2], np.uint8)
+    cv2.ellipse(probable, (centre, axes, ellipse[2]), 1, -1)
+    oval = ((mesh[list(FACE_OVAL), :2] - (x0, y0)) * scale).round().astype(np.int32)
+    cv2.fillPoly(sure, [oval], 1)
+    middle = cv2.erode(sure, np.ones((9, 9), np.uint8))
+    labels = np.where(probable | sure, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
+    labels[middle > 0] = cv2.GC_FGD
+    cv2.grabCut(patch, labels, None, np.zeros((1, 65)), np.zeros((1, 65)), 3, cv2.GC_INIT_WITH_MASK)
+    inside = ((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.float32)
+    inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((5, 5))), (0, 0), 3)
+    region = np.zeros(rgb.shape[:2], np.float32)
+    region[y0:y1, x0:x1] = cv2.resize(inside, (x1 - x0, y1 - y0), interpolation=cv2.INTER_LINEAR)
+    return region
+
+
+def build_detail_map(
+    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], neutral_mesh: NDArray[np.floating]
+) -> DetailMap:
+    """Where the driver's neutral crop, with its face at `neutral_mesh` (478, 2), lands on the target."""
+    plane = mesh[:468, :2].astype(np.float32)
+    x0, y0 = np.maximum(np.floor(plane.min(axis=0)), 0).astype(int)
+    x1, y1 = np.minimum(np.ceil(plane.max(axis=0)) + 1, rgb.shape[1::-1]).astype(int)
+    corner = np.array([x0, y0], np.float32)
+    triangles = Delaunay(plane).simplices.astype(np.int32)
+    origin = inverse_map(plane - corner, neutral_mesh[:468].astype(np.float32), triangles, (y1 - y0, x1 - x0))
+    weight = face_region(rgb, mesh)[y0:y1, x0:x1] * (origin[..., 0] > -1000)
+    weight *= 1 - _openings(plane - corner, weight.shape, 0.06 * float(eye_distance(mesh[:, :2])))
+    unit = float(eye_distance(mesh[:, :2]))
+    inside = cv2.copyMakeBorder((weight > 0.5).astype(np.uint8), 1, 1, 1, 1, cv2.BORDER_CONSTANT)
+    ramp = np.clip(cv2.distanceTransform(inside, cv2.DIST_L2, 3)[1:-1, 1:-1] / (0.15 * unit), 0, 1)
+    return DetailMap((int(x0), int(y0), int(x1), int(y1)), origin, (weight * ramp).astype(np.float32))
+
+
+def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -> NDArray[np.float32]:
+    """Eyes and mouth, where the layers of their own rule: (H, W) float32."""
+    mask = np.zeros(shape, np.float32)
+    for contour in (RIGHT_EYE, LEFT_EYE, LIPS_INNER):
+        cv2.fillPoly(mask, [mesh[list(contour)].round().astype(np.int32)], 1.0)
+    size = 2 * max(1, round(grow)) + 1
+    return cv2.GaussianBlur(cv2.dilate(mask, np.ones((size, size), np.uint8)), (0, 0), max(grow / 2, 0.8))
+
+
+class RatioImages:
+    """The refined ratio images of a driver, in order, on its neutral crop."""
+
+    def __init__(self, track: DriverTrack, neutral: int, outliers: bool = True, refined: bool = True):
+        self._track = track
+        self._rest = track.in_crop(neutral)[:468]
+        self._triangles = Delaunay(self._rest).simplices.astype(np.int32)
+        self._neutral = luminance(track.crop(neutral))
+        self._refined = refined
+        self.outliers: Outliers | None = None
+        if outliers:
+            reference = most_expressive(track, neutral)
+            ratio, origin = self._ratio(reference)
+            self.outliers = find_outliers(ratio, origin, track, neutral, reference)
+
+    def __iter__(self) -> Iterator[NDArray[np.float32]]:
+        """One (*CROP,) float32 for each frame: 1 changes nothing."""
+        half = WINDOW // 2
+        kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / (half / 3)) ** 2).astype(np.float32)
+        window: deque[NDArray[np.float32]] = deque(maxlen=WINDOW)
+        count = len(self._track)
+        for index in range(-half, count):
+            ahead = index + half
+            if ahead == 0:
+                window.extend([self.single(0)] * (half + 1))
+            elif ahead > 0:
+                window.append(self.single(ahead) if ahead < count else window[-1])
+            if index >= 0:
+                yield _weighted_sum(tuple(window), kernel / kernel.sum())
+
+    def single(self, frame: int) -> NDArray[np.float32]:
+        """One frame's ratio image without the temporal filter."""
+        ratio, origin = self._ratio(frame)
+        if not self._refined:
+            return ratio
+        if self.outliers is not None:
+            ratio = 1 + self.outliers.keep(origin, frame) * (ratio - 1)
+        return _damped(ratio)
+
+    def _ratio(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Equation 2 on the neutral crop, and where each of its pixels lies in the frame's crop."""
+        mesh = self._track.in_crop(frame)[:468]
+        origin = inverse_map(self._rest, mesh, self._triangles, CROP)
+        light = luminance(self._track.crop(frame))
+        aligned = cv2.remap(light, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        ratio = (aligned + FLOOR) / (self._neutral + FLOOR)
+        return np.where(origin[..., 0] > -1000, ratio, 1).astype(np.float32), origin
+
+
+def most_expressive(track: DriverTrack, neutral: int) -> int:
+    """s_ref: the frame whose fiducials are furthest from the neutral's after a similarity (section 6)."""
+    rest = fiducials(track.meshes[neutral, :, :2]).astype(float)
+    points = fiducials(track.meshes[..., :2]).astype(float)
+    far = [np.linalg.norm(fit_similarity(rest, p)(rest) - p, axis=1).mean() / eye_distance(m[:, :2])
+           for p, m in zip(points, track.meshes, strict=True)]  # fmt: skip
+    return int(np.argmax(np.where(track.found, far, -1)))
+
+
+def shade(person: NDArray[np.uint8], details: DetailMap, ratio: NDArray[np.float32]) -> None:
+    """Equation 3: multiply the target's face (H, W, 4), in place, by the ratio where its region allows."""
+    x0, y0, x1, y1 = details.box
+    landed = cv2.remap(
+        ratio, details.origin[..., 0], details.origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+    )
+    _multiply(person[y0:y1, x0:x1], landed, details.weight)
+
+
+@numba.njit(cache=True, parallel=True, fastmath=True)
+def _multiply(rgba, ratio, weight):  # type: ignore[no-untyped-def]
+    for y in numba.prange(rgba.shape[0]):
+        for x in range(rgba.shape[1]):
+            w = weight[y, x]
+            if w > 0:
+                factor = 1 + w * (ratio[y, x] - 1)
+                for k in range(3):
+                    rgba[y, x, k] = np.uint8(min(255.0, rgba[y, x, k] * factor + 0.5))
+
+
+def _damped(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Section 6, "robustness to saturation": for R > 1, 1 + 0.01 (R - 1)."""
+    return np.where(ratio > 1, 1 + BRIGHTENING * (ratio - 1), np.maximum(ratio, DARKEST)).astype(np.float32)
+
+
+def _weighted_sum(images: tuple[NDArray[np.float32], ...], weights: NDArray[np.float32]) -> NDArray[np.float32]:
+    out = np.zeros_like(images[0])
+    for image, weight in zip(images, weights, strict=True):
+        if weight > 1e-3:
+            cv2.scaleAdd(image, float(weight), out, out)
+    return out

@@ -1,0 +1,148 @@
+"""The inside of the mouth, which the target does not show, from the driver (section 5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.poisson import membrane
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+
+EROSION = 0.1
+"""Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
+APPEARS, WHOLE = 1.0, 2.0
+"""Section 5: the inside appears between once and twice the neutral mouth's own inner area."""
+LEAST_AREA = 0.012
+"""Floor of the neutral inner area, in squares of the mouth's width: a closed mouth has almost none."""
+
+_UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
+_LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
+
+
+@dataclass(frozen=True)
+class MouthPalette:
+    """How the driver's colours become the target's: `gain` (3,) for the light, `chroma` for the palette
+    (0 for a picture in black and white); `area` the neutral mouth's inner area, px^2; `height` of its lips."""
+
+    gain: NDArray[np.float32]
+    chroma: float
+    area: float
+    height: float
+
+
+def mouth_triangles() -> NDArray[np.int32]:
+    """Triangles over the 40 lip vertices, outer contour first: the lips' ring and a strip across the opening."""
+    outer, inner = np.arange(20), np.arange(20, 40)
+    ring = []
+    for k in range(20):
+        n = (k + 1) % 20
+        ring += [(outer[k], outer[n], inner[k]), (outer[n], inner[n], inner[k])]
+    place = {v: 20 + i for i, v in enumerate(LIPS_INNER)}
+    strip = []
+    for k in range(len(_UPPER) - 1):
+        a, b, c, d = (place[v] for v in (_UPPER[k], _UPPER[k + 1], _LOWER[k], _LOWER[k + 1]))
+        strip += [(a, b, c), (b, d, c)]
+    return np.array(ring + strip, np.int32)
+
+
+def match_palette(
+    target: NDArray[np.uint8], mesh: NDArray[np.floating], crop: NDArray[np.uint8], crop_mesh: NDArray[np.floating]
+) -> MouthPalette:
+    """Compare the two faces' skin around the mouth: light by its mean, palette by its saturation.
+
+    Parameters
+    ----------
+    target : (H, W, 3) with `mesh` (478, 2 or 3); crop : the driver's neutral frame with `crop_mesh` (478, 2).
+    """
+    a, b = _skin(target, mesh), _skin(crop, crop_mesh)
+    gain = (a.mean(axis=0) + 4) / (b.mean(axis=0) + 4)
+    chroma = float(np.clip((_saturation(a) + 0.5) / (_saturation(b) + 0.5), 0, 1.25))
+    inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
+    outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
+    width = float(np.linalg.norm(mesh[61, :2] - mesh[291, :2]))
+    area = max(float(cv2.contourArea(inner)), LEAST_AREA * width**2)
+    return MouthPalette(gain.astype(np.float32), chroma, area, float(np.ptp(outer[:, 1])))
+
+
+def transfer_mouth(
+    frame: NDArray[np.uint8],
+    mesh: NDArray[np.floating],
+    crop: NDArray[np.uint8],
+    crop_mesh: NDArray[np.floating],
+    palette: MouthPalette,
+) -> None:
+    """Put the driver's mouth interior into a frame of the target, in place.
+
+    Parameters
+    ----------
+    frame : (H, W, 3) the warped target, with its face at `mesh` (478, 2).
+    crop : the driver's frame, with its face at `crop_mesh` (478, 2).
+    """
+    inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
+    blend = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
+    if blend <= 0:
+        return
+    outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
+    box = _box(outer, frame.shape[:2])
+    if box is None:
+        return
+    x0, y0, x1, y1 = box
+    corner = np.array([x0, y0], np.float32)
+    lips = np.concatenate([outer, inner]) - corner
+    source = crop_mesh[list(LIPS_OUTER + LIPS_INNER)].astype(np.float32)
+    origin = inverse_map(lips, source, mouth_triangles(), (y1 - y0, x1 - x0), outside=-1.0)
+    aligned = cv2.remap(crop, origin[..., 0], origin[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+    mouth = relight(aligned, palette)
+    below = frame[y0:y1, x0:x1].astype(np.float32)
+    mask = _eroded(outer - corner, (y1 - y0, x1 - x0), EROSION * palette.height)
+    opening = _soft_polygon(inner - corner, (y1 - y0, x1 - x0))
+    if mask.sum() > 9:
+        mouth = mouth + membrane(below - mouth, mask)
+    alpha = (min(blend, 1.0) * opening * mask)[..., None]
+    frame[y0:y1, x0:x1] = np.clip(below + alpha * (mouth - below) + 0.5, 0, 255).astype(np.uint8)
+
+
+def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32]:
+    """The driver's colours in the target's light and palette, float32."""
+    lit = rgb.astype(np.float32) * palette.gain
+    grey = lit @ np.array([0.299, 0.587, 0.114], np.float32)
+    return np.asarray(grey[..., None] + palette.chroma * (lit - grey[..., None]), np.float32)
+
+
+def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Colours (P, 3) of the cheeks beside the mouth, where neither beard nor lips are likely."""
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    for cheek in ((116, 117, 118, 100, 126, 203, 206, 205, 50), (345, 346, 347, 329, 355, 423, 426, 425, 280)):
+        cv2.fillConvexPoly(mask, cv2.convexHull(mesh[list(cheek), :2].round().astype(np.int32)), 1)
+    return rgb[mask > 0].astype(np.float32) if mask.any() else rgb.reshape(-1, 3).astype(np.float32)
+
+
+def _saturation(colours: NDArray[np.float32]) -> float:
+    return float(np.median(colours.max(axis=1) - colours.min(axis=1)))
+
+
+def _box(points: NDArray[np.float32], shape: tuple[int, int]) -> tuple[int, int, int, int] | None:
+    low, high = np.floor(points.min(axis=0)).astype(int) - 2, np.ceil(points.max(axis=0)).astype(int) + 3
+    x0, y0 = np.maximum(low, 0)
+    x1, y1 = min(int(high[0]), shape[1]), min(int(high[1]), shape[0])
+    return (int(x0), int(y0), x1, y1) if x1 - x0 > 4 and y1 - y0 > 4 else None
+
+
+def _soft_polygon(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Coverage [0, 1] of a polygon, anti-aliased."""
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(points * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    return mask.astype(np.float32) / 255
+
+
+def _eroded(points: NDArray[np.float32], shape: tuple[int, int], radius: float) -> NDArray[np.bool_]:
+    mask = np.zeros(shape, np.uint8)
+    cv2.fillPoly(mask, [np.round(points).astype(np.int32)], 1)
+    mask[[0, -1]] = 0
+    mask[:, [0, -1]] = 0
+    size = 2 * max(1, round(radius)) + 1
+    return np.asarray(cv2.erode(mask, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))) > 0)

@@ -1,0 +1,72 @@
+"""Lids and lips as pairs that meet: closed on the driver is closed on the target.
+
+Offsets carried between two faces leave gaps: a lid that closes on a small eye stops short on a large one.
+So the gap between facing vertices is carried as a ratio for lids, and kept from turning inside out for lips.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+LIDS = (
+    *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
+    *((466, 249), (388, 390), (387, 373), (386, 374), (385, 380), (384, 381), (398, 382)),
+)
+"""Facing vertices (upper, lower) of the lids' edges, right eye first."""
+LID_SKIN = (
+    *((247, 246), (30, 161), (29, 160), (27, 159), (28, 158), (56, 157), (190, 173)),
+    *((467, 466), (260, 388), (259, 387), (257, 386), (258, 385), (286, 384), (414, 398)),
+)
+"""Vertices of the skin above the upper lid, each with the edge vertex that it follows half-way."""
+LIPS = ((191, 95), (80, 88), (81, 178), (82, 87), (13, 14), (312, 317), (311, 402), (310, 318), (415, 324))
+"""Facing vertices (upper, lower) of the inner lips."""
+CLOSED, OPEN = 0.3, 0.6
+"""Below this share of its usual gap an eye counts as shut; above the other its gap is carried as it is."""
+WIDEST = 1.5
+"""An eye opens at most to this multiple of its gap in the picture."""
+
+
+def lid_ratio(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
+    gap of zero, so that ratios under `CLOSED` become 0."""
+    upper, lower = np.array(LIDS).T
+    gap = np.linalg.norm(meshes[:, upper] - meshes[:, lower], axis=-1)
+    rest = np.linalg.norm(neutral[upper] - neutral[lower], axis=-1)
+    # an eye is judged as a whole by its middle, so that the corners do not flutter
+    ratio = gap / np.maximum(rest, 1e-6)
+    middle = np.repeat(np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
+    shut = np.clip((middle - CLOSED) / (OPEN - CLOSED), 0, 1)
+    return np.asarray(np.clip(ratio, 0, WIDEST) * (shut * shut * (3 - 2 * shut)), float)
+
+
+def meet(
+    positions: NDArray[np.floating], target: NDArray[np.floating], ratio: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """Put lids and lips where they belong.
+
+    Parameters
+    ----------
+    positions : (N, 478, 3) the target's mesh with the expression on, before the head moves, pixels.
+    target : (478, 3) its mesh at rest. ratio : (N, 14) from `lid_ratio`, 1 at rest.
+
+    Returns
+    -------
+    (N, 478, 3).
+    """
+    out = positions.astype(float)
+    upper, lower = np.array(LIDS).T
+    wanted = out[:, lower] + ratio[..., None] * (target[upper] - target[lower])
+    moved = wanted - out[:, upper]
+    out[:, upper] = wanted
+    skin, edge = np.array(LID_SKIN).T
+    index = {int(v): i for i, v in enumerate(upper)}
+    out[:, skin] += 0.5 * moved[:, [index[int(v)] for v in edge]]
+    top, bottom = np.array(LIPS).T
+    down = target[152] - target[10]
+    down = down / np.linalg.norm(down)
+    gap = (out[:, bottom] - out[:, top]) @ down
+    overlap = np.maximum(-gap, 0)[..., None] * down / 2
+    out[:, top] -= overlap
+    out[:, bottom] += overlap
+    return out
