@@ -95,7 +95,6 @@ export const getJob = (id: string, signal?: AbortSignal): Promise<Job> => get(jo
 /** Where a job's events come from: all of them, or those after one that was seen. */
 export const eventsUrl = (id: string, after: string): string =>
   `${jobPath(id)}/events${after && `?after=${encodeURIComponent(after)}`}`;
-export const archiveUrl = (id: string): string => `${jobPath(id)}/archive`;
 
 export async function cancelJob(id: string): Promise<void> {
   await request(`${jobPath(id)}/cancel`, { method: 'POST' });

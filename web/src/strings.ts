@@ -80,8 +80,6 @@ export const strings = {
     driverUnplayable: 'This browser cannot play the performance’s video format. The result is not affected.',
     driverGone: 'The performance’s video is no longer kept.',
     download: 'Download video',
-    archive: 'All files (zip)',
-    report: 'Report',
     warnings: 'Good to know',
     took: (duration: string) => `Made in ${duration}.`,
     notFound: 'There is no such job',
@@ -89,7 +87,7 @@ export const strings = {
     canceled: 'Canceled',
     canceledDetail: 'This job was stopped before it was done. Nothing of it runs any more.',
     otherKind: 'This page shows portraits. The files of this job can be downloaded here.',
-    files: 'Files',
+    files: 'All files',
   },
 
   player: {

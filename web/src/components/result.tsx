@@ -1,6 +1,6 @@
 /** A finished job: its video beside the performance, downloads, and what the run has to say. */
 
-import { archiveUrl, type Artifact, getReport, type Job } from '../api';
+import { type Artifact, getReport, type Job } from '../api';
 import { duration, size } from '../format';
 import { useLoaded } from '../loading';
 import { performanceUrl } from '../names';
@@ -23,21 +23,14 @@ export function Result({ job }: { job: Job }) {
 
   return (
     <div class="result">
-      {found ? <Animation job={job} artifact={found[1]} /> : <Files job={job} />}
+      {found ? <Animation job={job} artifact={found[1]} /> : <p>{words.otherKind}</p>}
       <div class="actions">
         {found && (
           <a class="button primary" href={found[1].url} download={found[0]}>
             {words.download} <small>{size(found[1].size)}</small>
           </a>
         )}
-        <a class="button" href={archiveUrl(job.id)} download>
-          {words.archive}
-        </a>
-        {job.artifacts['report.json'] && (
-          <a class="button" href={job.artifacts['report.json'].url} target="_blank" rel="noopener">
-            {words.report}
-          </a>
-        )}
+        <Files job={job} open={!found} />
       </div>
       {warnings.length > 0 && (
         <section class="warnings" aria-label={words.warnings}>
@@ -77,12 +70,12 @@ function Animation({ job, artifact }: { job: Job; artifact: Artifact }) {
   );
 }
 
-/** For jobs whose result this page has no player for. */
-function Files({ job }: { job: Job }) {
+/** Everything that the run left, each to be saved by itself. */
+function Files({ job, open }: { job: Job; open: boolean }) {
   return (
-    <section class="files">
-      <p>{words.otherKind}</p>
-      <ul aria-label={words.files}>
+    <details class="files" open={open}>
+      <summary class="button">{words.files}</summary>
+      <ul>
         {Object.entries(job.artifacts).map(([name, artifact]) => (
           <li key={name}>
             <a href={artifact.url} download={name}>
@@ -92,6 +85,6 @@ function Files({ job }: { job: Job }) {
           </li>
         ))}
       </ul>
-    </section>
+    </details>
   );
 }
