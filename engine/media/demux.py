@@ -137,8 +137,23 @@ def timetable_of(container: InputContainer, stream: VideoStream, header: Header,
     shown = without_echoes(np.array(times))
     # A stream without a length of its own is measured by the container's, which is that of its longest stream.
     reached = (end if stream.duration else max(end, any_end)) - earliest
-    cut = cut or reached < header.seconds - max(0.5, 3 * step) or len(times) < header.frames - 3
+    cut = (
+        cut
+        or _lacks_trailer(container)
+        or reached < header.seconds - max(0.5, 3 * step)
+        or len(times) < header.frames - 3
+    )
     return Timetable(shown, max(float(end - shown[-1]), 1e-3), bool(cut))
+
+
+def _lacks_trailer(container: InputContainer) -> bool:
+    """Whether the file does not end as its format must, for the formats that state no length."""
+    ends = {"gif": b"\x3b", "apng": b"IEND\xaeB`\x82"}.get(container.format.name)
+    if ends is None:
+        return False
+    with Path(container.name).open("rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 64))
+        return not file.read().rstrip(b"\0\r\n ").endswith(ends)
 
 
 def _seconds(packet: av.Packet) -> tuple[float | None, float]:

@@ -15,12 +15,14 @@ _USUAL_RATES = (5, 6, 8, 10, 12, 15, 20, 24, 25, 30, 48, 50, 60)
 _JITTER = 0.35
 """Of a frame: timestamps this near to an even grid are a constant rate. Files round them to milliseconds (Matroska) or
 hundredths (GIF), phones let them tremble a little; at half a frame the place on the grid would be ambiguous."""
+_HOLES = 0.1
+"""Share of frames that may be missing on the grid (dropped by the camera, lost with a broken tail)."""
 
 
 @dataclass(frozen=True)
 class Rate:
-    """Frames a second of a clip; where they are `constant`, the k-th frame is on show from about `phase + k / fps`
-    seconds after the first timestamp; else `fps` is a usual rate that hardly loses a frame."""
+    """Frames a second of a clip. Where they are `constant`, the frames lie on a grid, `phase + k / fps` seconds after
+    the first timestamp (a few may be missing); else `fps` is a usual rate that hardly loses a frame."""
 
     fps: float
     phase: float
@@ -36,14 +38,16 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
     stated : rates that the file's header claims; the first one that the timestamps keep to is taken, else the rate of
         the straight line through them.
     """
-    places = np.arange(len(times))
-    slope = float(np.polyfit(places, times, 1)[0])
+    count = len(times)
+    slope = float(np.polyfit(np.arange(count), times, 1)[0])
     for fps in (*stated, 1 / slope):
-        offsets = (times - times[0]) * fps - places
-        middle = (offsets.max() + offsets.min()) / 2
-        if np.ptp(offsets) / 2 < _JITTER:
-            return Rate(float(fps), float(middle / fps), True)
-    mean = (len(times) - 1) / float(times[-1] - times[0])
+        even = (times - times[0]) * fps
+        with_holes = np.round(even)
+        for places in (np.arange(count), with_holes):
+            offsets = even - places
+            if np.ptp(offsets) / 2 < _JITTER and np.diff(places).min() >= 1 and places[-1] < count * (1 + _HOLES):
+                return Rate(float(fps), float((offsets.max() + offsets.min()) / 2 / fps), True)
+    mean = (count - 1) / float(times[-1] - times[0])
     return Rate(float(next((rate for rate in _USUAL_RATES if rate >= 0.97 * mean), _USUAL_RATES[-1])), 0.0, False)
 
 

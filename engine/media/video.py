@@ -63,7 +63,8 @@ def probe_video(path: Path, limits: Limits | None = None) -> VideoInfo:
         width=width,
         height=height,
         fps=clip.rate.fps,
-        frames=len(clip.timetable.times) if clip.rate.constant else round(seconds * clip.rate.fps),
+        frames=round((seconds - (clip.timetable.last if clip.rate.constant else 0)) * clip.rate.fps)
+        + clip.rate.constant,
         seconds=seconds,
         has_sound=clip.header.has_sound,
         variable_rate=not clip.rate.constant,

@@ -45,10 +45,8 @@ def planar(matrix: int, full: bool, bits: int, layout: str) -> Callable[[np.ndar
         y = red * r + (1 - red - blue) * g + blue * b
         cb, cr = (b - y) / (2 - 2 * blue), (r - y) / (2 - 2 * red)
         unit = 2 ** (bits - 8)
-        if full:
-            codes = [y * 255, cb * 255 + 128, cr * 255 + 128]
-        else:
-            codes = [y * 219 + 16, cb * 224 + 128, cr * 224 + 128]
+        scales, base = ((255, 255, 255), 0) if full else ((219, 224, 224), 16)
+        codes = [y * scales[0] + base, cb * scales[1] + 128, cr * scales[2] + 128]
         kind = np.uint8 if bits == 8 else np.uint16
         step = 1 if "444" in layout else 2
         planes = [codes[0], codes[1][::step, ::step], codes[2][::step, ::step]]
@@ -138,7 +136,9 @@ def test_hdr_keeps_faces_and_rolls_off_highlights(tmp_path: Path, name: str, cod
         [encode(in_bt2020(linear))] * 2,
         codec=codec,
         layout="yuv420p10le",
-        options={"crf": "2", "x265-params": "log-level=error"} if codec == "libx265" else {"crf": "4", "preset": "8"},
+        options={"crf": "2", "x265-params": "log-level=error:frame-threads=1:bframes=0"}
+        if codec == "libx265"
+        else {"crf": "4", "preset": "8"},
         dress=tagged(9, LIMITED, transfer, 9),
         convert=planar(BT2020, False, 10, "yuv420p10le"),
     )

@@ -41,6 +41,15 @@ def test_a_changing_rate_is_not_constant() -> None:
     assert not rate.constant and rate.fps == 24
 
 
+def test_a_grid_with_a_few_holes_is_constant() -> None:
+    times = np.delete(np.arange(60) / 30, [10, 40, 41])
+    rate = rate_of(times, [28.5])
+    assert rate_of(times, [30.0]).constant and rate_of(times, [30.0]).fps == 30
+    assert not rate.constant or rate.fps == pytest.approx(30, rel=0.01)
+    frames = resample(((time, time) for time in times), 30, 0.0, 1 / 30)
+    assert [shown for _, shown in frames][9:12] == [times[9], times[9], times[10]]
+
+
 def test_hidden_reference_frames_are_left_out() -> None:
     shown = np.arange(40) / 30
     packets = np.sort(np.concatenate([shown, shown[8::16] + 0.001]))
