@@ -31,7 +31,7 @@ class Context:
     def open(cls, settings: Settings) -> Context:
         """Open everything, making the data folder and the tables where they are not there yet."""
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
-        kinds = load_kinds(settings.extra_kinds)
+        kinds = load_kinds(settings.kinds)
         database = Database(settings.database)
         database.upgrade()
         return cls(settings, kinds, database, Storage(settings.data_dir / "storage"), Queue(settings, kinds))

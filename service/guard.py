@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from ipaddress import IPv4Network, IPv6Network, ip_address
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -66,12 +66,12 @@ class LoopbackGuard:
                     f"The request came through a proxy ({peer}) that is not listed in GALATEA_TRUSTED_PROXIES.",
                 )
             host = headers.get("x-forwarded-host", host).split(",")[0].strip()
-        elif not is_loopback(urlsplit(f"//{host}").hostname or ""):
+        elif not is_loopback(_parts(f"//{host}").hostname or ""):
             return Problem(
                 403, "host_not_allowed", "The service answers on loopback only: use http://127.0.0.1 or localhost."
             )
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+        if origin is not None and _parts(origin).netloc.lower() != host.lower():
             return Problem(403, "origin_not_allowed", "A web page of another origin may not use the service.")
         return None
 
@@ -81,3 +81,11 @@ class LoopbackGuard:
         except ValueError:
             return False
         return any(address in network for network in self.trusted_proxies)
+
+
+def _parts(url: str) -> SplitResult:
+    """The parts of an address; empty ones where it is none."""
+    try:
+        return urlsplit(url)
+    except ValueError:
+        return urlsplit("")

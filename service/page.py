@@ -23,6 +23,8 @@ class Page(StaticFiles):
         self._folder = folder
 
     async def get_response(self, path: str, scope: Scope) -> Response:
+        if scope["path"].startswith("/v1/"):
+            raise HTTPException(404)
         if not (self._folder / "index.html").is_file():
             if path == ".":
                 return HTMLResponse(NOT_BUILT)
@@ -30,7 +32,7 @@ class Page(StaticFiles):
         try:
             return await super().get_response(path, scope)
         except HTTPException as error:
-            if error.status_code != 404 or path.startswith("v1/") or PurePosixPath(path).suffix:
+            if error.status_code != 404 or PurePosixPath(path).suffix:
                 raise
             return await super().get_response("index.html", scope)
 

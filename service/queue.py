@@ -55,6 +55,10 @@ class Queue:
                 "socket_timeout": 10,
                 "socket_connect_timeout": 2,
                 "health_check_interval": 10,
+                # Sending does not wait for a Redis that is away: the sweep sends again.
+                "max_retries": 1,
+                "interval_start": 0,
+                "interval_step": 0.1,
             },
         )
 

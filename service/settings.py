@@ -58,8 +58,9 @@ class Settings(BaseSettings):
     child_memory_mb: float = Field(1500, gt=0, description="Memory kept between jobs above which it is replaced.")
     lease_seconds: float = Field(30, ge=2, description="How long a silent worker keeps its job.")
     sweep_seconds: float = Field(5, gt=0, description="How often lost messages and expired leases are looked for.")
-    extra_kinds: Annotated[list[str], NoDecode] = Field(
-        [], description="Job kinds of your own, `module:attribute`, separated by commas."
+    kinds: Annotated[list[str], NoDecode] = Field(
+        ["engine.kinds:KINDS"],
+        description="The job kinds on offer, `module:attribute` (a `Kind`, or a mapping of them), separated by commas.",
     )
 
     @field_validator("trusted_proxies", mode="before")
@@ -68,7 +69,7 @@ class Settings(BaseSettings):
         listed = _listed(value)
         return [ip_network(part, strict=False) for part in listed] if isinstance(listed, list) else listed
 
-    @field_validator("extra_kinds", mode="before")
+    @field_validator("kinds", mode="before")
     @classmethod
     def _names(cls, value: object) -> object:
         return _listed(value)

@@ -14,7 +14,7 @@ class Kinds(click.Group):
         from service.kinds.registry import load_kinds
         from service.settings import Settings
 
-        return [*super().list_commands(context), *sorted(load_kinds(Settings().extra_kinds))]
+        return [*super().list_commands(context), *sorted(load_kinds(Settings().kinds))]
 
     def get_command(self, context: click.Context, name: str) -> click.Command | None:
         fixed = super().get_command(context, name)
@@ -24,7 +24,7 @@ class Kinds(click.Group):
         from service.settings import Settings
         from shell.kind_command import kind_command
 
-        kind = load_kinds(Settings().extra_kinds).get(name)
+        kind = load_kinds(Settings().kinds).get(name)
         return kind_command(kind) if kind is not None else None
 
 

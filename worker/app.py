@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import socket
 import threading
+import warnings
 from typing import Any
 
 import structlog
 from celery import signals
+from celery.platforms import SecurityWarning
 
 from service.context import Context
 from service.jobs import leases, repository
@@ -18,6 +20,9 @@ from worker.attempt import Attempt
 from worker.children import WarmChildren
 from worker.housekeeping import keep_house
 from worker.sweep import sweep
+
+LONGEST_FAREWELL = 5.0
+"""Seconds in which running jobs are given back; then the worker ends, come what may."""
 
 
 class Worker:
@@ -49,19 +54,27 @@ class Worker:
     def run(self) -> None:
         """Work until SIGTERM or SIGINT; running jobs are given back to the queue then."""
         signals.worker_shutting_down.connect(self._stop, weak=False)
+        signals.setup_logging.connect(_leave_logging_alone, weak=False)
+        # Running as root is the operator's choice; what is warned of (pickled messages) is not accepted here.
+        warnings.simplefilter("ignore", SecurityWarning)
         for task in (self._sweep, self._keep_house):
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
         queues = [queue_name(kind) for kind in self.context.kinds]
         structlog.get_logger().info("worker_started", kinds=list(self.context.kinds), owner=self.owner)
         worker = self.context.queue.celery.Worker(
-            queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True, loglevel="WARNING"
+            queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True
         )
         worker.start()
         self._stop()
         self.children.close()
 
     def _stop(self, *_: Any, **__: Any) -> None:
-        self.stopping.set()
+        if not self.stopping.is_set():
+            self.stopping.set()
+            # Celery waits for a Redis that may be gone already. Nothing is lost by not waiting with it.
+            last = threading.Timer(LONGEST_FAREWELL, os._exit, [0])
+            last.daemon = True
+            last.start()
 
     def _sweep(self) -> None:
         while not self.stopping.wait(self.context.settings.sweep_seconds):
@@ -76,6 +89,10 @@ class Worker:
                 keep_house(self.context)
             except Exception:
                 structlog.get_logger().exception("housekeeping_failed")
+
+
+def _leave_logging_alone(**_: Any) -> None:
+    """Celery sets up its own logging unless somebody answers its signal."""
 
 
 def run(settings: Settings) -> None:

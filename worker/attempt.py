@@ -78,18 +78,21 @@ class Attempt:
             verdict = {"outcome": "crashed", "reason": str(lost)}
         except OSError as error:
             verdict = _unwritten(error)
-        alive = verdict["outcome"] == "succeeded"
-        if not alive:
+        except Exception:
+            log.exception("attempt_unwatched")
+            verdict = {"outcome": "crashed", "reason": "the worker met a fault of the program"}
+        clean = verdict.get("clean") is True
+        if not clean:
             tail = self._child.log_tail()
             self._child.kill()
             if verdict.get("code") == "internal_error" or verdict["outcome"] == "crashed":
-                log.error("attempt_broke", **verdict, printed=tail)
+                log.error("attempt_broke", verdict=verdict, printed=tail)
         try:
             verdict = self._conclude(verdict)
         finally:
             shutil.rmtree(self._folder, ignore_errors=True)
         log.info("attempt_ended", outcome=verdict["outcome"], code=verdict.get("code"))
-        return alive
+        return clean
 
     def _prepare(self) -> None:
         stages = self._context.settings.job_folder(self._job.id) / "stages"
@@ -200,16 +203,17 @@ class Attempt:
         except SQLAlchemyError:
             return  # the heartbeat decides how long that may last
         if not held:
-            self._let_stop()
-            raise Stop({"outcome": "lost"})
+            raise Stop({"outcome": "lost", "clean": self._let_stop()})
 
-    def _let_stop(self) -> None:
-        """Tell the process to stop and give it a moment to do so."""
+    def _let_stop(self) -> bool:
+        """Tell the process to stop and give it a moment to do so. Returns whether it did, and cleanly."""
         self._child.send({"command": "cancel"})
         deadline = time.monotonic() + GRACE_SECONDS
         while time.monotonic() < deadline:
-            if any(event["event"] == "end" for event in self._child.receive(TICK_SECONDS)):
-                return
+            for event in self._child.receive(TICK_SECONDS):
+                if event["event"] == "end":
+                    return event.get("clean") is True
+        return False
 
     def _conclude(self, verdict: dict[str, Any]) -> dict[str, Any]:
         """Make the attempt's end true in SQL."""

@@ -60,7 +60,8 @@ class ReportingStore(StageStore):
 
 
 def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, canceled: threading.Event) -> dict[str, Any]:
-    """Run one job. Returns how it ended: `{"outcome": "succeeded" | "canceled"}`, or `failed` with code and detail."""
+    """Run one job. Returns how it ended: `{"outcome": "succeeded" | "canceled"}`, or `failed` with code and detail;
+    `clean` where nothing unforeseen happened, so that this process can go on to the next job."""
     out, temporary = Path(job["out"]), Path(job["temporary"])
     os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
     os.chdir(temporary)
@@ -81,13 +82,13 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, cance
         inputs = {name: _local(source) for name, source in job["inputs"].items()}
         kind.work(inputs, kind.options.model_validate(job["options"]), out, run)
     except Canceled:
-        return {"outcome": "canceled"}
+        return {"outcome": "canceled", "clean": True}
     except InputError as error:
-        return failed(error.code, error.detail, error.correctable)
+        return failed(error.code, error.detail, error.correctable) | {"clean": True}
     except Exception as error:
         traceback.print_exc()
         return _unexpected(error)
-    return {"outcome": "succeeded"}
+    return {"outcome": "succeeded", "clean": True}
 
 
 def failed(code: str, detail: str, correctable: tuple[str, ...] = ()) -> dict[str, Any]:
@@ -125,7 +126,7 @@ def confine(memory_bytes: int, file_bytes: int) -> None:
 
 
 def main() -> None:
-    """`python -m worker.child PARENT_PID WIRE_FD MEMORY_BYTES FILE_BYTES [EXTRA_KIND...]`"""
+    """`python -m worker.child PARENT_PID WIRE_FD MEMORY_BYTES FILE_BYTES KIND...`"""
     parent, wire_fd, memory_bytes, file_bytes = map(int, sys.argv[1:5])
     die_with_parent(parent)
     confine(memory_bytes, file_bytes)
@@ -142,6 +143,7 @@ def main() -> None:
             if command["command"] == "cancel":
                 canceled.set()
             else:
+                canceled.clear()
                 jobs.put(command)
         os._exit(0)  # the worker is gone or wants no more of this process
 

@@ -32,6 +32,7 @@ class Child:
 
     def __init__(self, settings: Settings):
         self.jobs = 0
+        self._ended = False
         self._log = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115  (open as long as the process lives)
         read_end, write_end = os.pipe()
         try:
@@ -44,7 +45,7 @@ class Child:
                     str(write_end),
                     str(int(settings.job_memory_mb * MEGABYTE)),
                     str(int(settings.job_file_mb * MEGABYTE)),
-                    *settings.extra_kinds,
+                    *settings.kinds,
                 ],
                 stdin=subprocess.PIPE,
                 stdout=self._log,
@@ -120,7 +121,10 @@ class Child:
         return f"the job's process was ended by signal {-code}"
 
     def kill(self) -> None:
-        """End it and whatever it started, now."""
+        """End it and whatever it started, now; again is no error."""
+        if self._ended:
+            return
+        self._ended = True
         with suppress(ProcessLookupError):
             os.killpg(self.pid, SIGKILL)
         with suppress(OSError):

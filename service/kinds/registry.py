@@ -1,4 +1,4 @@
-"""The job kinds on offer: the engine's own and those that an operator adds (`GALATEA_EXTRA_KINDS`)."""
+"""The job kinds on offer: the engine's own, unless an operator chooses others or adds to them (`GALATEA_KINDS`)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,14 @@ from collections.abc import Mapping, Sequence
 from engine.kind import Kind
 
 
-def load_kinds(extra: Sequence[str] = ()) -> Mapping[str, Kind]:
-    """Kinds by name. `extra` are places of further ones, `module:attribute`."""
-    from engine.kinds import KINDS
-
-    kinds = dict(KINDS)
-    for place in extra:
+def load_kinds(places: Sequence[str]) -> Mapping[str, Kind]:
+    """Kinds by name, from places `module:attribute` that hold a `Kind` or a mapping of them."""
+    kinds: dict[str, Kind] = {}
+    for place in places:
         module, _, attribute = place.partition(":")
-        kind = getattr(importlib.import_module(module), attribute or "KIND")
-        if not isinstance(kind, Kind):
-            raise TypeError(f"GALATEA_EXTRA_KINDS: {place} is not an engine.kind.Kind")
-        kinds[kind.name] = kind
+        found = getattr(importlib.import_module(module), attribute or "KINDS")
+        for kind in [found] if isinstance(found, Kind) else list(found.values()):
+            if not isinstance(kind, Kind):
+                raise TypeError(f"GALATEA_KINDS: {place} holds something that is no engine.kind.Kind")
+            kinds[kind.name] = kind
     return kinds

@@ -1,0 +1,49 @@
+"""Services that run, and small inputs for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from running import Running
+
+
+@pytest.fixture(scope="session")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A service that several tests use, with small limits for what is uploaded."""
+    service = Running(tmp_path_factory.mktemp("data") / "data", image_mb=1, video_mb=2, job_memory_mb=1500)
+    yield service
+    service.stop()
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Callable[..., Running]]:
+    """`start(setting=value)` is a service for one test that may do to it what it likes."""
+    started: list[Running] = []
+
+    def begin(data_dir: Path = tmp_path / "data", **settings: Any) -> Running:
+        started.append(Running(data_dir, **{"lease_seconds": 3, "sweep_seconds": 0.5, **settings}))
+        return started[-1]
+
+    yield begin
+    for service in started:
+        service.stop()
+
+
+@pytest.fixture(scope="session")
+def picture() -> bytes:
+    """A small PNG file."""
+    file = BytesIO()
+    Image.fromarray(np.random.default_rng(7).integers(0, 256, (20, 30, 3), np.uint8)).save(file, "PNG")
+    return file.getvalue()
+
+
+@pytest.fixture(scope="session")
+def video() -> bytes:
+    """The first bytes of an MP4 file: enough for the door, which decodes nothing."""
+    return b"\x00\x00\x00\x18ftypisom\x00\x00\x02\x00isomiso2" + bytes(5000)

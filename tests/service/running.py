@@ -1,0 +1,100 @@
+"""A real `galatea serve` for tests: own process, free loopback port, own data folder, embedded Redis, one worker."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import psutil
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent.parent
+
+
+class Running:
+    """A service that runs."""
+
+    def __init__(self, data_dir: Path, **settings: Any):
+        self.data_dir = data_dir
+        self.settings = settings
+        self.output = data_dir.with_name(data_dir.name + ".log")
+        self.start()
+
+    def start(self) -> None:
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+        environment |= {
+            "GALATEA_DATA_DIR": str(self.data_dir),
+            "GALATEA_KINDS": "tiny_kind:KIND",
+            "GALATEA_DISK_RESERVE_MB": "1",
+            "PYTHONPATH": os.pathsep.join([str(HERE), str(ROOT)]),
+            **{f"GALATEA_{name.upper()}": str(value) for name, value in self.settings.items()},
+        }
+        with self.output.open("wb") as output:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "shell.main", "serve", "--port", "0"],
+                env=environment,
+                stdout=output,
+                stderr=output,
+                cwd=self.output.parent,
+            )
+        self.client = httpx.Client(base_url=self._address(), timeout=60)
+        eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
+
+    def _address(self) -> str:
+        for _ in range(600):
+            found = re.search(r"Galatea serves at (http://\S+)/", self.output.read_text())
+            if found:
+                return found[1]
+            assert self.process.poll() is None, self.output.read_text()
+            time.sleep(0.05)
+        raise AssertionError(self.output.read_text())
+
+    def stop(self) -> None:
+        self.client.close()
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+            self.process.wait(30)
+
+    def processes(self, part: str) -> list[psutil.Process]:
+        """The processes under the service whose command line contains `part`."""
+        found = []
+        for process in psutil.Process(self.process.pid).children(recursive=True):
+            try:
+                if part in " ".join(process.cmdline()) and process.status() != psutil.STATUS_ZOMBIE:
+                    found.append(process)
+            except psutil.NoSuchProcess:
+                continue
+        return found
+
+    def submit(self, picture: bytes, **options: Any) -> dict[str, Any]:
+        """Upload a picture and submit a tiny job with these options; the job."""
+        file = self.client.post("/v1/files", files={"file": ("picture.png", picture)}).raise_for_status().json()
+        job = {"kind": "tiny", "inputs": {"image": file["id"]}, "options": options}
+        return self.client.post("/v1/jobs", json=job).raise_for_status().json()
+
+    def job(self, job_id: str) -> dict[str, Any]:
+        return self.client.get(f"/v1/jobs/{job_id}").raise_for_status().json()
+
+    def until(self, job_id: str, *statuses: str, seconds: float = 60) -> dict[str, Any]:
+        """Wait until the job has one of these statuses; the job."""
+        eventually(lambda: self.job(job_id)["status"] in statuses, f"the job is {statuses}", seconds)
+        return self.job(job_id)
+
+    def until_at_rest(self, job_id: str) -> None:
+        """Wait until the job is in its long stage."""
+        eventually(lambda: self.job(job_id)["progress"]["stage"] == "rest", "the job rests")
+
+
+def eventually(true: Callable[[], bool], what: str, seconds: float = 60) -> None:
+    deadline = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < deadline, f"not within {seconds} s: {what}"
+        time.sleep(0.05)

@@ -1,0 +1,109 @@
+"""Nothing is lost: processes are killed at bad moments, and every accepted job ends as it should, once."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable
+
+import psutil
+import pytest
+import redis
+from running import Running, eventually
+
+from service.redis_server import socket_path
+
+Start = Callable[..., Running]
+
+
+def attempts(running: Running, job_id: str) -> int:
+    with running.client.stream("GET", f"/v1/jobs/{job_id}/events") as events:
+        return events.read().decode().count('{"status": "running"}')
+
+
+def test_a_worker_killed_in_mid_job_finishes_it_later_once(start: Start, picture: bytes) -> None:
+    running = start()
+    job = running.submit(picture, seconds=4)
+    running.until_at_rest(job["id"])
+    (worker,) = running.processes("shell.main worker")
+    children = running.processes("worker.child")
+    worker.kill()
+    eventually(lambda: not any(child.is_running() for child in children), "its processes went with it", seconds=5)
+    done = running.until(job["id"], "succeeded")
+    report = running.client.get(done["artifacts"]["report.json"]["url"]).json()
+    assert report["quality"]["reused"] == 1, "the stage that was stored was not done again"
+    assert attempts(running, job["id"]) == 2
+    with running.client.stream("GET", f"/v1/jobs/{job['id']}/events") as events:
+        assert events.read().decode().count('{"status": "succeeded"}') == 1
+
+
+def test_a_jobs_process_killed_in_mid_job_is_replaced_at_once(start: Start, picture: bytes) -> None:
+    running = start(lease_seconds=60)
+    job = running.submit(picture, seconds=3)
+    running.until_at_rest(job["id"])
+    running.processes("worker.child")[0].kill()
+    running.until(job["id"], "succeeded", seconds=40)
+    assert attempts(running, job["id"]) == 2
+
+
+@pytest.mark.parametrize("crash", ["segv", "exit"])
+def test_a_process_that_dies_once_is_forgiven_and_three_times_is_not(start: Start, picture: bytes, crash: str) -> None:
+    running = start()
+    assert (
+        running.until(running.submit(picture, crash=crash, crash_once=True)["id"], "succeeded", "failed")["status"]
+        == "succeeded"
+    )
+    job = running.submit(picture, crash=crash)
+    failed = running.until(job["id"], "failed", "succeeded", seconds=90)
+    assert failed["error"]["code"] == "attempts_exhausted"
+    # The first attempt stored a stage and so was not in vain; three more did not.
+    assert attempts(running, job["id"]) == 4
+    assert running.until(running.submit(picture)["id"], "succeeded")
+
+
+def test_redis_killed_and_restarted_loses_nothing(start: Start, picture: bytes) -> None:
+    running = start()
+    jobs = [running.submit(picture, seconds=1)["id"] for _ in range(3)]
+    (server,) = running.processes("redis-server")
+    server.kill()
+    jobs.append(running.submit(picture)["id"])
+    for job in jobs:
+        running.until(job, "succeeded", seconds=90)
+        assert attempts(running, job) == 1
+    eventually(lambda: running.client.get("/readyz").status_code == 200, "Redis is back")
+
+
+def test_redis_emptied_loses_nothing(start: Start, picture: bytes) -> None:
+    running = start()
+    jobs = [running.submit(picture, seconds=1)["id"] for _ in range(3)]
+    client = redis.Redis(unix_socket_path=str(socket_path(running.data_dir)))
+    client.flushall()
+    client.close()
+    jobs.append(running.submit(picture)["id"])
+    for job in jobs:
+        running.until(job, "succeeded", seconds=90)
+        assert attempts(running, job) == 1
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_the_service_ends_with_all_its_processes_and_takes_up_its_jobs_again(
+    start: Start, picture: bytes, number: signal.Signals
+) -> None:
+    running = start()
+    job = running.submit(picture, seconds=3)
+    waiting = running.submit(picture)
+    running.until_at_rest(job["id"])
+    processes = psutil.Process(running.process.pid).children(recursive=True)
+    assert len(processes) >= 3
+    running.process.send_signal(number)
+    running.process.wait(30)
+    _, alive = psutil.wait_procs(processes, timeout=10)
+    assert alive == []
+    again = start(running.data_dir)
+    for one in (job, waiting):
+        again.until(one["id"], "succeeded", seconds=60)
+
+
+def test_two_services_do_not_share_a_folder(start: Start, tmp_path_factory: pytest.TempPathFactory) -> None:
+    running = start()
+    with pytest.raises(AssertionError, match="Another `galatea serve` uses"):
+        Running(running.data_dir)
