@@ -21,12 +21,10 @@ test:  ## every check, each even if an earlier one failed
 	@scripts/test.sh
 
 lint:  ## ruff: lint and format
-	@$(BIN)/ruff check .
-	@$(BIN)/ruff format --check .
+	@failed=0; $(BIN)/ruff check . || failed=1; $(BIN)/ruff format --check . || failed=1; exit $$failed
 
 types:  ## mypy strict on the engine, tsc strict on the page
-	@$(BIN)/mypy
-	@cd web && npm run --silent types
+	@failed=0; $(BIN)/mypy || failed=1; (cd web && npm run --silent types) || failed=1; exit $$failed
 
 imports:  ## which package may import which
 	@$(BIN)/lint-imports
