@@ -89,20 +89,28 @@ def _strands_and_slivers(
     plain = noise < PLAIN**2
     noise += NOISE**2
 
-    strands = plain & (miss > 9 * noise) & (depth < -band) & (depth > -reach)
-    closed = cv2.morphologyEx(strands.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0
-    count, labels = cv2.connectedComponents((closed | (depth > -band - 1.5)).astype(np.uint8))
-    hangs_on = np.zeros(count, bool)
-    hangs_on[np.unique(labels[depth > 0])] = True
-    strands = closed & hangs_on[labels]
+    odd = plain & (miss > 9 * noise) & (depth < -band) & (depth > -1.3 * reach)
+    strands = _hanging_on(odd, depth, band, reach)
 
     layer = (small_depth > band).astype(np.float32)
-    layer_mean = _local_mean(small, layer, 0.75 * SCALE)
-    layer_spread = _local_mean(_squared(small - layer_mean), layer, 0.75 * SCALE)
-    layer_miss = _squared(rgb - resized(layer_mean, (width, height)))
-    unlike = (layer_miss > 3 * CONTRAST**2) & (layer_miss > 9 * resized(layer_spread, (width, height)))
+    near = _local_mean(small, layer, 0.75 * SCALE)
+    spread = _local_mean(_squared(small - near), layer, 0.75 * SCALE)
+    layer_miss = _squared(rgb - resized(near, (width, height)))
+    unlike = (layer_miss > 3 * CONTRAST**2) & (layer_miss > 9 * resized(spread, (width, height)))
     slivers = plain & (miss < 9 * noise) & unlike & (layer_miss > 9 * miss) & (depth > 0) & (depth < 4 * band)
     return _grown(strands, 2), _grown(slivers, 3)
+
+
+def _hanging_on(odd: NDArray[np.bool_], depth: Mask, band: float, reach: float) -> NDArray[np.bool_]:
+    """The odd pixels that begin at the layer and end within reach; what runs on belongs to the background."""
+    closed = cv2.morphologyEx(odd.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    closed[depth >= -band] = 0
+    count, labels = cv2.connectedComponents(closed)
+    hangs_on = np.zeros(count, bool)
+    hangs_on[np.unique(labels[depth > -band - 1.5])] = True
+    hangs_on[np.unique(labels[depth < -reach])] = False
+    hangs_on[0] = False
+    return np.asarray(hangs_on[labels])
 
 
 def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_]) -> tuple[NDArray[np.float32], Mask]:
@@ -120,7 +128,7 @@ def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_])
 
 
 def _local_mean(values: NDArray[np.float32], weight: Mask, scale: float) -> NDArray[np.float32]:
-    mass = cv2.GaussianBlur(weight, (0, 0), scale) + 1e-6
+    mass = np.maximum(cv2.GaussianBlur(weight, (0, 0), scale), 1e-9)
     if values.ndim == 2:
         return np.asarray(cv2.GaussianBlur(values * weight, (0, 0), scale) / mass, np.float32)
     return np.asarray(cv2.GaussianBlur(values * weight[..., None], (0, 0), scale) / mass[..., None], np.float32)
