@@ -11,7 +11,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import Delaunay
 
+from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.portrait.alignment import Similarity
 
@@ -19,6 +21,8 @@ PERIPHERY_SPACING = 0.5
 """Distance of peripheral points, in eye distances."""
 BORDER_POINTS = 12
 """Along the longer side of the image."""
+GRAZING = 0.2
+"""Cosine between the line of sight and a surface that is still seen."""
 CARRY_REACH = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
 
@@ -26,11 +30,12 @@ CARRY_REACH = 0.7
 @dataclass(frozen=True)
 class ControlPoints:
     """Rest positions in the target: `points` (C, 2) pixels, first the 478 of the face's mesh, then
-    `peripheral` points, then those on the border; `on_person` (C,) bool."""
+    `peripheral` points, then those on the border. `usable` (C,) is False for points of the face that the
+    picture sees edge-on or from behind: where they lie says nothing about the pixels there."""
 
     points: NDArray[np.float64]
     peripheral: int
-    on_person: NDArray[np.bool_]
+    usable: NDArray[np.bool_]
 
     @property
     def periphery(self) -> slice:
@@ -72,8 +77,21 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
         [(x, y) for x in across for y in (0, height - 1)] + [(x, y) for y in down[1:-1] for x in (0, width - 1)]
     )
     points = np.concatenate([mesh[:, :2].astype(float), grid, border])
-    at = np.clip(points.round().astype(int), 0, (width - 1, height - 1))
-    return ControlPoints(points, len(grid), person[at[:, 1], at[:, 0]] > 0.3)
+    usable = np.concatenate([facing(mesh), np.ones(len(points) - MESH_SIZE, bool)])
+    return ControlPoints(points, len(grid), usable)
+
+
+def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `GRAZING`."""
+    triangles = Delaunay(canonical_face()[:468, :2]).simplices
+    corners = mesh[triangles].astype(float)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    rest = canonical_face()[triangles].astype(float)
+    front = np.sign(np.cross(rest[:, 1, :2] - rest[:, 0, :2], rest[:, 2, :2] - rest[:, 0, :2]))
+    total = np.zeros((MESH_SIZE, 3))
+    np.add.at(total, triangles.ravel(), np.repeat(normal * front[:, None], 3, axis=0))
+    length = np.linalg.norm(total, axis=1)
+    return np.asarray((total[:, 2] > GRAZING * length) | (length == 0))
 
 
 def carry_fiducials(

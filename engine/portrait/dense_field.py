@@ -34,7 +34,7 @@ CELLS = 64
 class WarpMesh:
     """The mesh that carries an image and how it follows the control points.
 
-    vertices : (V, 2) rest positions, pixels; the first ones are the face's own control points.
+    vertices : (V, 2) rest positions, pixels; the first ones are the face's usable control points.
     triangles : (T, 3).
     operator : (V, C) float32: vertex offsets = operator @ control offsets.
     shape : (height, width).
@@ -97,7 +97,11 @@ def interpolation_matrix(
 
 
 def build_warp_mesh(
-    control: NDArray[np.floating], face: NDArray[np.floating], shape: tuple[int, int], smoothing: str = "confidence"
+    control: NDArray[np.floating],
+    face: NDArray[np.floating],
+    shape: tuple[int, int],
+    smoothing: str = "confidence",
+    usable: NDArray[np.bool_] | None = None,
 ) -> WarpMesh:
     """Triangulate, interpolate and smooth, once for a target.
 
@@ -106,47 +110,49 @@ def build_warp_mesh(
     control : (C, 2) rest positions of the control points in the target, pixels, the face mesh first.
     face : (478, 2) the target's face mesh.
     shape : (height, width) of the target.
+    usable : (C,) points that take part; others are ignored (their offsets move nothing).
     smoothing : "confidence" (the paper's), "none" or "constant" (its figure 3, for comparison).
     """
     height, width = shape
     diagonal = float(np.hypot(height, width))
     spacing = diagonal / CELLS
-    vertices = _vertices(face, shape, spacing)
-    on_face = np.arange(len(vertices)) < len(face)
-
+    used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
+    on_face = used[used < len(face)]
+    vertices = np.concatenate([face[on_face, :2].astype(float), _grid_around(face, shape, spacing)])
     samples_x = np.linspace(0, width - 1, int(np.ceil(2 * width / spacing)) + 1)
     samples_y = np.linspace(0, height - 1, int(np.ceil(2 * height / spacing)) + 1)
     samples = np.stack(np.meshgrid(samples_x, samples_y), axis=-1).reshape(-1, 2)
-    triangulation = Delaunay(control)
-    field = interpolation_matrix(control, samples, triangulation)
-    operator = interpolation_matrix(control, vertices, triangulation).tolil()
-    operator[on_face] = sparse.eye(len(face), len(control))
-    if smoothing == "none":
-        blurred = operator.tocsr()
-    else:
+    triangulation = Delaunay(control[used])
+    select = sparse.csr_matrix((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(control)))
+    operator = (interpolation_matrix(control[used], vertices, triangulation) @ select).tolil()
+    operator[: len(on_face)] = 0
+    operator[np.arange(len(on_face)), on_face] = 1
+    operator = operator.tocsr()
+    if smoothing != "none":
         radii = (
             disk_radii(face, vertices, shape)
             if smoothing == "confidence"
             else np.full(len(vertices), LARGEST_DISK * diagonal / 2)
         )
-        blurred = _disk_average(vertices, radii, samples, spacing) @ field
+        field = interpolation_matrix(control[used], samples, triangulation) @ select
         keep = sparse.diags((radii < spacing / 2).astype(float))
-        blurred = keep @ operator.tocsr() + (sparse.eye(len(vertices)) - keep) @ blurred
+        smooth = _disk_average(vertices, radii, samples, spacing) @ field
+        operator = keep @ operator + (sparse.eye(len(vertices)) - keep) @ smooth
     triangles = Delaunay(vertices).simplices
     return WarpMesh(
-        vertices.astype(np.float32), triangles.astype(np.int32), np.asarray(blurred.todense(), np.float32), shape
+        vertices.astype(np.float32), triangles.astype(np.int32), np.asarray(operator.todense(), np.float32), shape
     )
 
 
-def _vertices(face: NDArray[np.floating], shape: tuple[int, int], spacing: float) -> NDArray[np.float64]:
-    """The face's mesh and a regular grid around it that reaches the image's corners."""
+def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: float) -> NDArray[np.float64]:
+    """A regular grid outside the face's contour that reaches the image's corners."""
     height, width = shape
     xs = np.linspace(0, width - 1, int(np.ceil(width / spacing)) + 1)
     ys = np.linspace(0, height - 1, int(np.ceil(height / spacing)) + 1)
     grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
     distance = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in grid])
-    return np.concatenate([face[:, :2].astype(float), grid[distance < -0.4 * spacing]])
+    return grid[distance < -0.4 * spacing]
 
 
 def _disk_average(

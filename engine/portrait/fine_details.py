@@ -21,18 +21,27 @@ from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
 from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.head_motion import split_motion
 from engine.portrait.outliers import Outliers, find_outliers
 
 BRIGHTENING = 0.01
 """Section 6: ratios above one are tuned down by this factor."""
 WINDOW = 21
 """Section 6: frames of the temporal Gaussian."""
-DARKEST = 0.55
+WIDE = 0.25
+"""Ratios wider than this, in eye distances, are shading rather than creases ..."""
+SHADING = 0.5
+"""... and count this much ..."""
+TURNED = 12.0
+"""... in a head that does not turn, down to nothing at this many degrees."""
+DARKEST = 0.6
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
 FLOOR = 12.0
 """Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
 BLUR = 1.2
 """Pixels of the driver's crop: finer structure is noise of the video."""
+RIM = 0.4
+"""Within this distance of the face's rim, in eye distances, ratios fade out."""
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels. The paper's pixel distances are meant for faces of about this size."""
 
@@ -98,8 +107,9 @@ def build_detail_map(
     weight = face_region(rgb, mesh)[y0:y1, x0:x1] * (origin[..., 0] > -1000)
     weight *= 1 - _openings(plane - corner, weight.shape, 0.06 * float(eye_distance(mesh[:, :2])))
     unit = float(eye_distance(mesh[:, :2]))
-    inside = cv2.copyMakeBorder((weight > 0.5).astype(np.uint8), 1, 1, 1, 1, cv2.BORDER_CONSTANT)
-    ramp = np.clip(cv2.distanceTransform(inside, cv2.DIST_L2, 3)[1:-1, 1:-1] / (0.15 * unit), 0, 1)
+    oval = np.zeros((weight.shape[0] + 2, weight.shape[1] + 2), np.uint8)  # the driver's rim borders on its background
+    cv2.fillPoly(oval, [(plane[list(FACE_OVAL)] - corner + 1).round().astype(np.int32)], 1)
+    ramp = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM * unit) - 0.25, 0, 1)
     return DetailMap((int(x0), int(y0), int(x1), int(y1)), origin, (weight * ramp).astype(np.float32))
 
 
@@ -121,6 +131,10 @@ class RatioImages:
         self._triangles = Delaunay(self._rest).simplices.astype(np.int32)
         self._neutral = luminance(track.crop(neutral))
         self._refined = refined
+        turn = np.rad2deg(
+            np.arccos(np.clip(split_motion(track.meshes, track.meshes[neutral]).rotation[:, 2, 2], -1, 1))
+        )
+        self._frontal = SHADING * np.clip(1 - turn / TURNED, 0, 1).astype(np.float32)
         self.outliers: Outliers | None = None
         if outliers:
             reference = most_expressive(track, neutral)
@@ -147,9 +161,16 @@ class RatioImages:
         ratio, origin = self._ratio(frame)
         if not self._refined:
             return ratio
+        ratio = self._without_shading(ratio, frame)
         if self.outliers is not None:
             ratio = 1 + self.outliers.keep(origin, frame) * (ratio - 1)
         return _damped(ratio)
+
+    def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
+        """A head that turns in fixed light changes shade over wide areas: no part of the expression."""
+        logarithm = np.log(np.clip(ratio, 0.2, 5))
+        wide = cv2.GaussianBlur(logarithm, (0, 0), WIDE * UNIT)
+        return np.exp(logarithm - (1 - self._frontal[frame]) * wide)
 
     def _ratio(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Equation 2 on the neutral crop, and where each of its pixels lies in the frame's crop."""

@@ -43,11 +43,17 @@ def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Depth (P,) at points outside the face: the face's rim, falling back to the ears' depth, pixels."""
+    """Depth (P,) at points outside the face: the face's rim, falling back to the ears' depth, pixels.
+
+    In a turned head the ears' depths differ: between and beside them it is interpolated.
+    """
     mesh = mesh.astype(float)
     oval = mesh[list(FACE_OVAL)]
     width = float(np.linalg.norm(mesh[454, :2] - mesh[234, :2]))
-    back = float(mesh[[127, 356, 234, 454, 93, 323], 2].mean())
+    right, left = mesh[[127, 234, 93]].mean(axis=0), mesh[[356, 454, 323]].mean(axis=0)
+    axis = left[:2] - right[:2]
+    along = np.clip((points - right[:2]) @ axis / float(axis @ axis), -0.2, 1.2)
+    back = right[2] + along * (left[2] - right[2])
     apart = np.linalg.norm(oval[None, :, :2] - points[:, None], axis=2)
     nearest = apart.min(axis=1)
     near = np.exp(-0.5 * ((apart - nearest[:, None]) / (0.1 * width)) ** 2)

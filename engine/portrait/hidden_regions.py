@@ -19,16 +19,20 @@ APPEARS, WHOLE = 1.0, 2.0
 LEAST_AREA = 0.012
 """Floor of the neutral inner area, in squares of the mouth's width: a closed mouth has almost none."""
 
+LUMINANCE = np.array([0.299, 0.587, 0.114], np.float32)
+
 _UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
 _LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
 
 
 @dataclass(frozen=True)
 class MouthPalette:
-    """How the driver's colours become the target's: `gain` (3,) for the light, `chroma` for the palette
-    (0 for a picture in black and white); `area` the neutral mouth's inner area, px^2; `height` of its lips."""
+    """How the driver's colours become the target's: `gain` (3,) for the light; `tint` (3,) of the target's
+    skin at luminance 1, and `chroma`, how far its palette departs from that tint (0 in black and white);
+    `area` the neutral mouth's inner area, px^2; `height` of its lips."""
 
     gain: NDArray[np.float32]
+    tint: NDArray[np.float32]
     chroma: float
     area: float
     height: float
@@ -52,7 +56,7 @@ def mouth_triangles() -> NDArray[np.int32]:
 def match_palette(
     target: NDArray[np.uint8], mesh: NDArray[np.floating], crop: NDArray[np.uint8], crop_mesh: NDArray[np.floating]
 ) -> MouthPalette:
-    """Compare the two faces' skin around the mouth: light by its mean, palette by its saturation.
+    """Compare the two faces: light by the skin of the cheeks, palette by how much the lips differ from it.
 
     Parameters
     ----------
@@ -60,12 +64,14 @@ def match_palette(
     """
     a, b = _skin(target, mesh), _skin(crop, crop_mesh)
     gain = (a.mean(axis=0) + 4) / (b.mean(axis=0) + 4)
-    chroma = float(np.clip((_saturation(a) + 0.5) / (_saturation(b) + 0.5), 0, 1.25))
+    tint = a.mean(axis=0) / max(float(a.mean(axis=0) @ LUMINANCE), 1.0)
+    own = _departure(_lips(target, mesh), tint)
+    chroma = float(np.clip(own / max(_departure(_lips(crop, crop_mesh) * gain, tint), 1e-3), 0, 1))
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
     outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
     width = float(np.linalg.norm(mesh[61, :2] - mesh[291, :2]))
     area = max(float(cv2.contourArea(inner)), LEAST_AREA * width**2)
-    return MouthPalette(gain.astype(np.float32), chroma, area, float(np.ptp(outer[:, 1])))
+    return MouthPalette(gain.astype(np.float32), tint.astype(np.float32), chroma, area, float(np.ptp(outer[:, 1])))
 
 
 def transfer_mouth(
@@ -109,8 +115,8 @@ def transfer_mouth(
 def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32]:
     """The driver's colours in the target's light and palette, float32."""
     lit = rgb.astype(np.float32) * palette.gain
-    grey = lit @ np.array([0.299, 0.587, 0.114], np.float32)
-    return np.asarray(grey[..., None] + palette.chroma * (lit - grey[..., None]), np.float32)
+    tinted = (lit @ LUMINANCE)[..., None] * palette.tint
+    return np.asarray(tinted + palette.chroma * (lit - tinted), np.float32)
 
 
 def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -121,8 +127,17 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.floa
     return rgb[mask > 0].astype(np.float32) if mask.any() else rgb.reshape(-1, 3).astype(np.float32)
 
 
-def _saturation(colours: NDArray[np.float32]) -> float:
-    return float(np.median(colours.max(axis=1) - colours.min(axis=1)))
+def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(mask, [mesh[list(LIPS_OUTER), :2].round().astype(np.int32)], 1)
+    cv2.fillPoly(mask, [mesh[list(LIPS_INNER), :2].round().astype(np.int32)], 0)
+    return rgb[mask > 0].astype(np.float32) if mask.any() else _skin(rgb, mesh)
+
+
+def _departure(colours: NDArray[np.float32], tint: NDArray[np.float32]) -> float:
+    """Mean distance of the colours (P, 3), at luminance 1, from a tint."""
+    light = np.maximum(colours @ LUMINANCE, 8.0)[:, None]
+    return float(np.linalg.norm((colours / light).mean(axis=0) - tint))
 
 
 def _box(points: NDArray[np.float32], shape: tuple[int, int]) -> tuple[int, int, int, int] | None:

@@ -5,21 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import MESH_SIZE, eye_distance
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
 from engine.portrait.alignment import Similarity, align
 from engine.portrait.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.portrait.driver import DriverTrack
-from engine.portrait.eyes import gaze
 from engine.portrait.expression_transfer import carry_expression, local_maps
+from engine.portrait.eyes import gaze
 from engine.portrait.head_motion import HeadMotion, split_motion
 from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
 from engine.portrait.options import Part, PortraitOptions
 
+CORRECTED_FROM = 0.8
+"""Eye distances from the face's rim at which tracked points correct the proxy fully."""
+TURN_TRUSTED, TURN_LOST = 10.0, 20.0
+"""Degrees of turn up to which tracked points of the head are trusted, and where no more."""
+MOST_CORRECTED = 0.3
+"""Largest correction of a point of the head, in eye distances."""
 CHUNK = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""
 
@@ -54,6 +61,7 @@ def carry_motion(
     unit = float(eye_distance(target[:, :2]))
     maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
     follow = part_weights(options.follow)
+    rim = rim_distance(target, control.points[control.periphery]) / unit
     head = options.strength if "head" in options.follow else 0.0
     eyes = options.strength if "eyes" in options.follow else 0.0
     for start in range(0, len(track), CHUNK):
@@ -66,6 +74,8 @@ def carry_motion(
         around = head * carry_periphery(
             phi, track.periphery[neutral], around, trusted, control.points[control.periphery], unit
         )
+        if proxy is not None:
+            around = correction(around, proxy.share[control.periphery], rim, motion, unit)
         expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
         ratio = 1 + eyes * (lid_ratio(rest + motion.expression, rest) - 1)
         expression = meet(target + expression, target, np.maximum(ratio, 0)) - target
@@ -103,6 +113,33 @@ def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.fl
     return np.asarray(proxy.share[MESH_SIZE:, None] * (moved - points), float)
 
 
+def correction(
+    carried: NDArray[np.floating],
+    share: NDArray[np.floating],
+    rim: NDArray[np.floating],
+    motion: HeadMotion,
+    unit: float,
+) -> NDArray[np.float64]:
+    """What the driver's tracked points may correct of the proxy: (N, P, 2) offsets, pixels.
+
+    Beside the face the mesh knows better, and in a head that turns far the tracked points slip; there, in
+    proportion to each point's `share` in the head, the correction fades. `rim` (P,) eye distances from the face.
+    """
+    beside = np.clip(rim / CORRECTED_FROM, 0, 1) ** 2
+    turn = np.rad2deg(np.arccos(np.clip(motion.rotation[:, 2, 2], -1, 1)))
+    trust = np.clip((TURN_LOST - turn) / (TURN_LOST - TURN_TRUSTED), 0, 1)
+    size = np.linalg.norm(carried, axis=-1)
+    limited = np.minimum(1.0, MOST_CORRECTED * unit / np.maximum(size, 1e-6))
+    kept = (1 - share) + share * beside * trust[:, None] * limited
+    return np.asarray(kept[..., None] * carried, float)
+
+
+def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points lie outside the face's contour, pixels."""
+    oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
+    return np.array([max(0.0, -cv2.pointPolygonTest(oval, (float(x), float(y)), True)) for x, y in points])
+
+
 def _in_space(
     motion: HeadMotion, expression: NDArray, around: NDArray,
     target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
@@ -120,8 +157,6 @@ def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:
     """The same motion of the head, stronger or weaker; 0 leaves it where the neutral frame has it."""
     if strength == 1.0:
         return motion
-    import cv2
-
     centre = motion.neutral.mean(axis=0)
     moved = motion.scale[:, None] * (motion.rotation @ centre) + motion.shift - centre
     rotation = np.array([cv2.Rodrigues(strength * cv2.Rodrigues(r)[0])[0] for r in motion.rotation])

@@ -97,7 +97,7 @@ def _match(frame, neutral, origin, where, rotated, search):  # type: ignore[no-u
         for x in range(width):
             if where[y, x] == 0:
                 continue
-            px, py = int(round(origin[y, x, 0])), int(round(origin[y, x, 1]))
+            px, py = round(origin[y, x, 0]), round(origin[y, x, 1])
             if px < 1 or py < 1 or px >= width - 1 or py >= height - 1:
                 best[y, x] = 255.0
                 continue
@@ -113,7 +113,7 @@ def _match(frame, neutral, origin, where, rotated, search):  # type: ignore[no-u
                     for r in range(rotated.shape[0]):
                         worst = np.float32(0.0)
                         for k in range(9):
-                            qx, qy = int(round(cx + rotated[r, k, 0])), int(round(cy + rotated[r, k, 1]))
+                            qx, qy = round(cx + rotated[r, k, 0]), round(cy + rotated[r, k, 1])
                             for c in range(3):
                                 worst = max(worst, abs(patch[k, c] - neutral[qy, qx, c]))
                             if worst >= least:

@@ -44,7 +44,7 @@ def render(
 ) -> Iterator[NDArray[np.uint8]]:
     """The target acting out the driver: one (H, W, 3) uint8 frame for each frame of the driver."""
     control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255))
-    mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], parts.smoothing)
+    mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], parts.smoothing, control.usable)
     proxy = build_head_proxy(control.points, target.mesh) if options.head_3d else None
     person = layers.person if parts.layers else np.dstack([target.rgb, np.full(target.rgb.shape[:2], 255, np.uint8)])
     eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
