@@ -57,9 +57,9 @@ def outline_trimap(rgb: NDArray[np.uint8], belief: Mask, prior_weight: float = 0
     strands, slivers = _strands_and_slivers(rgb, depth, band, max(8.0, STRAND * size))
     known[strands & (known == 0)] = 0.5
     known[slivers & (known == 1)] = 0.5
-    weight = prior_weight * np.square(2 * belief - 1)
+    weight = prior_weight * np.maximum(np.square(2 * belief - 1), 0.05)
     weight[strands | slivers] = 0.02 * prior_weight
-    return Trimap(known, np.clip(2 * belief - 0.5, 0, 1).astype(np.float32), weight.astype(np.float32))
+    return Trimap(known, np.clip(4 * belief - 1.5, 0, 1).astype(np.float32), weight.astype(np.float32))
 
 
 def _distance(mask: NDArray[np.bool_]) -> Mask:
