@@ -1,14 +1,14 @@
 /** What a job's portrait and performance are called, and where they are. */
 
 import type { Job } from './api';
-import { plain, strings } from './strings';
+import { plain } from './strings';
 
 const fileId = /^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$/;
 
 const text = (value: unknown): string | null => (typeof value === 'string' && value !== '' ? value : null);
 
 /** The portrait's name: this page leaves it in the metadata; other clients may not. */
-export const portraitName = (job: Job): string => text(job.metadata.portrait) ?? strings.recent.untitled;
+export const portraitName = (job: Job): string => text(job.metadata.portrait) ?? plain(job.kind);
 
 /** The performance's name; null when a client sent a video and did not say. */
 export function performanceName(job: Job): string | null {

@@ -124,11 +124,13 @@ function useSending() {
   const begin = (next: Order): void => {
     order.current = next;
     stopper.current = new AbortController();
+    const { signal } = stopper.current;
     setProblem(null);
     setStep({ step: 'ordering' });
-    send(next, setStep, stopper.current.signal).then(
+    send(next, setStep, signal).then(
       (job) => {
-        location.hash = jobLink(job.id);
+        setStep(null);
+        if (!signal.aborted) location.hash = jobLink(job.id);
       },
       (error: unknown) => {
         setStep(null);
