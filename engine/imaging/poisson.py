@@ -1,4 +1,11 @@
-"""Seamless cloning by the membrane that interpolates boundary differences (Perez et al. 2003)."""
+"""Seamless cloning: Laplace's equation inside a mask, fast enough to be solved for every frame.
+
+Pérez, Gangnet, Blake, "Poisson image editing", SIGGRAPH 2003: what is pasted keeps its gradients if the
+membrane that interpolates the differences along the mask's edge is added to it. The membrane is found by
+full multigrid. The masks are irregular, so a coarse grid must know where the fine mask ends: each link of
+a coarse pixel that runs into the mask's edge ends there, at its true distance (Shortley and Weller 1938),
+which keeps every grid an accurate picture of the same problem.
+"""
 
 from __future__ import annotations
 
@@ -6,30 +13,224 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+CYCLES = 2
+"""V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
 
-def membrane(boundary_difference: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+
+def poisson_blend(
+    source: NDArray[np.float32], target: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int = CYCLES
+) -> NDArray[np.float32]:
+    """`target` (H, W, C) with `source` cloned into `mask` (H, W): its gradients, the target's edge colours.
+
+    float32 in any unit, not clipped. Outside the mask the target is unchanged.
+    """
+    cloned = source + membrane(target - source, mask, cycles)
+    return np.where(mask[..., None], cloned, target).astype(np.float32)
+
+
+def membrane(
+    boundary_difference: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int = CYCLES
+) -> NDArray[np.float32]:
     """Laplace interpolation into `mask` (H, W) of the values (H, W, C) found just outside it; 0 elsewhere.
 
-    The mask must not touch the array's border.
+    Solves sum over the four neighbours q of p of (u_q - u_p) = 0 for p in the mask, u being given outside.
+    Where the mask meets the array's border the membrane is free there. A part of the mask that nothing
+    outside holds is left at 0.
     """
-    values = np.where(mask[..., None], 0, boundary_difference).astype(np.float32)
-    ring = np.zeros(mask.shape, bool)
-    ring[1:-1, 1:-1] = ~mask[1:-1, 1:-1] & (mask[:-2, 1:-1] | mask[2:, 1:-1] | mask[1:-1, :-2] | mask[1:-1, 2:])
-    values[mask] = values[ring].mean(axis=0) if ring.any() else 0
-    _relax(values, mask, 80, 2 / (1 + np.pi / max(8.0, float(np.sqrt(mask.sum())))))
-    return np.where(mask[..., None], values, 0).astype(np.float32)
+    values = np.ascontiguousarray(boundary_difference, np.float32)
+    if not mask.any():
+        return np.zeros_like(values)
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    top, bottom = max(rows[0] - 1, 0), min(rows[-1] + 2, mask.shape[0])
+    left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, mask.shape[1])
+    inner = np.ascontiguousarray(mask[top:bottom, left:right])
+    result = np.zeros_like(values)
+    result[top:bottom, left:right] = _solve(np.ascontiguousarray(values[top:bottom, left:right]), inner, cycles)
+    return result
 
 
-@numba.njit(cache=True, fastmath=True)
-def _relax(values, mask, sweeps, omega):  # type: ignore[no-untyped-def]
-    """Successive over-relaxation in place."""
-    height, width, channels = values.shape
-    for _ in range(sweeps):
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _edge_distances(mask):  # type: ignore[no-untyped-def]
+    """How far each masked pixel is from the first pixel outside the mask, (H + 2, W + 2, 4) int32 in the
+    directions up, down, left, right, in a frame one pixel wide; negative to the array's border instead."""
+    height, width = mask.shape
+    distance = np.zeros((height + 2, width + 2, 4), np.int32)
+    for y in range(height):
+        for x in range(width):
+            if mask[y, x]:
+                above, before = distance[y, x + 1, 0], distance[y + 1, x, 2]
+                at_top, at_left = y == 0, x == 0
+                distance[y + 1, x + 1, 0] = -1 if at_top else (above - 1 if above < 0 else above + 1)
+                distance[y + 1, x + 1, 2] = -1 if at_left else (before - 1 if before < 0 else before + 1)
+    for y in range(height - 1, -1, -1):
+        for x in range(width - 1, -1, -1):
+            if mask[y, x]:
+                below, after = distance[y + 2, x + 1, 1], distance[y + 1, x + 2, 3]
+                at_bottom, at_right = y == height - 1, x == width - 1
+                distance[y + 1, x + 1, 1] = -1 if at_bottom else (below - 1 if below < 0 else below + 1)
+                distance[y + 1, x + 1, 3] = -1 if at_right else (after - 1 if after < 0 else after + 1)
+    return distance
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _discretise(distance, values, step, links, inverse, right):  # type: ignore[no-untyped-def]
+    """The grid of every `step`-th pixel: which links lead to unknown pixels, the inverse of the diagonal (0
+    where nothing is to be found) and what the edges' values (H, W, C) contribute."""
+    height, width = inverse.shape
+    channels = right.shape[2]
+    for y in range(1, height - 1):
+        for x in range(1, width - 1):
+            fy, fx = (y - 1) * step + 1, (x - 1) * step + 1
+            if distance[fy, fx, 0] == 0:
+                continue
+            diagonal = np.float32(0)
+            for k in range(4):
+                away = distance[fy, fx, k]
+                if 0 < away <= step:  # the edge is nearer than the next grid pixel, or just there
+                    weight = np.float32(step) / np.float32(away)
+                    diagonal += weight
+                    ey = fy - 1 + (away if k == 1 else -away if k == 0 else 0)
+                    ex = fx - 1 + (away if k == 3 else -away if k == 2 else 0)
+                    for c in range(channels):
+                        right[y, x, c] += weight * values[ey, ex, c]
+                elif away < 0 and -away <= step:
+                    continue
+                else:
+                    links[y, x, k] = 1
+                    diagonal += 1
+            inverse[y, x] = 1 / diagonal if diagonal > 0 else 0
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _relax(u, right, links, inverse, sweeps):  # type: ignore[no-untyped-def]
+    """Red-black Gauss-Seidel in place."""
+    height, width, channels = u.shape
+    for half in range(2 * sweeps):
         for y in range(1, height - 1):
-            for x in range(1, width - 1):
-                if mask[y, x]:
-                    for k in range(channels):
-                        mean = (
-                            values[y - 1, x, k] + values[y + 1, x, k] + values[y, x - 1, k] + values[y, x + 1, k]
-                        ) / 4
-                        values[y, x, k] += omega * (mean - values[y, x, k])
+            for x in range(1 + (y + half) % 2, width - 1, 2):
+                scale = inverse[y, x]
+                if scale == 0:
+                    continue
+                a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
+                for k in range(channels):
+                    total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
+                    u[y, x, k] = (right[y, x, k] + total) * scale
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _restrict_residual(u, right, links, inverse, residual, coarse, coarse_inverse):  # type: ignore[no-untyped-def]
+    """The coarse grid's right side: the residual, fully weighted (4 fine pixels stand in a coarse one)."""
+    height, width, channels = u.shape
+    for y in range(1, height - 1):
+        for x in range(1, width - 1):
+            scale = inverse[y, x]
+            if scale == 0:
+                continue
+            a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
+            for k in range(channels):
+                total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
+                residual[y, x, k] = right[y, x, k] + total - u[y, x, k] / scale
+    for y in range(1, coarse.shape[0] - 1):
+        for x in range(1, coarse.shape[1] - 1):
+            if coarse_inverse[y, x] == 0:
+                continue
+            fy, fx = 2 * y - 1, 2 * x - 1
+            for k in range(channels):
+                sides = residual[fy - 1, fx, k] + residual[fy + 1, fx, k]
+                sides += residual[fy, fx - 1, k] + residual[fy, fx + 1, k]
+                corners = residual[fy - 1, fx - 1, k] + residual[fy - 1, fx + 1, k]
+                corners += residual[fy + 1, fx - 1, k] + residual[fy + 1, fx + 1, k]
+                coarse[y, x, k] = residual[fy, fx, k] + sides / 2 + corners / 4
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _add_interpolated(coarse, u, inverse):  # type: ignore[no-untyped-def]
+    """Add the coarse grid's correction, bilinearly; outside the mask it is 0."""
+    height, width, channels = u.shape
+    for y in range(1, height - 1):
+        for x in range(1, width - 1):
+            if inverse[y, x] == 0:
+                continue
+            cy, cx = (y + 1) // 2, (x + 1) // 2
+            ny, nx = cy + (y + 1) % 2, cx + (x + 1) % 2
+            for k in range(channels):
+                total = coarse[cy, cx, k] + coarse[ny, cx, k] + coarse[cy, nx, k] + coarse[ny, nx, k]
+                u[y, x, k] += np.float32(0.25) * total
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _start_from(coarse, coarse_inverse, u, right, inverse):  # type: ignore[no-untyped-def]
+    """A first guess from the coarse solution: the mean of the coarse pixels around that lie in the mask,
+    or what the edge alone says where there are none."""
+    height, width, channels = u.shape
+    for y in range(1, height - 1):
+        for x in range(1, width - 1):
+            if inverse[y, x] == 0:
+                continue
+            cy, cx = (y + 1) // 2, (x + 1) // 2
+            ny, nx = cy + (y + 1) % 2, cx + (x + 1) % 2
+            a, b = coarse_inverse[cy, cx] != 0, coarse_inverse[ny, cx] != 0
+            c, d = coarse_inverse[cy, nx] != 0, coarse_inverse[ny, nx] != 0
+            count = a + b + c + d
+            for k in range(channels):
+                if count == 0:
+                    u[y, x, k] = right[y, x, k] * inverse[y, x]
+                else:
+                    total = (
+                        a * coarse[cy, cx, k] + b * coarse[ny, cx, k] + c * coarse[cy, nx, k] + d * coarse[ny, nx, k]
+                    )
+                    u[y, x, k] = total / count
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _solve(values, mask, cycles):  # type: ignore[no-untyped-def]
+    height, width, channels = values.shape
+    distance = _edge_distances(mask)
+    u = [np.zeros((height + 2, width + 2, channels), np.float32)]
+    own = [np.zeros_like(u[0])]
+    links = [np.zeros((height + 2, width + 2, 4), np.float32)]
+    inverse = [np.zeros((height + 2, width + 2), np.float32)]
+    _discretise(distance, values, 1, links[0], inverse[0], own[0])
+    step = 1
+    while (min(height, width) - 1) // (2 * step) >= 1:
+        step *= 2
+        rows, columns = (height + step - 1) // step + 2, (width + step - 1) // step + 2
+        coarser = np.zeros((rows, columns), np.float32)
+        coarser_links = np.zeros((rows, columns, 4), np.float32)
+        coarser_own = np.zeros((rows, columns, channels), np.float32)
+        _discretise(distance, values, step, coarser_links, coarser, coarser_own)
+        if not coarser.any():
+            break
+        u.append(np.zeros((rows, columns, channels), np.float32))
+        own.append(coarser_own)
+        links.append(coarser_links)
+        inverse.append(coarser)
+    right = [np.zeros_like(level) for level in own]
+    residual = [np.zeros_like(level) for level in own]
+    last = len(u) - 1
+    _relax(u[last], own[last], links[last], inverse[last], 20)
+    for first in range(last, -1, -1):
+        if first < last:
+            _start_from(u[first + 1], inverse[first + 1], u[first], own[first], inverse[first])
+        right[first][:] = own[first]
+        for _ in range(cycles if first == 0 else 1):
+            for level in range(first, last):
+                if level > first:
+                    u[level][:] = 0
+                _relax(u[level], right[level], links[level], inverse[level], 1)
+                _restrict_residual(
+                    u[level],
+                    right[level],
+                    links[level],
+                    inverse[level],
+                    residual[level],
+                    right[level + 1],
+                    inverse[level + 1],
+                )
+            if last > first:
+                u[last][:] = 0
+            _relax(u[last], right[last], links[last], inverse[last], 20)
+            for level in range(last - 1, first - 1, -1):
+                _add_interpolated(u[level + 1], u[level], inverse[level])
+                _relax(u[level], right[level], links[level], inverse[level], 1)
+    return u[0][1:-1, 1:-1].copy()
