@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, FastAPI
 
 import engine
-from service import problems
+from service import openapi, problems
 from service.artifacts.endpoints import router as artifacts
 from service.context import Context
 from service.drivers.endpoints import router as drivers
@@ -30,6 +30,7 @@ def make_app(context: Context) -> FastAPI:
     )
     app.state.context = context
     problems.install(app)
+    openapi.describe(app)
     v1 = APIRouter(prefix="/v1")
     for router in (files, jobs, events, artifacts, kinds, drivers):
         v1.include_router(router)

@@ -25,6 +25,12 @@ def queue_name(kind: str) -> str:
     return f"galatea.{kind}"
 
 
+def _queue(kind: str) -> KombuQueue:
+    # The anonymous exchange routes by the queue's name alone: other exchanges keep their bindings in Redis, and a
+    # Redis that lost its data would swallow messages.
+    return KombuQueue(queue_name(kind), Exchange(""), routing_key=queue_name(kind))
+
+
 class Queue:
     """Sends messages that carry a job's id and nothing else."""
 
@@ -32,11 +38,8 @@ class Queue:
         url = settings.redis_url or f"unix://{socket_path(settings.data_dir)}"
         self.redis = redis.Redis.from_url(url, socket_timeout=5, socket_connect_timeout=2)
         self.celery = Celery("galatea", broker=url.replace("unix://", "redis+socket://"))
-        # The anonymous exchange routes by the queue's name alone: other exchanges keep their bindings in Redis,
-        # and a Redis that lost its data would swallow messages.
-        queues = [KombuQueue(queue_name(k), Exchange(""), routing_key=queue_name(k)) for k in kinds]
         self.celery.conf.update(
-            task_queues=queues,
+            task_queues=[_queue(kind) for kind in kinds],
             task_create_missing_queues=False,
             task_acks_late=True,
             task_ignore_result=True,
@@ -65,7 +68,7 @@ class Queue:
     def send(self, job_id: str, kind: str) -> bool:
         """Tell the workers that a job waits; False if the queue cannot be reached now."""
         try:
-            self.celery.send_task(TASK, args=[job_id], queue=queue_name(kind), retry=False, ignore_result=True)
+            self.celery.send_task(TASK, args=[job_id], queue=_queue(kind), retry=False, ignore_result=True)
         except (OperationalError, redis.RedisError, OSError) as error:
             structlog.get_logger().warning("message_not_sent", job=job_id, reason=str(error))
             return False

@@ -26,6 +26,7 @@ from engine.kind import Kind
 from engine.media.limits import Limits
 from engine.run import Progress, Run
 from engine.store import StageStore
+from service.kinds import library
 from service.kinds.registry import load_kinds
 from worker.tether import die_with_parent
 
@@ -95,8 +96,10 @@ def failed(code: str, detail: str, correctable: tuple[str, ...] = ()) -> dict[st
     return {"outcome": "failed", "code": code, "detail": detail, "correctable": list(correctable)}
 
 
-def _local(source: Any) -> Path | tuple[Path, ...]:
-    return tuple(Path(one) for one in source) if isinstance(source, list) else Path(source)
+def _local(source: Any) -> Any:
+    if isinstance(source, list):
+        return tuple(_local(one) for one in source)
+    return library.item(source["library"], source["name"]) if isinstance(source, dict) else Path(source)
 
 
 def _unexpected(error: BaseException) -> dict[str, Any]:

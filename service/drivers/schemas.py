@@ -23,6 +23,10 @@ class DriverOut(BaseModel):
     created_at: datetime | None = None
 
     @classmethod
+    def built_in(cls, name: str) -> DriverOut:
+        return cls(name=name, source="built-in", url=f"/v1/drivers/{name}/video")
+
+    @classmethod
     def own(cls, driver: Driver, file: File) -> DriverOut:
         return cls(
             name=driver.name,

@@ -8,16 +8,20 @@ from sqlalchemy.exc import IntegrityError
 
 from service.clock import now
 from service.context import Context
-from service.drivers import library, repository
+from service.drivers import repository
 from service.drivers.models import Driver
 from service.drivers.schemas import DriverOut
 from service.files import repository as files
 from service.files.models import File
 from service.files.service import erase_unused
 from service.ids import is_id
+from service.kinds import library
 from service.problems import Problem
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
+LIBRARY = "performances"
+"""The built-in drivers."""
+
 RESERVED = ("auto",)
 """Names with a meaning of their own where a driver is named."""
 
@@ -26,7 +30,7 @@ def all_drivers(context: Context) -> list[DriverOut]:
     """The built-in performances and the user's own drivers."""
     with context.database.read() as session:
         own = repository.with_files(session)
-    return [*library.shown(), *(DriverOut.own(driver, file) for driver, file in own)]
+    return [*map(DriverOut.built_in, library.names(LIBRARY)), *(DriverOut.own(driver, file) for driver, file in own)]
 
 
 def require_free_name(context: Context, name: str) -> None:
@@ -38,7 +42,7 @@ def require_free_name(context: Context, name: str) -> None:
             "A driver's name has 1 to 63 of the characters a-z, 0-9, - and _, a letter or digit first.",
         )
     with context.database.read() as session:
-        if name in RESERVED or name in library.names() or repository.get(session, name) is not None:
+        if name in RESERVED or name in library.names(LIBRARY) or repository.get(session, name) is not None:
             raise _taken(name)
 
 
@@ -55,7 +59,7 @@ def keep(context: Context, name: str, file: File) -> DriverOut:
 
 def delete(context: Context, name: str) -> None:
     """Erase one of the user's own drivers."""
-    if name in library.names():
+    if name in library.names(LIBRARY):
         raise Problem(409, "driver_built_in", "Built-in performances cannot be deleted.")
     with context.database.write() as session:
         driver = repository.get(session, name)

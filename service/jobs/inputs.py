@@ -10,10 +10,10 @@ from sqlalchemy.orm import Session
 
 from engine.kind import Input, Kind
 from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES
-from service.drivers import library
 from service.drivers import repository as drivers
 from service.files import repository as files
 from service.ids import is_id
+from service.kinds import library
 from service.problems import FieldError, Problem
 
 MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES}
@@ -79,7 +79,7 @@ def _one(session: Session, item: Input, value: str, used: set[str]) -> dict[str,
             raise Refused("unknown_file", f"“{item.name}” is not the id of a file: upload it first.")
         own = drivers.get(session, value)
         if own is None:
-            if value not in library.names():
+            if value not in library.names(item.library):
                 raise Refused("unknown_driver", f"There is no driver “{value[:80]}”: GET /v1/drivers lists them.")
             return {"library": item.library, "name": value}
         file_id = own.file_id

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from running import Running
 
-from service.drivers import library
+from service.drivers.service import LIBRARY
+from service.kinds import library
 
 
 def test_a_driver_is_kept_named_and_erased(running: Running, picture: bytes, video: bytes) -> None:
@@ -46,8 +47,8 @@ def test_a_driver_is_a_video(running: Running, picture: bytes) -> None:
 
 
 def test_built_in_names_are_taken(running: Running, video: bytes) -> None:
-    for name in (*library.names(), "auto"):
+    for name in (*library.names(LIBRARY), "auto"):
         response = running.client.post("/v1/drivers", data={"name": name}, files={"file": ("w.mp4", video)})
         assert response.json()["code"] == "name_taken"
-    for name in library.names():
+    for name in library.names(LIBRARY):
         assert running.client.delete(f"/v1/drivers/{name}").json()["code"] == "driver_built_in"

@@ -93,8 +93,10 @@ def work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out:
     (out / "preview.jpg").write_bytes(image.read_bytes())
     run.publish(out / "preview.jpg")
     crashed = out.parent.parent / "stages" / "crashed"
-    if not (options.crash_once and crashed.exists()):
+    if options.crash_once and not crashed.exists():
         crashed.touch()
+        misbehave(options.crash, out)
+    elif not options.crash_once:
         misbehave(options.crash, out)
     run.stage("rest", rest, options.seconds, options.polls, run.tick, stored=False)
     with run.timed("write"):

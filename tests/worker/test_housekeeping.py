@@ -1,0 +1,91 @@
+"""What is erased, and what is not."""
+
+from __future__ import annotations
+
+import os
+import time
+from datetime import timedelta
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+
+from engine.store import StageStore
+from service.clock import now
+from service.context import Context
+from service.drivers.models import Driver
+from service.files.models import File
+from service.ids import new_id
+from service.jobs.models import Job, JobFile
+from worker.housekeeping import keep_house, trim
+
+
+def stored(context: Context, age: timedelta = timedelta(0), recorded: bool = True) -> File:
+    file = File(id=new_id(), name="a", content_type="image/png", size=3, sha256="0" * 64, created_at=now() - age)
+    context.storage.put(file.key, BytesIO(b"abc"))
+    made_old(context.storage.local(file.key), age)
+    if recorded:
+        with context.database.write() as session:
+            session.add(file)
+    return file
+
+
+def made_old(path: Path, age: timedelta) -> None:
+    moment = time.time() - age.total_seconds()
+    os.utime(path, (moment, moment))
+
+
+def job(context: Context, file: File | None = None) -> Job:
+    made = Job(
+        id=new_id(),
+        **{"kind": "tiny", "status": "succeeded", "inputs": {}, "sources": {}, "options": {}, "notes": {}},
+        **{"progress": {}, "created_at": now(), "enqueued_at": now()},
+    )
+    with context.database.write() as session:
+        session.add(made)
+        session.flush()
+        if file is not None:
+            session.add(JobFile(job_id=made.id, file_id=file.id))
+    return made
+
+
+def test_uploads_that_nothing_uses_are_erased_after_a_day(context: Context) -> None:
+    old, older = timedelta(hours=23), timedelta(hours=25)
+    unused, young, of_job, of_driver = (stored(context, age) for age in (older, old, older, older))
+    job(context, of_job)
+    with context.database.write() as session:
+        session.add(Driver(name="mine", file_id=of_driver.id, created_at=now()))
+    keep_house(context)
+    assert not context.storage.local(unused.key).exists()
+    for kept in (young, of_job, of_driver):
+        assert context.storage.local(kept.key).exists()
+
+
+def test_what_lies_there_without_a_record_is_erased_once_nobody_can_be_at_it(context: Context) -> None:
+    data = context.settings.data_dir
+    orphan, fresh = (stored(context, age, recorded=False) for age in (timedelta(hours=2), timedelta(0)))
+    known = job(context)
+    for name in (known.id, "00000000-0000-7000-8000-000000000000"):
+        (data / "jobs" / name / "stages").mkdir(parents=True)
+        made_old(data / "jobs" / name, timedelta(hours=2))
+    (data / "incoming").mkdir()
+    for name, hours in (("left", 2), ("coming", 0)):
+        (data / "incoming" / name).write_bytes(b"x")
+        made_old(data / "incoming" / name, timedelta(hours=hours))
+    keep_house(context)
+    assert not context.storage.local(orphan.key).exists()
+    assert context.storage.local(fresh.key).exists()
+    assert [path.name for path in (data / "jobs").iterdir()] == [known.id]
+    assert [path.name for path in (data / "incoming").iterdir()] == ["coming"]
+
+
+def test_the_cache_loses_what_was_not_used_for_longest(tmp_path: Path) -> None:
+    store = StageStore(tmp_path)
+    for name, hours in (("a", 9), ("b", 7), ("c", 8), ("d", 0.5), (".draft-x", 5)):
+        store.save(name, (np.zeros(125_000),))  # a megabyte each
+        made_old(tmp_path / name, timedelta(hours=hours))
+    trim(tmp_path, 3.5)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["b", "d"]
+    trim(tmp_path, 0)
+    assert [path.name for path in tmp_path.iterdir()] == ["d"], "a running job may be about to read it"
+    assert store.find("d") is not None

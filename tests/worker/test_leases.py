@@ -1,0 +1,115 @@
+"""The course of a job in SQL: claims, fences, fruitless attempts."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from datetime import timedelta
+
+import pytest
+
+from service.clock import now
+from service.context import Context
+from service.ids import new_id
+from service.jobs import leases, repository
+from service.jobs.leases import Lease
+from service.jobs.models import Job, Status
+from worker.sweep import take_back_expired
+
+
+@pytest.fixture
+def job_id(context: Context) -> str:
+    job = Job(
+        id=new_id(),
+        **{"kind": "tiny", "status": "queued", "inputs": {}, "sources": {}, "options": {}, "notes": {}},
+        **{"progress": {}, "created_at": now(), "enqueued_at": now()},
+    )
+    with context.database.write() as session:
+        session.add(job)
+    return job.id
+
+
+def claim(context: Context, job_id: str, seconds: float = 30) -> Lease | None:
+    with context.database.write() as session:
+        return leases.claim(session, job_id, "somebody", seconds)
+
+
+def status(context: Context, job_id: str) -> tuple[str, int]:
+    with context.database.read() as session:
+        job = repository.get(session, job_id)
+    assert job is not None
+    return job.status, job.fruitless_attempts
+
+
+def test_a_message_that_comes_many_times_runs_once(context: Context, job_id: str) -> None:
+    with ThreadPoolExecutor(8) as pool:
+        claims = list(pool.map(lambda _: claim(context, job_id), range(8)))
+    assert sum(lease is not None for lease in claims) == 1
+
+
+def test_a_worker_that_was_replaced_can_change_nothing(context: Context, job_id: str) -> None:
+    old = claim(context, job_id)
+    assert old is not None
+    with context.database.write() as session:
+        assert leases.give_back(session, old, "it fell silent") == Status.QUEUED
+    new = claim(context, job_id)
+    assert new is not None and new.token > old.token
+    with context.database.write() as session:
+        assert not leases.holds(session, old)
+        assert not leases.report(session, old, {"stage": "x", "fraction": 0.5})
+        assert not leases.bear_fruit(session, old)
+        assert not leases.succeed(session, old)
+        assert not leases.fail(session, old, "code", "detail")
+        assert leases.give_back(session, old, "late") is None
+        assert leases.holds(session, new)
+    assert status(context, job_id) == ("running", 2)
+
+
+def test_three_fruitless_attempts_in_a_row_fail_the_job(context: Context, job_id: str) -> None:
+    for expected in (Status.QUEUED, Status.QUEUED, Status.FAILED):
+        lease = claim(context, job_id)
+        assert lease is not None
+        with context.database.write() as session:
+            assert leases.give_back(session, lease, "it died") == expected
+    with context.database.read() as session:
+        job = repository.get(session, job_id)
+    assert job is not None and job.error is not None
+    assert job.error["code"] == "attempts_exhausted" and "it died" in job.error["detail"]
+
+
+def test_a_stored_stage_begins_the_count_anew(context: Context, job_id: str) -> None:
+    for _ in range(6):
+        lease = claim(context, job_id)
+        assert lease is not None
+        with context.database.write() as session:
+            assert leases.bear_fruit(session, lease)
+            assert leases.give_back(session, lease, "it died") == Status.QUEUED
+
+
+def test_an_attempt_that_was_told_to_stop_does_not_count(context: Context, job_id: str) -> None:
+    for _ in range(5):
+        lease = claim(context, job_id)
+        assert lease is not None
+        with context.database.write() as session:
+            assert leases.give_back(session, lease, "told to stop", counts=False) == Status.QUEUED
+    assert status(context, job_id) == ("queued", 0)
+
+
+def test_the_sweep_takes_back_what_a_silent_worker_held(context: Context, job_id: str) -> None:
+    assert claim(context, job_id, seconds=30) is not None
+    take_back_expired(context)
+    assert status(context, job_id) == ("running", 1)
+    with context.database.write() as session:
+        session.get_one(Job, job_id).lease_expires_at = now() - timedelta(seconds=1)
+    take_back_expired(context)
+    assert status(context, job_id) == ("queued", 1)
+
+
+def test_a_canceled_job_cannot_be_claimed_or_finished(context: Context, job_id: str) -> None:
+    lease = claim(context, job_id)
+    assert lease is not None
+    with context.database.write() as session:
+        assert leases.cancel(session, job_id)
+        assert not leases.succeed(session, lease)
+        assert not leases.cancel(session, job_id)
+    assert claim(context, job_id) is None
+    assert status(context, job_id)[0] == "canceled"
