@@ -1,0 +1,154 @@
+"""Head pose by PnP on faces projected by a camera that the test knows; meshes from placed landmarks."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.perception.head_pose import FOCAL, canonical_face, head_pose, mesh_from_fiducials, mirror_vertices
+from engine.perception.landmarks import MESH_SIZE, fiducials
+
+SIZE = (640, 480)
+
+
+def seen(
+    yaw: float, pitch: float, roll: float, unit: float = 80.0, centre: tuple[float, float] = (0.0, 0.0)
+) -> NDArray:
+    """The canonical face turned by these angles (degrees), seen by a camera of the assumed focal length.
+
+    `centre` is where the face is, in pixels from the picture's middle; x right, y down, z away.
+    """
+    y, p, r = np.deg2rad((yaw, pitch, roll))
+    about_y = np.array([[np.cos(y), 0, -np.sin(y)], [0, 1, 0], [np.sin(y), 0, np.cos(y)]])
+    about_x = np.array([[1, 0, 0], [0, np.cos(p), -np.sin(p)], [0, np.sin(p), np.cos(p)]])
+    about_z = np.array([[np.cos(r), -np.sin(r), 0], [np.sin(r), np.cos(r), 0], [0, 0, 1]])
+    points = canonical_face().astype(float) @ (about_y @ about_x @ about_z).T
+    focal = FOCAL * max(SIZE)
+    distance = focal / unit
+    points = points + np.array([*(np.array(centre) / unit), distance])
+    middle = (np.array(SIZE) - 1) / 2
+    return np.column_stack([focal * points[:, :2] / points[:, 2:] + middle, unit * points[:, 2]])
+
+
+@pytest.mark.parametrize("yaw", [-40, -25, 0, 10, 40])
+@pytest.mark.parametrize("pitch", [-25, 0, 20])
+def test_known_turns_are_recovered(yaw: float, pitch: float) -> None:
+    pose = head_pose(seen(yaw, pitch, 0), SIZE)
+    assert np.rad2deg(pose.yaw) == pytest.approx(yaw, abs=0.1)
+    assert np.rad2deg(pose.pitch) == pytest.approx(pitch, abs=0.1)
+    assert pose.error < 1e-4
+
+
+@pytest.mark.parametrize("roll", [-30, 0, 15])
+def test_roll_is_clockwise_and_does_not_count_as_a_turn(roll: float) -> None:
+    mesh = seen(0, 0, roll)
+    pose = head_pose(mesh, SIZE)
+    assert np.rad2deg(pose.roll) == pytest.approx(roll, abs=0.1)
+    assert abs(np.rad2deg(pose.yaw)) < 0.1 and abs(np.rad2deg(pose.pitch)) < 0.1
+    eyes = mesh[263, :2] - mesh[33, :2]
+    assert np.rad2deg(np.arctan2(eyes[1], eyes[0])) == pytest.approx(roll, abs=0.1)  # y is down: > 0 is clockwise
+
+
+def test_signs_as_a_viewer_sees_them() -> None:
+    """Yaw > 0: the nose points to the picture's right; pitch > 0: downwards."""
+    rest, right, down = seen(0, 0, 0), seen(20, 0, 0), seen(0, 20, 0)
+    assert right[4, 0] > rest[4, 0] + 5
+    assert down[4, 1] > rest[4, 1] + 5
+
+
+@pytest.mark.parametrize("unit", [20.0, 200.0])
+@pytest.mark.parametrize("centre", [(0.0, 0.0), (-120.0, 60.0)])
+def test_pose_does_not_depend_on_size_and_place(unit: float, centre: tuple[float, float]) -> None:
+    pose = head_pose(seen(15, -10, 5, unit, centre), SIZE)
+    assert np.rad2deg([pose.yaw, pose.pitch]) == pytest.approx([15, -10], abs=0.1)
+
+
+def test_expressions_hardly_change_the_pose() -> None:
+    mesh = seen(12, 5, 0)
+    mesh[[61, 291, 13, 14, 17, 0], :2] += [[-6, -5], [6, -5], [0, -6], [0, 20], [0, 20], [0, -4]]
+    pose = head_pose(mesh, SIZE)
+    assert np.rad2deg([pose.yaw, pose.pitch]) == pytest.approx([12, 5], abs=1.0)
+
+
+def test_canonical_face_is_symmetric_frontal_and_of_unit_eye_distance() -> None:
+    face, mirror = canonical_face(), mirror_vertices()
+    assert (mirror[mirror] == np.arange(MESH_SIZE)).all()
+    np.testing.assert_allclose(face[mirror] * [-1, 1, 1], face, atol=1e-5)
+    right, left = face[[33, 133]].mean(axis=0), face[[263, 362]].mean(axis=0)
+    assert np.linalg.norm(left - right) == pytest.approx(1.0, abs=0.01)
+    assert np.abs((left + right) / 2).max() < 0.05
+    assert face[4, 2] < face[[234, 454], 2].min()  # the nose is nearest
+
+
+@pytest.fixture(scope="module")
+def placed() -> NDArray[np.float64]:
+    """Landmarks as someone sets them on a drawing: another face's proportions, askew."""
+    points = fiducials(seen(0, 0, 8, 60))[:, :2]
+    rng = np.random.default_rng(3)
+    return points * [1.2, 0.9] + rng.normal(0, 0.4, points.shape)
+
+
+def test_mesh_passes_through_placed_landmarks(placed: NDArray) -> None:
+    mesh = mesh_from_fiducials(placed)
+    assert mesh.shape == (MESH_SIZE, 3) and mesh.dtype == np.float32
+    assert np.abs(fiducials(mesh)[:, :2] - placed).max() < 0.5
+
+
+def test_placed_landmarks_of_the_canonical_face_give_it_back() -> None:
+    face = 70 * canonical_face() + (200, 150, 0)
+    mesh = mesh_from_fiducials(fiducials(face)[:, :2])
+    away = np.linalg.norm(mesh[:, :2] - face[:, :2], axis=1)
+    assert away.max() < 0.02 * 70
+    np.testing.assert_allclose(mesh[:, 2], face[:, 2], atol=1.0)
+
+
+def test_mesh_from_landmarks_is_no_crumpled_one(placed: NDArray) -> None:
+    """The plane is bent, not folded: triangles of the canonical face keep their sense."""
+    from scipy.spatial import Delaunay
+
+    rest, bent = canonical_face()[:468, :2], mesh_from_fiducials(placed)[:468, :2]
+    triangles = Delaunay(rest[::3]).simplices * 3
+
+    def area(p: NDArray) -> NDArray:
+        a, b = p[triangles[:, 1]] - p[triangles[:, 0]], p[triangles[:, 2]] - p[triangles[:, 0]]
+        return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+    large = np.abs(area(rest)) > 1e-3
+    assert (np.sign(area(rest)) == np.sign(area(bent)))[large].mean() > 0.99
+
+
+def test_a_whole_mesh_is_taken_as_it_is() -> None:
+    face = 50 * canonical_face() + 100
+    np.testing.assert_array_equal(mesh_from_fiducials(face), face)
+    flat = mesh_from_fiducials(face[:, :2])
+    np.testing.assert_array_equal(flat[:, :2], face[:, :2])
+    np.testing.assert_allclose(flat[:, 2] + 100, face[:, 2], atol=0.5)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [np.zeros((68, 2)), np.zeros((5, 2)), np.full((68, 2), np.nan), np.linspace(0, 300, 68)[:, None] * [1, 2]],
+    ids=["one spot", "too few", "not finite", "one line"],
+)
+def test_points_that_are_no_face_are_refused(points: NDArray) -> None:
+    with pytest.raises(InputError) as caught:
+        mesh_from_fiducials(points)
+    assert caught.value.code == "landmarks_invalid"
+    assert caught.value.correctable == ("landmarks",)
+
+
+def test_pose_of_a_flat_picture_of_a_face_is_frontal(media) -> None:
+    from engine.media.image import read_image
+    from engine.perception.faces import find_faces
+
+    picture = read_image(media("portraits/photo_woman_outdoor.jpg")).rgb
+    scale = 400 / max(picture.shape[:2])
+    small = cv2.resize(picture, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    pose = head_pose(find_faces(small)[0], small.shape[1::-1])
+    mirrored = head_pose(find_faces(np.ascontiguousarray(small[:, ::-1]))[0], small.shape[1::-1])
+    assert abs(np.rad2deg(pose.yaw)) < 12
+    assert np.rad2deg(mirrored.yaw) == pytest.approx(-np.rad2deg(pose.yaw), abs=3)
+    assert np.rad2deg(mirrored.pitch) == pytest.approx(np.rad2deg(pose.pitch), abs=3)
