@@ -90,7 +90,7 @@ class StageStore:
 
 
 def _pack(value: Any, name: str, arrays: dict[str, np.ndarray], folder: Path) -> Any:
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray) and not value.dtype.hasobject:  # numpy would pickle objects
         arrays[name] = value
         return None
     if isinstance(value, Path):
