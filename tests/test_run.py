@@ -1,0 +1,302 @@
+"""The runner: progress, cancellation, what is kept, and that a correction redoes what follows and no more."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+import engine
+from engine.errors import Canceled, Notice
+from engine.run import Progress, Run, content_hash, write_report
+from engine.store import StageStore
+
+
+@dataclass(frozen=True)
+class Points:
+    xy: NDArray[np.float64]
+
+
+class Options(BaseModel):
+    strength: float = 1.0
+
+
+class Pipeline:
+    """Three stages in a row, as a system has them; counts how often each really works."""
+
+    def __init__(self) -> None:
+        self.worked: list[str] = []
+
+    def detect(self, path: Path, seed: int) -> Points:
+        self.worked.append("detect")
+        return Points(np.frombuffer(path.read_bytes(), np.uint8).astype(float) + seed)
+
+    def fit(self, points: Points, options: Options) -> Points:
+        self.worked.append("fit")
+        return Points(points.xy * options.strength)
+
+    def refine(self, points: Points, corrected: NDArray[np.float64] | None) -> Points:
+        self.worked.append("refine")
+        return points if corrected is None else Points(corrected)
+
+    def __call__(self, run: Run, path: Path, seed: int = 0, strength: float = 1.0, corrected=None) -> NDArray:
+        self.worked.clear()
+        found = run.stage("detect", self.detect, path, seed)
+        fitted = run.stage("fit", self.fit, found, Options(strength=strength))
+        return run.stage("refine", self.refine, fitted, corrected).xy
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    file = tmp_path / "input.bin"
+    file.write_bytes(bytes([1, 2, 3]))
+    return file
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> StageStore:
+    return StageStore(tmp_path / "store")
+
+
+def test_a_second_run_works_nothing(path: Path, store: StageStore) -> None:
+    pipeline = Pipeline()
+    first = pipeline(Run(store=store), path, strength=2.0)
+    assert pipeline.worked == ["detect", "fit", "refine"]
+    again = Run(store=store)
+    np.testing.assert_array_equal(pipeline(again, path, strength=2.0), first)
+    assert pipeline.worked == []
+    assert again.reused == ["detect", "fit", "refine"]
+
+
+@pytest.mark.parametrize(
+    ("change", "redone"),
+    [
+        ({"seed": 1}, ["detect", "fit", "refine"]),
+        ({"strength": 0.5}, ["fit", "refine"]),
+        ({"corrected": np.ones(3)}, ["refine"]),
+        ({}, []),
+    ],
+    ids=["first", "middle", "last", "none"],
+)
+def test_a_changed_input_redoes_what_follows_and_no_more(path: Path, store: StageStore, change, redone) -> None:
+    pipeline = Pipeline()
+    pipeline(Run(store=store), path)
+    result = pipeline(Run(store=store), path, **change)
+    assert pipeline.worked == redone
+    np.testing.assert_array_equal(result, pipeline(Run(), path, **change))  # and gives what a fresh run gives
+
+
+def test_a_file_counts_by_its_content(path: Path, store: StageStore, tmp_path: Path) -> None:
+    pipeline = Pipeline()
+    pipeline(Run(store=store), path)
+    copy = tmp_path / "another name.bin"
+    copy.write_bytes(path.read_bytes())
+    pipeline(Run(store=store), copy)
+    assert pipeline.worked == []
+    copy.write_bytes(bytes([9, 9, 9]))
+    assert pipeline(Run(store=store), copy).tolist() == [9, 9, 9]
+    assert pipeline.worked == ["detect", "fit", "refine"]
+
+
+def test_another_version_of_the_engine_starts_afresh(
+    path: Path, store: StageStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pipeline = Pipeline()
+    pipeline(Run(store=store), path)
+    monkeypatch.setattr(engine, "__version__", "999")
+    pipeline(Run(store=store), path)
+    assert pipeline.worked == ["detect", "fit", "refine"]
+
+
+def test_without_a_store_nothing_is_kept(path: Path) -> None:
+    pipeline = Pipeline()
+    pipeline(Run(), path)
+    pipeline(Run(), path)
+    assert pipeline.worked == ["detect", "fit", "refine"]
+
+
+def test_a_killed_run_is_taken_up_where_it_stopped(path: Path, store: StageStore) -> None:
+    class Killed(BaseException):
+        pass
+
+    class Interrupted(Pipeline):
+        def refine(self, points: Points, corrected) -> Points:
+            raise Killed
+
+    with pytest.raises(Killed):
+        Interrupted()(Run(store=store), path)
+    pipeline = Pipeline()
+    pipeline(Run(store=store), path)
+    assert pipeline.worked == ["refine"]
+
+
+def test_a_process_killed_while_it_stores_leaves_no_half_output(tmp_path: Path) -> None:
+    """SIGKILL at whatever moment: what is in the store can be read and is whole."""
+    script = (
+        "import numpy as np, sys\nfrom pathlib import Path\nfrom engine.store import StageStore\n"
+        "store = StageStore(Path(sys.argv[1]))\nprint('up', flush=True)\n"
+        "for i in range(10**6):\n    store.save(f'key{i}', np.full((200, 1000), i))\n    print(i, flush=True)\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    for line in process.stdout:
+        if line.strip() == "7":
+            break
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+    store = StageStore(tmp_path)
+    keys = sorted(p.name for p in tmp_path.iterdir() if not p.name.startswith("."))
+    assert len(keys) >= 8
+    for key in keys:
+        kept = store.load(key, NDArray[np.int64])
+        assert kept is not None and (kept[1] == int(key[3:])).all() and kept[1].shape == (200, 1000)
+
+
+def test_shared_stages_go_to_the_shared_store(path: Path, tmp_path: Path) -> None:
+    pipeline = Pipeline()
+    shared = StageStore(tmp_path / "shared")
+    for job in ("one", "two"):
+        run = Run(store=StageStore(tmp_path / job), shared=shared)
+        found = run.stage("detect", pipeline.detect, path, 0, shared=True)
+        run.stage("fit", pipeline.fit, found, Options())
+    assert pipeline.worked == ["detect", "fit", "fit"]
+    assert len(list((tmp_path / "two").iterdir())) == 1
+
+
+def test_stages_that_are_not_stored_work_every_time(path: Path, store: StageStore) -> None:
+    pipeline = Pipeline()
+    for _ in range(2):
+        Run(store=store).stage("detect", pipeline.detect, path, 0, stored=False)
+    assert pipeline.worked == ["detect", "detect"]
+    assert not store.folder.exists()
+
+
+def test_callables_do_not_count_towards_the_key_and_other_things_are_refused() -> None:
+    run = Run()
+    assert run.key("s", 1, print) == run.key("s", 1, len) == run.key("s", 1)
+    with pytest.raises(TypeError):
+        run.key("s", object())
+
+
+@pytest.mark.parametrize(
+    ("a", "b"),
+    [
+        ((1,), (2,)),
+        ((1,), ("1",)),
+        ((None,), (0,)),
+        ((np.zeros(3),), (np.zeros(3, np.float32),)),
+        ((np.zeros((2, 3)),), (np.zeros((3, 2)),)),
+        (((1, 2),), ((2, 1),)),
+        ((Options(strength=1),), (Options(strength=2),)),
+        ((Points(np.zeros(2)),), (Points(np.ones(2)),)),
+        ((1, 2), ((1, 2),)),
+    ],
+)
+def test_different_arguments_have_different_keys(a: tuple, b: tuple) -> None:
+    run = Run()
+    assert run.key("stage", *a) != run.key("stage", *b)
+    assert run.key("stage", *a) == Run().key("stage", *a)
+    assert run.key("stage", *a) != run.key("other", *a)
+
+
+def test_a_strided_array_has_the_key_of_its_values() -> None:
+    grid = np.arange(24).reshape(4, 6)
+    assert Run().key("s", grid.T) == Run().key("s", np.ascontiguousarray(grid.T))
+
+
+def test_warnings_of_a_reused_stage_are_given_again(path: Path, store: StageStore) -> None:
+    def look(path: Path, warn) -> Points:
+        warn("dim", "The picture is dim.")
+        warn("dim", "The picture is dim.")
+        return Points(np.zeros(1))
+
+    for _ in range(2):
+        run = Run(store=store)
+        run.stage("look", look, path, run.warn)
+        assert run.notices == [Notice("dim", "The picture is dim.")]
+
+
+def test_progress_goes_from_nought_to_one_in_the_planned_shares(path: Path) -> None:
+    seen: list[Progress] = []
+    run = Run(on_progress=seen.append)
+    run.plan({"first": 1.0, "second": 3.0})
+    with run.timed("first"):
+        run.tick(1.0)
+    with run.timed("second"):
+        run.tick(0.5, "half of it")
+    assert (seen[0].stage, seen[0].fraction) == ("first", 0.0)
+    assert ("second", 0.25) in [(p.stage, p.fraction) for p in seen]
+    fractions = [p.fraction for p in seen]
+    assert fractions == sorted(fractions)
+    assert all(0 <= f <= 1 for f in fractions)
+    assert set(run.seconds) == {"first", "second"}
+
+
+def test_many_ticks_make_few_reports() -> None:
+    seen: list[Progress] = []
+    run = Run(on_progress=seen.append)
+    run.plan({"only": 1.0})
+    with run.timed("only"):
+        for i in range(10_000):
+            run.tick(i / 10_000)
+    assert 1 <= len(seen) < 1000
+
+
+def test_a_run_that_is_told_to_stop_stops_between_stages_and_inside_them(path: Path) -> None:
+    told = False
+    run = Run(canceled=lambda: told)
+    with run.timed("first"):
+        run.tick(0.5)
+        told = True
+        with pytest.raises(Canceled):
+            run.tick(0.6)
+    with pytest.raises(Canceled):
+        run.stage("second", Pipeline().detect, path, 0)
+
+
+def test_a_canceled_stage_keeps_nothing(path: Path, store: StageStore) -> None:
+    told = False
+    run = Run(store=store, canceled=lambda: told)
+
+    def work(path: Path, tick) -> Points:
+        nonlocal told
+        told = True
+        tick(0.5)
+        return Points(np.zeros(1))
+
+    with pytest.raises(Canceled):
+        run.stage("work", work, path, run.tick)
+    assert not store.folder.exists() or list(store.folder.iterdir()) == []
+
+
+def test_artifacts_are_announced(tmp_path: Path) -> None:
+    seen: list[Path] = []
+    Run(on_artifact=seen.append).publish(tmp_path / "preview.jpg")
+    assert seen == [tmp_path / "preview.jpg"]
+
+
+def test_the_report_has_the_contract_s_fields(path: Path, tmp_path: Path) -> None:
+    run = Run()
+    run.stage("detect", Pipeline().detect, path, 0)
+    run.warn("dim", "The picture is dim.")
+    write_report(tmp_path / "report.json", "portrait", run, {"size": [2, 3]}, {"figure": 0.5})
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert list(report) == ["kind", "engine_version", "stages", "inputs", "quality", "warnings"]
+    assert report["engine_version"] == engine.__version__
+    assert report["stages"]["detect"] >= 0
+    assert report["warnings"] == [{"code": "dim", "message": "The picture is dim."}]
+    assert report["inputs"] == {"size": [2, 3]} and report["quality"] == {"figure": 0.5}
+
+
+def test_content_hash_is_sha256(path: Path) -> None:
+    assert content_hash(path) == "039058c6f2c0cb492c533b0a4d14ef77cc0f78abccced5287d84a1a2011cfb81"
