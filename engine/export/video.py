@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import zipfile
+import queue
+import threading
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
-from typing import Literal, Self
+from typing import Any, Self
 
-import av
-import cv2
 import numpy as np
-from av.video.reformatter import Colorspace, Interpolation, VideoReformatter
 
-from engine.media.timing import exact_rate
+from engine.export.encoders import Encoder, Format, PngEncoder, StreamEncoder, Target
 
-Format = Literal["mp4", "webm", "webp", "png"]
-_CODECS = {"mp4": "libx264", "webm": "libvpx-vp9", "webp": "libwebp_anim"}
+Warn = Callable[[str, str], None]
+
+_WAITING = 4
+"""Frames that may wait for the encoder: enough to even out its pace, few enough that memory stays flat."""
 
 
 def even_size(width: float, height: float) -> tuple[int, int]:
@@ -24,9 +26,26 @@ def even_size(width: float, height: float) -> tuple[int, int]:
 
 
 class VideoWriter:
-    """Writes a video of `size` (w, h) at `fps`; a context manager.
+    """Writes a video; a context manager. The file appears under its name when the block ends without an error, and
+    not at all otherwise.
 
-    The file appears under `path` only when the block ends without an error.
+    Encoding runs in a thread of its own: `write` converts the frame (its arrays may be changed right after) and waits
+    only when the encoder is frames behind.
+
+    Parameters
+    ----------
+    path : where the video is to be.
+    size : (width, height) in pixels of every frame; even for "mp4" and "webm".
+    fps : frames a second.
+    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated) or "png" (a zip archive of PNGs). All
+        but "mp4" keep alpha where the first frame has it; the first two are BT.709, limited range, and tagged so.
+    crf : constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none.
+    sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
+    sound_trim : (start, end) seconds of that file's video that the frames stand for.
+    loop : whether an animated WebP repeats for ever (of the others, the player decides).
+    warn : called with (code, message): `no_sound` where there is none to carry, or the format holds none.
+
+    Raises `ValueError` for frames that do not fit and for a video of none, `OSError` where the disk is full.
     """
 
     def __init__(
@@ -39,72 +58,73 @@ class VideoWriter:
         sound: Path | None = None,
         sound_trim: tuple[float, float] | None = None,
         loop: bool = False,
+        warn: Warn | None = None,
     ):
-        self.path = path
-        self._draft = path.with_name(f".{path.name}.draft")
-        self._size = size
-        self._format = format
-        self._count = 0
-        self._reformatter = VideoReformatter()
-        if format == "png":
-            self._zip = zipfile.ZipFile(self._draft, "w")
-            return
-        if format != "webp" and (size[0] % 2 or size[1] % 2):
+        if format in ("mp4", "webm") and (size[0] % 2 or size[1] % 2):
             raise ValueError(f"the size of a video must be even, not {size}")
-        options = {"mp4": {"movflags": "+faststart"}, "webp": {"loop": "0" if loop else "1"}}.get(format, {})
-        self._container = av.open(str(self._draft), "w", format=format, options=options)
-        self._stream = self._container.add_stream(_CODECS[format], rate=exact_rate(fps))
-        self._stream.width, self._stream.height = size
-        context = self._stream.codec_context
-        if format == "mp4":
-            self._stream.pix_fmt = "yuv420p"
-            self._stream.options = {"preset": "veryfast", "crf": str(crf or 20), "profile": "high"}
-        elif format == "webm":
-            self._stream.pix_fmt = "yuv420p"
-            self._stream.options = {"deadline": "realtime", "cpu-used": "6", "crf": str(crf or 30), "b": "0"}
-        else:
-            self._stream.pix_fmt = "bgra"
-        if format != "webp":
-            context.color_primaries = context.color_trc = context.colorspace = 1
-            context.color_range = 1
-        context.thread_count = 2
+        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop)
+        self._draft = path.with_name(f".{path.name}.draft")
+        self._warn = warn or (lambda code, message: None)
+        self._encoder: Encoder | None = None
+        self._waiting: queue.Queue[Any] = queue.Queue(_WAITING)
+        self._thread = threading.Thread(target=self._encode, name="video-encoder", daemon=True)
+        self._failure: BaseException | None = None
 
     def __enter__(self) -> Self:
         return self
 
     def write(self, rgb: np.ndarray, alpha: np.ndarray | None = None) -> None:
-        """Add a frame: `rgb` uint8 (H, W, 3), `alpha` float32 (H, W) [0, 1] where the format keeps it."""
-        if self._format == "png":
-            image = cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR)
-            if alpha is not None:
-                image = np.dstack([image, np.round(alpha * 255).astype(np.uint8)])
-            self._zip.writestr(f"{self._count:06d}.png", cv2.imencode(".png", image)[1].tobytes())
-            self._count += 1
-            return
-        frame = av.VideoFrame.from_ndarray(rgb, "rgb24")
-        frame.pts = self._count
-        self._count += 1
-        if self._format == "webp":
-            frame = frame.reformat(format="bgra")
-        else:
-            frame = self._reformatter.reformat(
-                frame, format="yuv420p", dst_colorspace=Colorspace.ITU709, interpolation=Interpolation.BILINEAR
-            )
-        for packet in self._stream.encode(frame):
-            self._container.mux(packet)
+        """Add a frame: `rgb` uint8 (H, W, 3), `alpha` float32 (H, W) [0, 1]. Raises what the encoder met meanwhile."""
+        width, height = self._target.size
+        if rgb.shape != (height, width, 3) or (alpha is not None and alpha.shape != (height, width)):
+            raise ValueError(f"a frame of shape {rgb.shape} in a video of {width} x {height}")
+        if alpha is not None and self._target.format == "mp4":
+            raise ValueError("MP4 keeps no alpha: lay the frames over a background first")
+        if self._encoder is None:
+            self._encoder = self._start(transparent=alpha is not None)
+        self._waiting.put(self._encoder.prepare(rgb, alpha))
+        if self._failure is not None:
+            raise self._failure
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         try:
-            if self._format == "png":
-                self._zip.close()
-            else:
-                if kind is None:
-                    for packet in self._stream.encode(None):
-                        self._container.mux(packet)
-                self._container.close()
-            if kind is None:
-                self._draft.replace(self.path)
+            if self._encoder is None:
+                if error is None:
+                    raise ValueError("a video of no frames")
+                return
+            self._waiting.put(None)
+            self._thread.join()
+            try:
+                if error is None and self._failure is None:
+                    self._encoder.finish()
+                    self._draft.replace(self._target.path)
+            finally:
+                self._encoder.abandon()
+            if error is None and self._failure is not None:
+                raise self._failure
         finally:
             self._draft.unlink(missing_ok=True)
+
+    def _start(self, transparent: bool) -> Encoder:
+        target = replace(self._target, path=self._draft)
+        encoder: Encoder
+        if target.format == "png":
+            encoder, has_sound = PngEncoder(target), False
+        else:
+            encoder = stream = StreamEncoder(target, transparent)
+            has_sound = stream.sound is not None
+        if target.sound is not None and not has_sound:
+            self._warn("no_sound", "The result has no sound: the driver has none, or the format holds none.")
+        self._thread.start()
+        return encoder
+
+    def _encode(self) -> None:
+        """The thread: code what waits until None comes; after a failure, only empty the queue."""
+        while (prepared := self._waiting.get()) is not None:
+            if self._failure is None and self._encoder is not None:
+                try:
+                    self._encoder.add(prepared)
+                except BaseException as failure:
+                    self._failure = failure

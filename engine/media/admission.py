@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from engine.errors import InputError
-from engine.media.demux import without_picture
+from engine.media.demux import Header, without_picture
 from engine.media.limits import Limits
 from engine.media.sniff import VIDEO_TYPES, is_still_webp, sniff
 
@@ -34,9 +34,15 @@ def admit_video(path: Path, limits: Limits) -> str:
     return media_type
 
 
+def check_claims(header: Header, limits: Limits) -> None:
+    """Refuse what its header alone shows to be beyond the limits. The rate is left to the packets: recordings from
+    browsers claim their clock's ticks, a thousand a second."""
+    check_video(header.width, header.height, 0.0, header.seconds, header.frames, limits)
+
+
 def check_video(width: int, height: int, fps: float, seconds: float, frames: int, limits: Limits) -> None:
     """Raise `InputError` where a video is beyond the limits: `video_too_large`, `video_too_long`, `video_pixel_rate`,
-    `video_too_many_frames`. A figure that is not known is 0."""
+    `video_too_many_frames`."""
     if width * height > limits.video_megapixels * 1e6:
         raise InputError(
             "video_too_large",

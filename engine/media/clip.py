@@ -11,7 +11,7 @@ from av.video.frame import VideoFrame
 
 from engine.errors import InputError
 from engine.media import animated_webp
-from engine.media.admission import admit_video, check_video
+from engine.media.admission import admit_video, check_claims, check_video
 from engine.media.colour import transfer_of
 from engine.media.decode import Damage, decode
 from engine.media.demux import Header, Timetable, header_of, open_video, timetable_of, unreadable
@@ -76,11 +76,11 @@ def open_clip(path: Path, limits: Limits) -> Clip:
 def _read_headers(path: Path, media_type: str, limits: Limits) -> tuple[Header, Timetable]:
     if media_type == "image/webp":
         header, timetable = animated_webp.read_chunks(path)
-        check_video(header.width, header.height, header.fps, header.seconds, header.frames, limits)
+        check_claims(header, limits)
         return header, timetable
     with open_video(path, media_type, limits) as (container, stream):
         header = header_of(container, stream)
-        check_video(header.width, header.height, header.fps, header.seconds, header.frames, limits)
+        check_claims(header, limits)
         return header, timetable_of(container, stream, header, limits)
 
 

@@ -29,6 +29,8 @@ _DEMUXERS = {
     "image/gif": "gif",
     "image/apng": "apng",
 }
+_HIGHEST_RATE = 480.0
+"""Frames a second; a header that claims more states its clock, not its rate."""
 
 
 @dataclass(frozen=True)
@@ -66,27 +68,37 @@ class Timetable:
         return float(np.median(np.diff(self.times))) if len(self.times) > 1 else self.last
 
 
-@contextmanager
-def open_video(path: Path, media_type: str, limits: Limits) -> Iterator[tuple[InputContainer, VideoStream]]:
-    """The container and its video stream (not a cover picture). Raises `video_unreadable`, `no_video_stream`."""
-    decoder = {"max_pixels": str(int(limits.video_megapixels * 1.1e6))}  # in case a frame belies the header
+def open_container(path: Path, media_type: str, limits: Limits | None = None) -> InputContainer:
+    """Open a file by the demuxer of its media type; the caller closes it. Raises `video_unreadable`."""
+    options = {"protocol_whitelist": "file", **_decoder_options(limits or Limits())}
     try:
-        container = av.open(
-            str(path), "r", format=_DEMUXERS[media_type], options={"protocol_whitelist": "file", **decoder}
-        )
+        return av.open(str(path), "r", format=_DEMUXERS[media_type], options=options)
     except (av.FFmpegError, ValueError) as error:
         raise unreadable() from error
-    with container:
-        streams = [s for s in container.streams.video if not s.disposition & Disposition.attached_pic]
-        if not streams:
+
+
+def video_stream(container: InputContainer) -> VideoStream | None:
+    """The first stream of moving pictures (cover pictures are none)."""
+    return next((s for s in container.streams.video if not s.disposition & Disposition.attached_pic), None)
+
+
+@contextmanager
+def open_video(path: Path, media_type: str, limits: Limits) -> Iterator[tuple[InputContainer, VideoStream]]:
+    """The container and its video stream, ready to decode. Raises `video_unreadable`, `no_video_stream`."""
+    with open_container(path, media_type, limits) as container:
+        stream = video_stream(container)
+        if stream is None:
             raise without_picture()
-        stream = streams[0]
         if stream.codec_context is None:  # a codec that FFmpeg cannot decode
             raise unreadable()
-        stream.codec_context.options = decoder
+        stream.codec_context.options = _decoder_options(limits)
         stream.thread_type = "AUTO"
         stream.codec_context.thread_count = min(os.cpu_count() or 1, 4)
         yield container, stream
+
+
+def _decoder_options(limits: Limits) -> dict[str, str]:
+    return {"max_pixels": str(int(limits.video_megapixels * 1.1e6))}  # in case a frame belies the header
 
 
 def header_of(container: InputContainer, stream: VideoStream) -> Header:
@@ -95,10 +107,11 @@ def header_of(container: InputContainer, stream: VideoStream) -> Header:
     if not seconds and container.duration:
         seconds = container.duration / av.time_base
     aspect = float(stream.sample_aspect_ratio or 1)
+    rates = (float(rate) for rate in (stream.average_rate, stream.guessed_rate) if rate)
     return Header(
         width=stream.width,
         height=stream.height,
-        fps=float(stream.average_rate or stream.guessed_rate or 0),
+        fps=next((rate for rate in rates if rate <= _HIGHEST_RATE), 0.0),
         seconds=max(seconds, 0.0),
         frames=stream.frames,
         has_sound=bool(container.streams.audio),

@@ -40,7 +40,8 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
     """
     count = len(times)
     slope = float(np.polyfit(np.arange(count), times, 1)[0])
-    for fps in (*stated, 1 / slope):
+    whole = [float(round(1 / slope))] if abs(round(1 / slope) * slope - 1) < 5e-4 else []  # rounded timestamps
+    for fps in (*stated, *whole, 1 / slope):
         even = (times - times[0]) * fps
         with_holes = np.round(even)
         for places in (np.arange(count), with_holes):

@@ -71,6 +71,25 @@ def test_rates(tmp_path: Path, fps: float, ending: str) -> None:
     assert numbers(path) == list(range(50))
 
 
+@pytest.mark.parametrize("codec", ["libvpx", "libvpx-vp9"])
+def test_recordings_without_length_or_index(tmp_path: Path, codec: str) -> None:
+    """What a browser's recorder writes: no duration, no cues, milliseconds that tremble."""
+    times = np.round(np.arange(90) / 30 + np.random.default_rng(1).uniform(-0.004, 0.004, 90), 3)
+    path = write_clip(
+        tmp_path / "clip.webm",
+        [counter(k) for k in range(90)],
+        fps=1000,
+        times=list(times - times[0]),
+        codec=codec,
+        container_options={"live": "1"},
+    )
+    info = probe_video(path)
+    assert info.fps == pytest.approx(30, rel=0.01) and not info.variable_rate
+    assert info.seconds == pytest.approx(3, abs=0.1)
+    assert numbers(path) == list(range(90))
+    assert numbers(path, trim=(2.0, 2.2)) == list(range(60, 66))
+
+
 def test_trembling_timestamps_are_a_constant_rate(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     times = np.arange(60) / 30 + rng.uniform(-0.008, 0.008, 60)

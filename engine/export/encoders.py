@@ -1,0 +1,177 @@
+"""How each format is coded and laid into its file.
+
+Measured on 100 frames of a talking man at 600x800, one core, brightness PSNR in brackets: x264 `ultrafast` crf 18
+4 ms a frame, 1430 kB (47.4 dB); `superfast` crf 20 6 ms, 640 kB (46.1); `superfast` crf 18 with a macroblock tree over
+10 frames 6 ms, 430 kB (45.5); `veryfast` crf 18 9 ms, 370 kB (45.4); `medium` crf 20 34 ms, 350 kB (45.7). The third
+is what is used: nothing to be seen in the picture, and the renderer keeps the processor.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from contextlib import suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Literal, Protocol, cast
+
+import av
+import cv2
+import numpy as np
+from av.video.frame import VideoFrame
+from av.video.stream import VideoStream
+
+from engine.export.sound import SoundTrack, open_sound
+from engine.media.timing import exact_rate
+from engine.media.ycbcr import BT709, LIMITED, frame_from_rgb
+
+Format = Literal["mp4", "webm", "webp", "png"]
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is to be written: see `engine.export.video.VideoWriter`."""
+
+    path: Path
+    size: tuple[int, int]
+    fps: float
+    format: Format
+    crf: int | None
+    sound: Path | None
+    sound_trim: tuple[float, float] | None
+    loop: bool
+
+
+class Encoder(Protocol):
+    """Frames into a file. `prepare` may run beside `add`; the others one after another."""
+
+    def prepare(self, rgb: np.ndarray, alpha: np.ndarray | None) -> Any:
+        """What `add` takes, holding nothing of the arrays given: uint8 (H, W, 3) and float32 (H, W) or None."""
+
+    def add(self, prepared: Any) -> None:
+        """Code a frame."""
+
+    def finish(self) -> None:
+        """Complete the file and close it."""
+
+    def abandon(self) -> None:
+        """Close the file, whatever state it is in."""
+
+
+@dataclass(frozen=True)
+class _Coding:
+    codec: str
+    options: dict[str, str]
+    container: dict[str, str]
+    threads: int
+
+
+_CODINGS = {
+    "mp4": _Coding(
+        "libx264",
+        {"crf": "18", "preset": "superfast", "profile": "high", "x264-params": "mbtree=1:rc-lookahead=10"},
+        {"movflags": "+faststart"},
+        threads=1,  # the writer's own thread; x264's frame threads cost a third more processor time
+    ),
+    "webm": _Coding(
+        "libvpx-vp9",
+        {"crf": "24", "b": "0", "deadline": "realtime", "cpu-used": "7", "row-mt": "1", "auto-alt-ref": "0"},
+        {},
+        threads=2,
+    ),
+    "webp": _Coding("libwebp_anim", {"quality": "85", "compression_level": "1"}, {}, threads=1),
+}
+
+
+class StreamEncoder:
+    """MP4 (H.264), WebM (VP9) and animated WebP, by FFmpeg."""
+
+    def __init__(self, target: Target, transparent: bool):
+        coding = _CODINGS[target.format]
+        options = coding.container | ({"loop": "0" if target.loop else "1"} if target.format == "webp" else {})
+        self._webp = target.format == "webp"
+        self._transparent = transparent
+        self._rate = exact_rate(target.fps)
+        self._count = 0
+        self._container = av.open(str(target.path), "w", format=target.format, options=options)
+        self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
+        self._stream.width, self._stream.height = target.size
+        crf = {} if target.crf is None or self._webp else {"crf": str(target.crf)}
+        self._stream.options = {**coding.options, **crf}
+        self._stream.codec_context.thread_count = coding.threads
+        if self._webp:
+            self._stream.pix_fmt = "bgra"
+        else:
+            self._stream.pix_fmt = "yuva420p" if transparent else "yuv420p"
+            context = self._stream.codec_context
+            context.colorspace = context.color_primaries = context.color_trc = BT709
+            context.color_range = LIMITED
+        self.sound: SoundTrack | None = None
+        if target.sound is not None and not self._webp:
+            self.sound = open_sound(target.sound, self._container, target.format, target.sound_trim)
+
+    def prepare(self, rgb: np.ndarray, alpha: np.ndarray | None) -> VideoFrame:
+        """The frame as the codec takes it."""
+        if self._webp:
+            return av.VideoFrame.from_ndarray(_bgra(rgb, alpha), "bgra")
+        if self._transparent and alpha is None:
+            alpha = np.ones(rgb.shape[:2], np.float32)
+        return frame_from_rgb(rgb, alpha if self._transparent else None)
+
+    def add(self, prepared: VideoFrame) -> None:
+        """Code a frame, and the sound up to it."""
+        prepared.pts, prepared.time_base = self._count, 1 / self._rate
+        self._count += 1
+        self._container.mux(self._stream.encode(prepared))
+        if self.sound is not None:
+            self.sound.mux_until(float(self._count / self._rate))
+
+    def finish(self) -> None:
+        """Complete the file and close it."""
+        self._container.mux(self._stream.encode(None))
+        self._container.close()
+        self._close_sound()
+
+    def abandon(self) -> None:
+        """Close the file, whatever state it is in."""
+        with suppress(av.FFmpegError, OSError, ValueError):
+            self._container.close()
+        self._close_sound()
+
+    def _close_sound(self) -> None:
+        if self.sound is not None:
+            self.sound.close()
+
+
+class PngEncoder:
+    """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate."""
+
+    def __init__(self, target: Target):
+        self._archive = zipfile.ZipFile(target.path, "w", zipfile.ZIP_STORED)
+        self._archive.comment = f"{float(Fraction(exact_rate(target.fps))):g} frames per second".encode()
+        self._count = 0
+
+    def prepare(self, rgb: np.ndarray, alpha: np.ndarray | None) -> np.ndarray:
+        """The pixels in OpenCV's order."""
+        return cv2.cvtColor(rgb, cv2.COLOR_RGB2BGR) if alpha is None else _bgra(rgb, alpha)
+
+    def add(self, prepared: np.ndarray) -> None:
+        """Code a picture."""
+        self._archive.writestr(f"{self._count:06d}.png", cv2.imencode(".png", prepared)[1].tobytes())
+        self._count += 1
+
+    def finish(self) -> None:
+        """Complete the archive and close it."""
+        self._archive.close()
+
+    def abandon(self) -> None:
+        """Close the archive."""
+        with suppress(OSError, ValueError):
+            self._archive.close()
+
+
+def _bgra(rgb: np.ndarray, alpha: np.ndarray | None) -> np.ndarray:
+    pixels = cv2.cvtColor(rgb, cv2.COLOR_RGB2BGRA)
+    if alpha is not None:
+        pixels[..., 3] = np.round(alpha * np.float32(255))
+    return pixels

@@ -1,0 +1,243 @@
+"""Videos written: what a player finds in them, and that they appear whole or not at all."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+import zipfile
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine.export.video import VideoWriter, even_size
+from engine.media.video import probe_video, read_video
+
+COLOURS = [(0, 0, 0), (255, 255, 255), (224, 172, 138), (141, 85, 54), (200, 40, 40), (40, 160, 60), (40, 60, 200)]
+
+
+def chart(shift: int = 0) -> np.ndarray:
+    """Bars of 32 pixels of `COLOURS`, moved on by `shift` bars; uint8 (64, 224, 3)."""
+    bars = np.array(COLOURS[shift % 7 :] + COLOURS[: shift % 7], np.uint8)
+    return np.broadcast_to(np.repeat(bars, 32, 0)[None], (64, 224, 3)).copy()
+
+
+def bars_of(rgb: np.ndarray) -> np.ndarray:
+    return rgb[16:48].reshape(32, 7, 32, 3)[:, :, 8:24].mean(axis=(0, 2))
+
+
+def write(path: Path, count: int = 20, fps: float = 25, **options: object) -> Path:
+    with VideoWriter(path, (224, 64), fps, **options) as writer:
+        for k in range(count):
+            writer.write(chart(k))
+    return path
+
+
+@pytest.mark.parametrize(("format", "tolerance"), [("mp4", 3), ("webm", 5), ("webp", 6)])
+def test_colours_and_order_come_back(tmp_path: Path, format: str, tolerance: float) -> None:
+    path = write(tmp_path / f"out.{format}", format=format)
+    info = probe_video(path)
+    assert (info.width, info.height, info.fps, info.frames) == (224, 64, 25, 20)
+    frames = list(read_video(path))
+    assert len(frames) == 20
+    for k, frame in enumerate(frames):
+        assert np.abs(bars_of(frame.rgb) - bars_of(chart(k))).max() <= tolerance
+
+
+@pytest.mark.parametrize("fps", [30000 / 1001, 24, 12.5, 60])
+def test_rates_are_exact(tmp_path: Path, fps: float) -> None:
+    with av.open(str(write(tmp_path / "out.mp4", 30, fps))) as container:
+        assert container.streams.video[0].average_rate == Fraction(fps).limit_denominator(1001)
+
+
+def test_mp4_is_what_players_want(tmp_path: Path) -> None:
+    path = write(tmp_path / "out.mp4")
+    with av.open(str(path)) as container:
+        stream = container.streams.video[0]
+        assert stream.codec_context.name == "h264" and stream.profile == "High"
+        frame = next(container.decode(stream))
+        assert frame.format.name == "yuv420p"
+        assert (frame.colorspace, frame.color_primaries, frame.color_trc, frame.color_range) == (1, 1, 1, 1)
+    content = path.read_bytes()
+    assert content.index(b"moov") < content.index(b"mdat"), "starts before it is loaded"
+    assert b"colr" in content
+    assert not list(tmp_path.glob(".*")), "no draft is left"
+
+
+def test_other_decoders_see_the_same_colours(tmp_path: Path) -> None:
+    """swscale, independent of our own conversion, takes the matrix from the tags."""
+    path = write(tmp_path / "out.mp4", 3)
+    with av.open(str(path)) as container:
+        frame = next(container.decode(video=0))
+    flags = av.video.reformatter.Interpolation
+    rgb = frame.reformat(
+        format="rgb24", dst_color_range=2, interpolation=flags.ACCURATE_RND | flags.FULL_CHR_H_INT | flags.BICUBIC
+    ).to_ndarray()
+    assert np.abs(bars_of(rgb) - bars_of(chart(0))).max() <= 3
+
+
+def ramp() -> np.ndarray:
+    return np.broadcast_to(np.linspace(0, 1, 224, dtype=np.float32)[None], (64, 224)).copy()
+
+
+def test_webp_keeps_alpha_and_loops(tmp_path: Path) -> None:
+    for loop in (False, True):
+        with VideoWriter(tmp_path / "out.webp", (224, 64), 20, "webp", loop=loop) as writer:
+            for k in range(5):
+                writer.write(chart(k), ramp())
+        with Image.open(tmp_path / "out.webp") as image:
+            assert image.n_frames == 5 and image.info["loop"] == (0 if loop else 1)
+            image.seek(2)
+            pixels = np.asarray(image.convert("RGBA"))
+        assert np.abs(pixels[..., 3] / 255 - ramp()).max() < 0.02
+        assert np.abs(pixels[32, 208, :3].astype(int) - chart(2)[32, 208]).max() < 12
+
+
+def test_webm_keeps_alpha(tmp_path: Path) -> None:
+    path = tmp_path / "out.webm"
+    with VideoWriter(path, (224, 64), 20, "webm") as writer:
+        for k in range(5):
+            writer.write(chart(k), ramp())
+    with av.open(str(path)) as container:
+        stream = container.streams.video[0]
+        decoder = av.CodecContext.create("libvpx-vp9", "r")
+        frames = [frame for packet in container.demux(stream) for frame in decoder.decode(packet)]
+    assert [frame.format.name for frame in frames] == ["yuva420p"] * 5
+    alpha = np.frombuffer(memoryview(frames[3].planes[3]), np.uint8).reshape(64, -1)[:, :224]
+    assert np.abs(alpha / 255 - ramp()).max() < 0.05
+
+
+@pytest.mark.parametrize("with_alpha", [False, True])
+def test_png_sequence_is_exact(tmp_path: Path, with_alpha: bool) -> None:
+    alpha = np.round(ramp() * 255) / np.float32(255)
+    with VideoWriter(tmp_path / "out.zip", (224, 64), 20, "png") as writer:
+        for k in range(3):
+            writer.write(chart(k), alpha if with_alpha else None)
+    with zipfile.ZipFile(tmp_path / "out.zip") as archive:
+        assert archive.namelist() == ["000000.png", "000001.png", "000002.png"]
+        assert archive.comment == b"20 frames per second"
+        for k, name in enumerate(archive.namelist()):
+            pixels = np.asarray(Image.open(io.BytesIO(archive.read(name))))
+            assert np.array_equal(pixels[..., :3], chart(k))
+            if with_alpha:
+                assert np.array_equal(pixels[..., 3], np.round(alpha * 255).astype(np.uint8))
+
+
+def test_a_frame_may_be_changed_after_it_was_written(tmp_path: Path) -> None:
+    for format in ("mp4", "png"):
+        frame = chart()
+        with VideoWriter(tmp_path / f"out.{format}", (224, 64), 25, format) as writer:
+            for k in range(30):
+                frame[:] = chart(k)
+                writer.write(frame)
+                frame[:] = 0
+    frames = list(read_video(tmp_path / "out.mp4"))
+    assert np.abs(bars_of(frames[0].rgb) - bars_of(chart(0))).max() <= 3
+    with zipfile.ZipFile(tmp_path / "out.png") as archive:
+        assert np.array_equal(np.asarray(Image.open(io.BytesIO(archive.read("000011.png")))), chart(11))
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+def test_an_error_in_the_block_leaves_nothing(tmp_path: Path, format: str) -> None:
+    with pytest.raises(KeyError), VideoWriter(tmp_path / "out", (224, 64), 25, format) as writer:
+        writer.write(chart())
+        raise KeyError
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_earlier_file_stays_until_the_new_one_is_whole(tmp_path: Path) -> None:
+    path = write(tmp_path / "out.mp4", 5)
+    before = path.read_bytes()
+    with pytest.raises(KeyError), VideoWriter(path, (224, 64), 25) as writer:
+        writer.write(chart())
+        raise KeyError
+    assert path.read_bytes() == before
+    write(path, 9)
+    assert probe_video(path).frames == 9
+
+
+def test_what_cannot_be_written(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="even"):
+        VideoWriter(tmp_path / "out.mp4", (225, 64), 25)
+    with pytest.raises(ValueError, match="shape"), VideoWriter(tmp_path / "out.mp4", (224, 66), 25) as writer:
+        writer.write(chart())
+    with pytest.raises(ValueError, match="alpha"), VideoWriter(tmp_path / "out.mp4", (224, 64), 25) as writer:
+        writer.write(chart(), ramp())
+    with pytest.raises(ValueError, match="no frames"), VideoWriter(tmp_path / "out.mp4", (224, 64), 25):
+        pass
+    assert not list(tmp_path.iterdir())
+
+
+FULL_DISK = """
+import resource, signal, sys
+from pathlib import Path
+import numpy as np
+from engine.export.video import VideoWriter
+folder, format = Path(sys.argv[1]), sys.argv[2]
+rng = np.random.default_rng(0)
+def write(name):
+    with VideoWriter(folder / name, (224, 64), 25, format) as writer:
+        for k in range(60):
+            writer.write(rng.integers(0, 255, (64, 224, 3), dtype=np.uint8))
+write("whole")
+size = (folder / "whole").stat().st_size
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+for limit in (1000, size // 2, size * 9 // 10):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+    try:
+        write("out")
+    except OSError:
+        print("refused", [path.name for path in folder.iterdir()])
+"""
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+def test_a_full_disk_is_an_os_error_and_leaves_nothing(tmp_path: Path, format: str) -> None:
+    """A limit on the size of files stands for the full disk; it is met at the start, in the middle and at the end."""
+    script = [sys.executable, "-c", FULL_DISK, str(tmp_path), format]
+    done = subprocess.run(script, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["refused ['whole']"] * 3
+
+
+def test_even_size() -> None:
+    assert even_size(601, 799) == (600, 800)
+    assert even_size(1, 2.4) == (2, 2)
+
+
+MEMORY = """
+import resource, sys
+from pathlib import Path
+import numpy as np
+from engine.export.video import VideoWriter
+from engine.media.video import read_video
+format, path, frames, fps, width, height = sys.argv[1], Path(sys.argv[2]), *map(int, sys.argv[3:])
+noise = np.random.default_rng(0).integers(0, 40, (height, width + 100, 3), dtype=np.uint8)
+with VideoWriter(path, (width, height), fps, format) as writer:
+    for k in range(frames):
+        writer.write(noise[:, k % 100 : k % 100 + width] + np.uint8(k % 200))
+count = sum(1 for _ in read_video(path)) if format != "png" else frames
+print(count, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+@pytest.mark.parametrize(
+    ("format", "fps", "size"),
+    [("mp4", 30, (320, 240)), ("webm", 15, (256, 192)), ("webp", 10, (208, 160)), ("png", 10, (208, 160))],
+)
+def test_memory_is_flat(tmp_path: Path, format: str, fps: int, size: tuple[int, int]) -> None:
+    """Writing and reading three minutes peaks within 100 MB of five seconds; keeping the frames would take more."""
+    assert size[0] * size[1] * 3 * fps * 175 > 170e6
+    peaks = {}
+    for seconds in (5, 180):
+        arguments = [format, tmp_path / "out", seconds * fps, fps, *size]
+        script = [sys.executable, "-c", MEMORY, *map(str, arguments)]
+        done = subprocess.run(script, capture_output=True, text=True, check=True)
+        count, peak = map(int, done.stdout.split())
+        assert count == seconds * fps
+        peaks[seconds] = peak / 1000
+    assert peaks[180] - peaks[5] < 100, peaks
+    print(format, peaks)
