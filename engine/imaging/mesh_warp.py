@@ -7,6 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+@numba.njit(cache=True, nogil=True, inline="always")
+def _span(start: float, slope: float, first: int, last: int) -> tuple[int, int]:
+    """The part of first..last where start + x * slope is not negative (by more than rounding)."""
+    if slope > 1e-12:
+        first = max(first, int(np.ceil((-1e-4 - start) / slope)))
+    elif slope < -1e-12:
+        last = min(last, int(np.floor((-1e-4 - start) / slope)))
+    elif start < -1e-4:
+        last = first - 1
+    return first, last
+
+
 @numba.njit(cache=True, fastmath=True, nogil=True)
 def _rasterise(
     out_xy: NDArray[np.float32],
@@ -15,10 +27,8 @@ def _rasterise(
     triangles: NDArray[np.int32],
     field: NDArray[np.float32],
     nearest: NDArray[np.float32],
-    top: int,
-    bottom: int,
 ) -> None:
-    width = field.shape[1]
+    height, width = nearest.shape
     channels = field.shape[2]
     for t in range(triangles.shape[0]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
@@ -28,8 +38,8 @@ def _rasterise(
         area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
         if abs(area) < 1e-9:
             continue
-        y0 = max(top, int(np.ceil(min(ay, by, cy) - 1e-3)))
-        y1 = min(bottom - 1, int(np.floor(max(ay, by, cy) + 1e-3)))
+        y0 = max(0, int(np.ceil(min(ay, by, cy) - 1e-3)))
+        y1 = min(height - 1, int(np.floor(max(ay, by, cy) + 1e-3)))
         x0 = max(0, int(np.ceil(min(ax, bx, cx) - 1e-3)))
         x1 = min(width - 1, int(np.floor(max(ax, bx, cx) + 1e-3)))
         if y0 > y1 or x0 > x1:
@@ -40,26 +50,18 @@ def _rasterise(
         for y in range(y0, y1 + 1):
             wb0 = ((cx - ax) * -(y - ay) + (cy - ay) * -ax) * inverse
             wc0 = ((bx - ax) * (y - ay) - (by - ay) * -ax) * inverse
-            for x in range(x0, x1 + 1):
+            first, last = _span(wb0, wbx, x0, x1)
+            first, last = _span(wc0, wcx, first, last)
+            first, last = _span(1.0 - wb0 - wc0, -wbx - wcx, first, last)
+            for x in range(first, last + 1):
                 wb, wc = wb0 + x * wbx, wc0 + x * wcx
                 wa = 1.0 - wb - wc
-                if wa < -1e-4 or wb < -1e-4 or wc < -1e-4:
-                    continue
                 z = wa * depth[a] + wb * depth[b] + wc * depth[c]
                 if z >= nearest[y, x]:
                     continue
                 nearest[y, x] = z
                 for k in range(channels):
                     field[y, x, k] = wa * source[a, k] + wb * source[b, k] + wc * source[c, k]
-
-
-@numba.njit(cache=True, parallel=True, fastmath=True)
-def _rasterise_bands(out_xy, depth, source, triangles, field, nearest, bands):  # type: ignore[no-untyped-def]
-    height = field.shape[0]
-    for band in numba.prange(bands):
-        _rasterise(
-            out_xy, depth, source, triangles, field, nearest, height * band // bands, height * (band + 1) // bands
-        )
 
 
 def inverse_map(
@@ -89,13 +91,12 @@ def inverse_map(
     nearest = np.full(shape, np.inf, np.float32)
     if depth is None:
         depth = np.zeros(len(out_xy), np.float32)
-    _rasterise_bands(
+    _rasterise(
         np.ascontiguousarray(out_xy, np.float32),
         np.ascontiguousarray(depth, np.float32),
         np.ascontiguousarray(source, np.float32),
         np.ascontiguousarray(triangles, np.int32),
         field,
         nearest,
-        2 * numba.get_num_threads(),
     )
     return field

@@ -4,7 +4,7 @@ The paper triangulates the control points, interpolates their offsets piecewise 
 image, and blurs that field with a disk whose radius grows away from the face. All of it is linear in the
 offsets and fixed on the neutral frame. So it is done once, to a matrix: a few hundred offsets in, the
 offsets of the vertices of a mesh out, fine on the face and coarse where the field is smooth. A frame then
-costs one small matrix product and one rasterisation of that mesh, which is the inverse mapping.
+costs one small product and one rasterisation of that mesh, which is the inverse mapping.
 """
 
 from __future__ import annotations
@@ -36,24 +36,28 @@ class WarpMesh:
 
     vertices : (V, 2) rest positions, pixels; the first ones are the face's usable control points.
     triangles : (T, 3).
-    operator : (V, C) float32: vertex offsets = operator @ control offsets.
+    operator : (V, C) float32, sparse: vertex offsets = operator @ control offsets.
     shape : (height, width).
     """
 
     vertices: NDArray[np.float32]
     triangles: NDArray[np.int32]
-    operator: NDArray[np.float32]
+    operator: sparse.csr_matrix
     shape: tuple[int, int]
 
     def offsets(self, control_offsets: NDArray[np.floating]) -> NDArray[np.float32]:
         """(C, D) offsets of control points to (V, D) offsets of vertices."""
-        return self.operator @ control_offsets.astype(np.float32)
+        return np.asarray(self.operator @ control_offsets.astype(np.float32))
 
     def inverse_map(
-        self, offsets: NDArray[np.float32], depth: NDArray[np.float32] | None = None
+        self, offsets: NDArray[np.float32], depth: NDArray[np.float32] | None = None, scale: int = 1
     ) -> NDArray[np.float32]:
-        """(H, W, 2): for each pixel of the output its origin in the image, for vertex offsets (V, 2)."""
-        return inverse_map(self.vertices + offsets, self.vertices, self.triangles, self.shape, depth)
+        """(H, W, 2): for each pixel of the output its origin in the image, for vertex offsets (V, 2).
+
+        `scale` gives the origin in pixels of the image enlarged by that factor.
+        """
+        source = scale * (self.vertices + np.float32(0.5)) - np.float32(0.5)
+        return inverse_map(self.vertices + offsets, source, self.triangles, self.shape, depth)
 
 
 def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
@@ -140,7 +144,7 @@ def build_warp_mesh(
         operator = keep @ operator + (sparse.eye(len(vertices)) - keep) @ smooth
     triangles = Delaunay(vertices).simplices
     return WarpMesh(
-        vertices.astype(np.float32), triangles.astype(np.int32), np.asarray(operator.todense(), np.float32), shape
+        vertices.astype(np.float32), triangles.astype(np.int32), sparse.csr_matrix(operator).astype(np.float32), shape
     )
 
 

@@ -7,7 +7,8 @@ no decoding and no tracking. Memory stays flat: appearance goes to a file as it 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
 from engine.perception.temporal_filter import steady
-from engine.portrait.alignment import Similarity, fit_similarity
+from engine.portrait.alignment import fit_similarity
 from engine.portrait.periphery import PeripheryTracker
 
 CROP = (320, 288)
@@ -164,12 +165,18 @@ def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> NDArray[np.f
     return out
 
 
-def in_crop_alignment(track: DriverTrack, frame: int) -> Similarity:
-    """The crop's placement as a similarity."""
-    place = track.crop_places[frame]
-    return Similarity(place[:, :2], place[:, 2])
+class CropReader:
+    """The crops of a track, each decoded once while the frames around it are worked on."""
 
+    def __init__(self, track: DriverTrack, keep: int = 32):
+        self._track = track
+        self._kept: OrderedDict[int, NDArray[np.uint8]] = OrderedDict()
+        self._keep = keep
 
-def crops(track: DriverTrack) -> Iterator[NDArray[np.uint8]]:
-    """All crops in order."""
-    return (track.crop(i) for i in range(len(track)))
+    def __call__(self, frame: int) -> NDArray[np.uint8]:
+        """(*CROP, 3) uint8."""
+        if frame not in self._kept:
+            self._kept[frame] = self._track.crop(frame)
+            if len(self._kept) > self._keep:
+                self._kept.popitem(last=False)
+        return self._kept[frame]

@@ -1,8 +1,7 @@
 """Creases and wrinkles: expression ratio images, refined (section 6; Liu et al. 2001).
 
 All ratio images live on the driver's neutral face: every frame is warped onto it, so that pixels correspond
-over time, and one fixed map carries the ratios on to the target. There they shade the still picture before
-it is warped, which is the same as shading the warped frame by the warped ratio.
+over time, and one fixed map carries the ratios on to the still target; from there they are warped with it.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from scipy.spatial import Delaunay
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
-from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.driver import CROP, CROP_EYES, CropReader, DriverTrack
 from engine.portrait.head_motion import split_motion
 from engine.portrait.outliers import Outliers, find_outliers
 
@@ -125,11 +124,14 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
 class RatioImages:
     """The refined ratio images of a driver, in order, on its neutral crop."""
 
-    def __init__(self, track: DriverTrack, neutral: int, outliers: bool = True, refined: bool = True):
+    def __init__(
+        self, track: DriverTrack, neutral: int, crops: CropReader, outliers: bool = True, refined: bool = True
+    ):
         self._track = track
+        self._crops = crops
         self._rest = track.in_crop(neutral)[:468]
         self._triangles = Delaunay(self._rest).simplices.astype(np.int32)
-        self._neutral = luminance(track.crop(neutral))
+        self._neutral = luminance(crops(neutral))
         self._refined = refined
         turn = np.rad2deg(
             np.arccos(np.clip(split_motion(track.meshes, track.meshes[neutral]).rotation[:, 2, 2], -1, 1))
@@ -168,15 +170,15 @@ class RatioImages:
 
     def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
         """A head that turns in fixed light changes shade over wide areas: no part of the expression."""
-        logarithm = np.log(np.clip(ratio, 0.2, 5))
-        wide = cv2.GaussianBlur(logarithm, (0, 0), WIDE * UNIT)
-        return np.exp(logarithm - (1 - self._frontal[frame]) * wide)
+        small = cv2.resize(ratio, None, fx=1 / 8, fy=1 / 8, interpolation=cv2.INTER_AREA)
+        wide = cv2.GaussianBlur(small, (0, 0), WIDE * UNIT / 8) ** (1 - self._frontal[frame])
+        return np.asarray(ratio / cv2.resize(wide, ratio.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
     def _ratio(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Equation 2 on the neutral crop, and where each of its pixels lies in the frame's crop."""
         mesh = self._track.in_crop(frame)[:468]
         origin = inverse_map(self._rest, mesh, self._triangles, CROP)
-        light = luminance(self._track.crop(frame))
+        light = luminance(self._crops(frame))
         aligned = cv2.remap(light, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         ratio = (aligned + FLOOR) / (self._neutral + FLOOR)
         return np.where(origin[..., 0] > -1000, ratio, 1).astype(np.float32), origin
@@ -191,24 +193,39 @@ def most_expressive(track: DriverTrack, neutral: int) -> int:
     return int(np.argmax(np.where(track.found, far, -1)))
 
 
-def shade(person: NDArray[np.uint8], details: DetailMap, ratio: NDArray[np.float32]) -> None:
-    """Equation 3: multiply the target's face (H, W, 4), in place, by the ratio where its region allows."""
-    x0, y0, x1, y1 = details.box
+def shade(
+    frame: NDArray[np.uint8], details: DetailMap, ratio: NDArray[np.float32], origin: NDArray[np.float32], scale: float
+) -> None:
+    """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows.
+
+    `origin` (H, W, 2) is the frame's inverse map, in pixels of the target enlarged by `scale`.
+    """
+    x0, y0 = details.box[:2]
     landed = cv2.remap(
         ratio, details.origin[..., 0], details.origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
     )
-    _multiply(person[y0:y1, x0:x1], landed, details.weight)
+    factor = 1 + details.weight * (landed - 1)
+    _multiply(frame, factor, origin, np.float32(x0), np.float32(y0), np.float32(1 / scale))
 
 
-@numba.njit(cache=True, parallel=True, fastmath=True)
-def _multiply(rgba, ratio, weight):  # type: ignore[no-untyped-def]
-    for y in numba.prange(rgba.shape[0]):
-        for x in range(rgba.shape[1]):
-            w = weight[y, x]
-            if w > 0:
-                factor = 1 + w * (ratio[y, x] - 1)
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def _multiply(rgb, factor, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
+    """Bilinear samples of `factor`, which lies at (x0, y0) of the target, times the colours."""
+    rows, columns = factor.shape
+    for y in range(rgb.shape[0]):
+        for x in range(rgb.shape[1]):
+            fx = (origin[y, x, 0] + np.float32(0.5)) * shrink - np.float32(0.5) - x0
+            fy = (origin[y, x, 1] + np.float32(0.5)) * shrink - np.float32(0.5) - y0
+            if fx < 0 or fy < 0 or fx >= columns - 1 or fy >= rows - 1:
+                continue
+            ix, iy = int(fx), int(fy)
+            tx, ty = fx - ix, fy - iy
+            top = factor[iy, ix] + tx * (factor[iy, ix + 1] - factor[iy, ix])
+            bottom = factor[iy + 1, ix] + tx * (factor[iy + 1, ix + 1] - factor[iy + 1, ix])
+            value = top + ty * (bottom - top)
+            if abs(value - 1) > 1e-3:
                 for k in range(3):
-                    rgba[y, x, k] = np.uint8(min(255.0, rgba[y, x, k] * factor + 0.5))
+                    rgb[y, x, k] = np.uint8(min(255.0, rgb[y, x, k] * value + 0.5))
 
 
 def _damped(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
