@@ -9,7 +9,6 @@ and along the outline an alpha matte is solved (`engine.imaging.trimap`, `engine
 from __future__ import annotations
 
 import cv2
-import mediapipe as mp
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +17,7 @@ from engine.imaging.guided_upsample import upsample_guided
 from engine.imaging.resample import resized, size_within
 from engine.imaging.trimap import SURE, outline_trimap
 from engine.perception.figure import figure_on_plain_ground
+from engine.perception.models import MattingModel
 
 Mask = NDArray[np.float32]
 
@@ -35,6 +35,7 @@ def person_mask(
     rgb: NDArray[np.uint8],
     seed: Mask | None = None,
     alpha: NDArray[np.uint8] | Mask | None = None,
+    model: MattingModel | None = None,
 ) -> Mask:
     """Soft mask (H, W) in [0, 1] of the people in a picture; all zero where nobody is seen.
 
@@ -45,11 +46,15 @@ def person_mask(
         the networks see little.
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
         out it is taken as the truth; a channel that is opaque throughout says nothing.
+    model : a matting network of the operator's (`engine.perception.models`), used instead of all that
+        follows but the last step, the guided upsampling.
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
         if np.mean(channel < 0.5) > 0.01:
             return channel
+    if model is not None:
+        return upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small)
     if seed is not None:
@@ -71,7 +76,9 @@ def believed_person(rgb: NDArray[np.uint8]) -> Mask:
 def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:
     """The selfie network's belief, looking closer where people take up a small part of the picture."""
     height, width = rgb.shape[:2]
-    with mp.solutions.selfie_segmentation.SelfieSegmentation(model_selection=0) as network:
+    from mediapipe.python.solutions.selfie_segmentation import SelfieSegmentation
+
+    with SelfieSegmentation(model_selection=0) as network:
 
         def look(part: NDArray[np.uint8]) -> Mask:
             straight = network.process(np.ascontiguousarray(part)).segmentation_mask
@@ -94,7 +101,9 @@ def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:
 
 def _pose_mask(rgb: NDArray[np.uint8]) -> Mask | None:
     """The body pose's belief; None where it sees no body."""
-    with mp.solutions.pose.Pose(static_image_mode=True, model_complexity=1, enable_segmentation=True) as network:
+    from mediapipe.python.solutions.pose import Pose
+
+    with Pose(static_image_mode=True, model_complexity=1, enable_segmentation=True) as network:
         mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask
     return None if mask is None else np.asarray(mask, np.float32)
 

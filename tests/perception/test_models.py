@@ -1,0 +1,78 @@
+"""The operator's own ONNX model, on a model that is written here."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tiny_onnx import brightness_model
+
+from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
+from engine.perception.person import person_mask
+
+
+def settings_for(path: Path, **more: str) -> dict[str, str]:
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    named = {MATTING_SETTING: str(path), f"{MATTING_SETTING}_SHA256": digest, f"{MATTING_SETTING}_LICENCE": "MIT"}
+    return named | {f"{MATTING_SETTING}_{name}": value for name, value in more.items()}
+
+
+def disk_picture() -> tuple[np.ndarray, np.ndarray]:
+    """A white disk on black (96, 128, 3), and its mask."""
+    ys, xs = np.mgrid[:96, :128]
+    disk = (xs - 70) ** 2 + (ys - 40) ** 2 < 25**2
+    return np.repeat(disk[..., None] * np.uint8(255), 3, axis=2), disk
+
+
+def test_no_setting_means_no_model() -> None:
+    assert matting_model({}) is None
+
+
+def test_model_takes_the_place_of_the_networks(tmp_path: Path) -> None:
+    model = matting_model(settings_for(brightness_model(tmp_path / "bright.onnx"), SIZE="64"))
+    assert model is not None
+    assert model.file.licence == "MIT"
+    assert model.size == (64, 64)
+    rgb, disk = disk_picture()
+    mask = person_mask(rgb, model=model)
+    assert mask.shape == disk.shape
+    assert mask.dtype == np.float32
+    wrong = (mask > 0.5) != disk
+    assert wrong.mean() < 0.002  # half of the picture's resolution, and yet the edge is the picture's own
+
+
+def test_shape_of_the_model_counts_more_than_the_setting(tmp_path: Path) -> None:
+    model = matting_model(settings_for(brightness_model(tmp_path / "bright.onnx", side=32), SIZE="64"))
+    assert model is not None
+    assert model.size == (32, 32)
+
+
+def test_colours_are_normalised(tmp_path: Path) -> None:
+    model = matting_model(
+        settings_for(brightness_model(tmp_path / "bright.onnx", side=32), MEAN="0.5", STD="0.25,0.25,0.25")
+    )
+    assert model is not None
+    grey = np.full((32, 32, 3), 153, np.uint8)  # 0.6 -> (0.6 - 0.5) / 0.25 = 0.4
+    np.testing.assert_allclose(model(grey), 0.4, atol=1e-5)
+
+
+def test_hash_and_licence_are_needed(tmp_path: Path) -> None:
+    settings = settings_for(brightness_model(tmp_path / "bright.onnx"))
+    for missing in ("SHA256", "LICENCE"):
+        with pytest.raises(ModelError, match="needs"):
+            matting_model({name: value for name, value in settings.items() if not name.endswith(missing)})
+    with pytest.raises(ModelError, match="SHA-256"):
+        matting_model(settings | {f"{MATTING_SETTING}_SHA256": "0" * 64})
+
+
+def test_what_cannot_be_run_is_refused_with_a_reason(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.onnx"
+    broken.write_bytes(b"not a model")
+    with pytest.raises(ModelError, match="no model that can be run"):
+        matting_model(settings_for(broken))
+    with pytest.raises(ModelError, match="cannot be read"):
+        load_matting_model(ModelFile(tmp_path / "absent.onnx", "0" * 64, "MIT"))
+    with pytest.raises(ModelError, match=r"\(1, 3, h, w\)"):
+        matting_model(settings_for(brightness_model(tmp_path / "grey.onnx", channels=1)))
