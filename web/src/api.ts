@@ -138,6 +138,8 @@ export const listJobs = (cursor: string | null, signal?: AbortSignal): Promise<J
 export interface Driver {
   name: string;
   source: 'built-in' | 'own';
+  /** What it shows, in a few words. */
+  title?: string | null;
   url: string;
 }
 

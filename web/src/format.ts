@@ -1,9 +1,10 @@
 /** Numbers in words. */
 
-/** `0:07`, `1:23`. */
-export function clock(seconds: number): string {
-  const whole = Math.max(0, Math.floor(Number.isFinite(seconds) ? seconds : 0));
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+/** A moment in a video of this length: `3.2` in a short one, `1:07` in one of a minute or more. */
+export function clock(seconds: number, length: number): string {
+  const known = Math.max(0, Number.isFinite(seconds) ? seconds : 0);
+  if (!(length >= 60)) return known.toFixed(1);
+  return `${Math.floor(known / 60)}:${String(Math.floor(known) % 60).padStart(2, '0')}`;
 }
 
 /** A length of time as one says it: `4 s`, `2 min`, `1 h 20 min`. */

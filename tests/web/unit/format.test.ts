@@ -2,8 +2,10 @@ import { ago, clock, duration, percent, size, stem } from '@web/format';
 import { describe, expect, it } from 'vitest';
 
 describe('numbers in words', () => {
-  it('tells the position in a video', () => {
-    expect([0, 7.9, 60, 83.2, NaN].map(clock)).toEqual(['0:00', '0:07', '1:00', '1:23', '0:00']);
+  it('tells the position in a video, finely in a short one', () => {
+    expect([0, 7.94, 83.2].map((seconds) => clock(seconds, 90))).toEqual(['0:00', '0:07', '1:23']);
+    expect([0, 7.94, NaN].map((seconds) => clock(seconds, 8))).toEqual(['0.0', '7.9', '0.0']);
+    expect(clock(0, NaN)).toBe('0.0'); // not loaded yet
   });
 
   it('never promises less time than is left, and no zero', () => {

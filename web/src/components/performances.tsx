@@ -77,7 +77,7 @@ function Card({ driver, checked, onChoose }: CardProps) {
     video.current.currentTime = 0;
   };
   return (
-    <label class={checked ? 'card checked' : 'card'} onMouseEnter={play} onMouseLeave={rest}>
+    <label class={checked ? 'card checked' : 'card'} title={driver.title ?? undefined} onMouseEnter={play} onMouseLeave={rest}>
       <input
         type="radio"
         name="performance"

@@ -114,11 +114,11 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
           step="0.01"
           value={time}
           aria-label={words.position}
-          aria-valuetext={words.time(clock(time), clock(total))}
+          aria-valuetext={words.time(clock(time, total), clock(total, total))}
           onInput={(event) => seek(event.currentTarget.valueAsNumber)}
         />
         <span class="time" aria-hidden="true">
-          {clock(time)} / {clock(total)}
+          {clock(time, total)} / {clock(total, total)}
         </span>
         <button type="button" class="toggle" aria-pressed={repeat} onClick={() => setRepeat(!repeat)}>
           {words.repeat}
