@@ -76,7 +76,7 @@ class Queue:
 
     def waiting(self, kind: str) -> int:
         """How many messages of a kind wait. Raises `redis.RedisError` if the queue cannot be reached."""
-        return int(self.redis.llen(queue_name(kind)))  # type: ignore[arg-type]
+        return int(self.redis.llen(queue_name(kind)))
 
     def reachable(self) -> bool:
         """Whether Redis answers."""

@@ -60,7 +60,7 @@ def examine() -> int:
     console = Console(highlight=False, soft_wrap=True)
     marks = {"ok": "[green]ok     [/green]", "warning": "[yellow]warning[/yellow]", "missing": "[red]missing[/red]"}
     missing = 0
-    for check in (_machine, _packages, _template, _encoders, _kinds, _folder, _redis, _page):
+    for check in (_machine, _packages, _template, _encoders, _kinds, _performances, _folder, _redis, _page):
         for finding in _guarded(check, settings):
             console.print(f"{marks[finding.state]}  {escape(finding.what)}")
             if finding.mend:
@@ -119,6 +119,19 @@ def _kinds(settings: Settings) -> Iterator[Finding]:
     from service.kinds.registry import load_kinds
 
     yield Finding("ok", f"job kinds: {', '.join(load_kinds(settings.kinds))}")
+
+
+def _performances(settings: Settings) -> Iterator[Finding]:
+    from engine.performances import names
+    from service.kinds import library
+
+    there = library.names("performances")
+    missing = [name for name in names() if name not in there]
+    if missing:
+        mend = "make them: python -m engine.performances render"
+        yield Finding("warning", f"built-in performances without a video: {', '.join(missing)}", mend)
+    if there:
+        yield Finding("ok", f"built-in performances: {', '.join(there)}")
 
 
 def _folder(settings: Settings) -> Iterator[Finding]:

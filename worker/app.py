@@ -62,7 +62,7 @@ class Worker:
         queues = [queue_name(kind) for kind in self.context.kinds]
         structlog.get_logger().info("worker_started", kinds=list(self.context.kinds), owner=self.owner)
         worker = self.context.queue.celery.Worker(
-            queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True
+            queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True, quiet=True
         )
         worker.start()
         self._stop()

@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 LEAST_FRACTION = 0.02
 LEAST_SECONDS = 1.0
+JUMP = 0.05
+JUMP_SECONDS = 0.5
+"""A fraction that grows by this much in this time was not worked for: the stage had been stored before."""
 
 
 class Eta:
-    """Assumes that the rest goes as fast as what this attempt has done so far.
+    """Assumes that the rest goes as fast as what this attempt has done so far."""
 
-    A resumed job jumps over stored stages: the fraction at its first report is not its own work.
-    """
-
-    def __init__(self) -> None:
-        self._first: tuple[float, float] | None = None
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._began = self._last = clock()
+        self._fraction: float | None = None
+        self._worked = 0.0
 
     def after(self, fraction: float) -> float | None:
         """Seconds left at this fraction; None while too little is known."""
-        moment = time.monotonic()
-        if self._first is None:
-            self._first = (moment, fraction)
-        elapsed, done = moment - self._first[0], fraction - self._first[1]
-        if elapsed < LEAST_SECONDS or done < LEAST_FRACTION:
+        moment = self._clock()
+        if self._fraction is None:
+            self._began = moment  # a resumed job begins in the middle
+        elif not (fraction - self._fraction > JUMP and moment - self._last < JUMP_SECONDS):
+            self._worked += max(fraction - self._fraction, 0.0)
+        self._fraction, self._last = fraction, moment
+        elapsed = moment - self._began
+        if elapsed < LEAST_SECONDS or self._worked < LEAST_FRACTION:
             return None
-        return round(elapsed * (1 - fraction) / done, 1)
+        return round(elapsed * (1 - fraction) / self._worked, 1)

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.artifacts import repository
-from service.artifacts.delivery import Stored, deliver
+from service.artifacts.delivery import deliver
 from service.context import InContext
 from service.problems import Problem, responses
 
@@ -26,7 +26,4 @@ def get_artifact(job_id: str, name: str, request: Request, context: InContext) -
         artifact = repository.get(session, job_id, name)
     if artifact is None:
         raise Problem(404, "artifact_not_found", "The job has no artifact of this name (yet).")
-    stored = Stored(
-        artifact.key, artifact.name, artifact.content_type, artifact.size, artifact.sha256, artifact.created_at
-    )
-    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+    return deliver(artifact.stored, context.storage, request.headers, request.method == "HEAD")

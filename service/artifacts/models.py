@@ -7,6 +7,7 @@ from datetime import datetime
 from sqlalchemy import BigInteger, ForeignKey, String, UniqueConstraint
 from sqlalchemy.orm import Mapped, mapped_column
 
+from service.artifacts.delivery import Stored
 from service.database import Base, UTCDateTime
 
 
@@ -28,3 +29,8 @@ class Artifact(Base):
     @property
     def key(self) -> str:
         return f"artifacts/{self.id}"
+
+    @property
+    def stored(self) -> Stored:
+        """How it is sent."""
+        return Stored(self.key, self.name, self.content_type, self.size, self.sha256, self.created_at)

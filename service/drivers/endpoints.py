@@ -9,12 +9,13 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from engine.media.sniff import VIDEO_TYPES
+from service.artifacts.delivery import deliver
 from service.context import InContext
 from service.disk import require_space
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
 from service.files import service as files
-from service.files.endpoints import require_multipart, send
+from service.files.endpoints import require_multipart
 from service.files.intake import Form
 from service.problems import Problem, responses
 
@@ -84,4 +85,5 @@ def delete_driver(name: str, context: InContext) -> None:
 )
 def get_driver_video(name: str, request: Request, context: InContext) -> Response:
     """The video itself: whole, or the ranges asked for."""
-    return send(service.file_of(context, name), request, context)
+    stored, storage = service.stored(context, name)
+    return deliver(stored, storage, request.headers, request.method == "HEAD")

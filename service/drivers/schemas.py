@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import BaseModel
 
+from engine.performances import Performance
 from service.drivers.models import Driver
 from service.files.models import File
 
@@ -18,13 +19,25 @@ class DriverOut(BaseModel):
     source: Literal["built-in", "own"]
     url: str
     """Where the video is."""
+    title: str | None = None
+    seconds: float | None = None
+    loops: bool | None = None
+    """Whether the last frame leads into the first."""
     size: int | None = None
     content_type: str | None = None
     created_at: datetime | None = None
 
     @classmethod
-    def built_in(cls, name: str) -> DriverOut:
-        return cls(name=name, source="built-in", url=f"/v1/drivers/{name}/video")
+    def built_in(cls, performance: Performance) -> DriverOut:
+        return cls(
+            name=performance.name,
+            source="built-in",
+            url=f"/v1/drivers/{performance.name}/video",
+            title=performance.title,
+            seconds=performance.seconds,
+            loops=performance.loops,
+            content_type="video/mp4",
+        )
 
     @classmethod
     def own(cls, driver: Driver, file: File) -> DriverOut:

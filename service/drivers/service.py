@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from datetime import UTC, datetime
 
 from sqlalchemy.exc import IntegrityError
 
+from engine.run import content_hash
+from service.artifacts.delivery import Stored
 from service.clock import now
 from service.context import Context
 from service.drivers import repository
@@ -17,6 +20,7 @@ from service.files.service import erase_unused
 from service.ids import is_id
 from service.kinds import library
 from service.problems import Problem
+from service.storage import Storage
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
 LIBRARY = "performances"
@@ -30,7 +34,7 @@ def all_drivers(context: Context) -> list[DriverOut]:
     """The built-in performances and the user's own drivers."""
     with context.database.read() as session:
         own = repository.with_files(session)
-    return [*map(DriverOut.built_in, library.names(LIBRARY)), *(DriverOut.own(driver, file) for driver, file in own)]
+    return [*map(DriverOut.built_in, library.performances()), *(DriverOut.own(driver, file) for driver, file in own)]
 
 
 def require_free_name(context: Context, name: str) -> None:
@@ -69,14 +73,20 @@ def delete(context: Context, name: str) -> None:
     erase_unused(context, [driver.file_id])
 
 
-def file_of(context: Context, name: str) -> File:
-    """The file of one of the user's own drivers."""
+def stored(context: Context, name: str) -> tuple[Stored, Storage]:
+    """A driver's video, and where it lies: in the package, or in the service's storage."""
+    if name in library.names(LIBRARY):
+        path = library.item(LIBRARY, name)
+        status = path.stat()
+        modified = datetime.fromtimestamp(status.st_mtime, UTC)
+        built_in = Stored(path.name, path.name, "video/mp4", status.st_size, content_hash(path), modified)
+        return built_in, Storage(path.parent)
     with context.database.read() as session:
         driver = repository.get(session, name)
         file = files.get(session, driver.file_id) if driver is not None else None
     if file is None:
         raise _missing()
-    return file
+    return file.stored, context.storage
 
 
 def _taken(name: str) -> Problem:

@@ -8,7 +8,7 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import Stored, deliver
+from service.artifacts.delivery import deliver
 from service.context import Context, InContext
 from service.files import repository, service
 from service.files.intake import Form
@@ -67,13 +67,7 @@ def get_file(file_id: str, context: InContext) -> FileOut:
 )
 def get_file_content(file_id: str, request: Request, context: InContext) -> Response:
     """The file itself: whole, or the ranges asked for."""
-    return send(_found(context, file_id), request, context)
-
-
-def send(file: File, request: Request, context: Context) -> Response:
-    """Answer with a file's content."""
-    stored = Stored(file.key, file.name, file.content_type, file.size, file.sha256, file.created_at)
-    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+    return deliver(_found(context, file_id).stored, context.storage, request.headers, request.method == "HEAD")
 
 
 def require_multipart(request: Request) -> None:

@@ -35,7 +35,7 @@ HEAD_BYTES = 4096
 class Received:
     """A file part, on disk under a name of ours."""
 
-    field: str
+    part: str
     name: str
     declared: str
     path: Path

@@ -7,6 +7,7 @@ from datetime import datetime
 from sqlalchemy import BigInteger, String
 from sqlalchemy.orm import Mapped, mapped_column
 
+from service.artifacts.delivery import Stored
 from service.database import Base, UTCDateTime
 
 
@@ -25,3 +26,8 @@ class File(Base):
     @property
     def key(self) -> str:
         return f"files/{self.id}"
+
+    @property
+    def stored(self) -> Stored:
+        """How it is sent."""
+        return Stored(self.key, self.name, self.content_type, self.size, self.sha256, self.created_at)

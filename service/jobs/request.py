@@ -51,7 +51,7 @@ async def _submit_form(request: Request, context: Context, key: str | None) -> t
         try:
             for received in form.files:
                 file = await run_sync(files.keep, context, received)
-                uploaded.setdefault(received.field, []).append(file)
+                uploaded.setdefault(received.part, []).append(file)
                 ids.append(file.id)
             return await run_sync(submit, context, asked, uploaded, key)
         finally:

@@ -93,5 +93,6 @@ def _progress(job: Job) -> Progress:
     if job.status != Status.RUNNING:
         values["eta_seconds"] = None
     elif eta is not None and job.progress_at is not None:
-        values["eta_seconds"] = round(max(eta - (now() - job.progress_at).total_seconds(), 0.0), 1)
+        left = round(eta - (now() - job.progress_at).total_seconds(), 1)
+        values["eta_seconds"] = left if left > 0 else None  # the estimate was too low: nobody knows
     return Progress.model_validate(values)

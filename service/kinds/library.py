@@ -4,20 +4,28 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from engine.performances import Performance, catalogue, video
+
+
+def performances() -> tuple[Performance, ...]:
+    """The built-in performances whose video is installed (`galatea doctor` tells of missing ones)."""
+
+    def installed(one: Performance) -> bool:
+        try:
+            return video(one.name).is_file()
+        except FileNotFoundError:
+            return False
+
+    return tuple(filter(installed, catalogue()))
+
 
 def names(library: str) -> tuple[str, ...]:
     """What a library holds."""
-    if library != "performances":
-        return ()
-    from engine import performances
-
-    return tuple(performances.names())
+    return tuple(one.name for one in performances()) if library == "performances" else ()
 
 
 def item(library: str, name: str) -> Path:
-    """The file of one of a library's items; making it takes a while where it is not there yet."""
+    """The file of one of a library's items."""
     if name not in names(library):
         raise KeyError(f"{library}: {name}")
-    from engine import performances
-
-    return performances.video(name)
+    return video(name)

@@ -52,3 +52,21 @@ def test_built_in_names_are_taken(running: Running, video: bytes) -> None:
         assert response.json()["code"] == "name_taken"
     for name in library.names(LIBRARY):
         assert running.client.delete(f"/v1/drivers/{name}").json()["code"] == "driver_built_in"
+
+
+def test_built_in_performances_are_listed_first_and_can_be_watched(running: Running) -> None:
+    items = running.client.get("/v1/drivers").json()["items"]
+    assert [item["name"] for item in items[:3]] == ["idle", "happy", "surprise"]
+    assert all(item["source"] == "built-in" and item["title"] and item["seconds"] > 1 for item in items[:3])
+    assert items[0]["loops"] is True
+    video = running.client.get(items[1]["url"], headers={"Range": "bytes=4-7"})
+    assert (video.status_code, video.content) == (206, b"ftyp")
+
+
+def test_a_job_can_name_a_built_in_performance(running: Running, picture: bytes) -> None:
+    file = running.client.post("/v1/files", files={"file": picture}).json()["id"]
+    asked = {"kind": "tiny", "inputs": {"image": file, "driver": "happy"}}
+    job = running.until(running.client.post("/v1/jobs", json=asked).json()["id"], "succeeded", "failed")
+    assert job["status"] == "succeeded", job["error"]
+    report = running.client.get(job["artifacts"]["report.json"]["url"]).json()
+    assert report["inputs"]["driver"] == "happy.mp4"

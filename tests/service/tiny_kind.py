@@ -103,7 +103,9 @@ def work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out:
         (out / "spectrum.json").write_text(str(mean.spectrum.tolist()))
         (out / "animation.mp4").write_bytes(bytes(range(256)) * 400)
         size = len(image.read_bytes())
-        write_report(out / "report.json", "tiny", run, {"bytes": size}, {"mean": mean.value, "reused": len(run.reused)})
+        driver = inputs["driver"].name if isinstance(inputs.get("driver"), Path) else None
+        asked = {"bytes": size, "driver": driver}
+        write_report(out / "report.json", "tiny", run, asked, {"mean": mean.value, "reused": len(run.reused)})
 
 
 KIND = Kind(
