@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import av
 import numpy as np
@@ -78,8 +79,9 @@ def open_container(path: Path, media_type: str, limits: Limits | None = None) ->
 
 
 def video_stream(container: InputContainer) -> VideoStream | None:
-    """The first stream of moving pictures (cover pictures are none)."""
-    return next((s for s in container.streams.video if not s.disposition & Disposition.attached_pic), None)
+    """The main stream of moving pictures: not a cover picture, nor the depth that some phones add."""
+    stream = cast(VideoStream | None, container.streams.best("video"))
+    return None if stream is None or stream.disposition & Disposition.attached_pic else stream
 
 
 @contextmanager
@@ -129,7 +131,7 @@ def timetable_of(container: InputContainer, stream: VideoStream, header: Header,
     step = 1 / header.fps if header.fps else 1 / 25
     end, any_end, cut, earliest = -np.inf, -np.inf, False, np.inf
     try:
-        for packet in container.demux():
+        for packet in container.demux(stream, *container.streams.audio):
             if packet.size == 0 or packet.is_discard:
                 continue
             time, length = _seconds(packet)

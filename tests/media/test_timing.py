@@ -56,6 +56,11 @@ def test_hidden_reference_frames_are_left_out() -> None:
     assert np.array_equal(without_echoes(packets), shown)
 
 
+def test_a_row_of_stills_gets_a_usual_rate() -> None:
+    rate = rate_of(np.array([0.0, 20.0, 40.0]), [0.05])
+    assert not rate.constant and rate.fps == 5
+
+
 def test_a_held_frame_is_repeated_until_the_next() -> None:
     frames = list(resample([(0.0, "a"), (0.3, "b")], 10, 0.0, 0.2))
     assert [name for _, name in frames] == ["a", "a", "a", "b", "b"]
