@@ -115,7 +115,11 @@ def _await_redis(settings: Settings) -> None:
             client.ping()
         except redis.RedisError as error:
             if time.monotonic() > deadline:
-                raise Complaint(f"The embedded Redis does not start: {error}. `galatea doctor` says more.") from error
+                folder = settings.data_dir / "redis"
+                raise Complaint(
+                    f"The embedded Redis does not start: {error}. See {folder / 'redis.log'}; the folder may be "
+                    "deleted, for it holds nothing but hints."
+                ) from error
             structlog.get_logger().debug("redis_not_ready", reason=str(error))
             time.sleep(0.05)
         else:

@@ -16,7 +16,12 @@ from running import Running
 @pytest.fixture(scope="session")
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     """A service that several tests use, with small limits for what is uploaded."""
-    service = Running(tmp_path_factory.mktemp("data") / "data", image_mb=1, video_mb=2, job_memory_mb=1500)
+    page = tmp_path_factory.mktemp("page")
+    (page / "index.html").write_text("<title>The page</title>")
+    (page / "app.js").write_text("start()")
+    (page.parent / "secret.txt").write_text("not yours")
+    data = tmp_path_factory.mktemp("data") / "data"
+    service = Running(data, image_mb=1, video_mb=2, job_memory_mb=1500, web_dir=page)
     yield service
     service.stop()
 
