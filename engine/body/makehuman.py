@@ -127,7 +127,7 @@ def read_mask(name: str) -> NDArray[np.float32]:
     """A mask over the template's texture coordinates, (H, W) float32 in [0, 1]: `ears`, `eyelids`, `face`,
     `fingernails`, `inside-mouth`, `lips`, ..."""
     with Image.open(data_folder() / f"mpfb2/textures/mpfb_{name}.jpg") as image:
-        return np.asarray(image.convert("L"), np.float32) / 255
+        return np.asarray(image.convert("L")).astype(np.float32) / np.float32(255)
 
 
 def read_vertex_groups() -> dict[str, list[list[int]]]:

@@ -19,6 +19,7 @@ from engine.performances.shade import light_through
 from engine.performances.shirt import Shirt, drape, sew_shirt
 from engine.performances.skin import Skin, paint_skin
 from engine.performances.teeth import Arch, Dentition, build_dentition
+from engine.performances.wrinkles import Wrinkles, carve, pressed
 from engine.render.light import Lamps
 from engine.render.surface import triangulate, vertex_normals
 
@@ -49,6 +50,7 @@ class Actor:
 
     figure: Figure
     skin: Skin
+    wrinkles: Wrinkles
     eyeball: Eyeball
     upper: Dentition
     lower: Dentition
@@ -68,7 +70,8 @@ class Actor:
 class Scene:
     """The actor in a pose: `vertices` (V, 3), `normals` (V, 3), `triangles` (T, 3), `part` (T,) uint8; the fine
     skin's vertices come first. `casters`: a lighter mesh of the same for shadows.
-    `hairs`: points (S, K, 3) of the crop, then of each of the actor's `rooted` hairs."""
+    `hairs`: points (S, K, 3) of the crop, then of each of the actor's `rooted` hairs.
+    `wrinkles`: relief over the map of the head, metres."""
 
     vertices: NDArray[np.float32]
     normals: NDArray[np.float32]
@@ -76,6 +79,7 @@ class Scene:
     part: NDArray[np.uint8]
     casters: tuple[NDArray[np.float32], NDArray[np.int32]]
     hairs: tuple[NDArray[np.float32], ...]
+    wrinkles: NDArray[np.float32]
     posed: Posed
 
 
@@ -93,13 +97,18 @@ def build_actor(lamps: Lamps) -> Actor:
     return Actor(
         figure=figure,
         skin=paint_skin(),
+        wrinkles=carve(),
         eyeball=eyeball,
         upper=build_dentition(UPPER_ARCH),
         lower=build_dentition(LOWER_ARCH, seed=4),
-        casting=(build_eyeball(14, 24), build_dentition(UPPER_ARCH, detail=0.4), build_dentition(LOWER_ARCH, 0.4, seed=4)),
+        casting=(
+            build_eyeball(14, 24),
+            build_dentition(UPPER_ARCH, detail=0.4),
+            build_dentition(LOWER_ARCH, 0.4, seed=4),
+        ),
         chart=places,
         inner=inner.astype(np.float32),
-        margin=chart.step(from_eye, 0.0172, 0.0162),
+        margin=chart.step(from_eye, 0.0168, 0.0160),
         scalp=chart.step(hair_cover(places), -0.001, 0.006) * chart.step(rest[:, 1], 0.70, 0.72),
         tongue=(once.points, once.quads),
         shirt=sew_shirt(figure),
@@ -139,6 +148,7 @@ def stage(actor: Actor, pose: Pose) -> Scene:
         part=fine[2],
         casters=(light[0], light[1]),
         hairs=(crop, *rooted),
+        wrinkles=pressed(actor.wrinkles, pose.units),
         posed=posed,
     )
 

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from engine.performances.chart import smooth_curve
 from engine.performances.eyes import Eyeball
 from engine.performances.figure import Figure
-from engine.render.rasteriser import rasterise
+from engine.performances.lids import find_rim
 from engine.render.surface import triangulate
 
 BROW = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.8090), (0.0425, 0.8072), (0.0490, 0.8032)]
@@ -95,12 +95,14 @@ def grow_lashes(figure: Figure, eyeball: Eyeball, seed: int = 22) -> Rooted:
 def _lashes(
     rng: np.random.Generator, figure: Figure, eyeball: Eyeball, eye: int, upper: bool
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, NDArray]:
-    corners, share, t = _lid_margin(figure, eyeball, eye, upper, 150 if upper else 70, rng)
+    t = np.sort(rng.uniform(0.02, 0.98, 190 if upper else 70))
+    skin = (figure.fine @ figure.rest).astype(np.float32)
+    rim = find_rim(skin, triangulate(figure.quads), eyeball, figure.eyes[eye].centre, upper, t)
     count = len(t)
     outer = t if eye == 0 else 1 - t  # 0 at the nose, 1 at the temple
     if upper:
-        length = np.interp(outer, [0, 0.2, 0.6, 0.85, 1], [0.0035, 0.0065, 0.0088, 0.0092, 0.0062])
-        rise, curl = rng.normal(-0.12, 0.10, count), rng.normal(0.95, 0.12, count)
+        length = np.interp(outer, [0, 0.2, 0.6, 0.85, 1], [0.0028, 0.0050, 0.0066, 0.0070, 0.0050])
+        rise, curl = rng.normal(-0.12, 0.10, count), rng.normal(0.75, 0.12, count)
     else:
         length = np.interp(outer, [0, 0.2, 0.6, 0.85, 1], [0.0018, 0.0032, 0.0042, 0.0046, 0.0032])
         rise, curl = rng.normal(-0.55, 0.12, count), rng.normal(-0.35, 0.12, count)
@@ -112,36 +114,10 @@ def _lashes(
     out = np.cumsum(run * np.cos(up), 1) - run * np.cos(up[:, :1])
     high = np.cumsum(run * np.sin(up), 1) - run * np.sin(up[:, :1])
     offsets = np.stack([out * np.sin(fan)[:, None], high, out * np.cos(fan)[:, None] + 0.0001], 2)
-    widths = np.array([1.0, 1.0, 0.85, 0.65, 0.45, 0.2])[None] * rng.normal(1.25e-4 if upper else 0.8e-4, 1e-5, (count, 1))
-    return corners, share, offsets, widths, np.full(count, eye, np.int8)
-
-
-def _lid_margin(
-    figure: Figure, eyeball: Eyeball, eye: int, upper: bool, count: int, rng: np.random.Generator
-) -> tuple[NDArray[np.int32], NDArray[np.float32], NDArray[np.float64]]:
-    """Random roots along a lid's rim: triangle corners, barycentrics, and the place from right to left [0, 1].
-
-    Found by looking at the rest pose from the front: the skin pixel next to the eyeball in each column.
-    """
-    skin = (figure.fine @ figure.rest).astype(np.float32)
-    triangles = triangulate(figure.quads)
-    ball = eyeball.vertices + figure.eyes[eye].centre
-    both = np.concatenate([skin, ball])
-    faces = np.concatenate([triangles, eyeball.triangles + len(skin)])
-    scale, size = 20000.0, (480, 760)
-    middle = figure.eyes[eye].centre
-    x = (both[:, 0] - middle[0]) * scale + size[1] / 2
-    y = -(both[:, 1] - middle[1]) * scale + size[0] / 2
-    raster = rasterise(np.stack([x, y, -both[:, 2]], 1), faces, size)
-    on_eye = raster.triangle >= len(triangles)
-    columns = np.flatnonzero(on_eye.sum(0) > 20)
-    columns = columns[8:-8]
-    chosen = np.sort(rng.choice(columns, count))
-    rows = on_eye[:, chosen].argmax(0) - 1 if upper else size[0] - on_eye[::-1, chosen].argmax(0)
-    found = raster.triangle[rows, chosen]
-    good = (found >= 0) & (found < len(triangles))
-    t = (chosen - columns[0]) / (columns[-1] - columns[0])
-    return triangles[found[good]], raster.barycentrics[rows, chosen][good], t[good]
+    widths = np.array([1.0, 1.0, 0.85, 0.65, 0.45, 0.2])[None] * rng.normal(
+        1.25e-4 if upper else 0.8e-4, 1e-5, (count, 1)
+    )
+    return rim.corners, rim.share, offsets, widths, np.full(count, eye, np.int8)
 
 
 def _bind(
@@ -158,6 +134,7 @@ def _bind(
     corners = triangles[near]
     a, b, c = (chart[corners[:, k]].astype(np.float64) for k in range(3))
     _, candidates = cKDTree((a + b + c) / 3).query(place, k=12)
+    candidates = np.asarray(candidates)
     p = place[:, None]
     a, b, c = a[candidates], b[candidates], c[candidates]
     area = _cross(b - a, c - a)

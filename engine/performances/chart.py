@@ -84,7 +84,7 @@ def along(
     ahead = np.gradient(curve, axis=0)[nearest]
     offset = texels - curve[nearest]
     side = np.where(ahead[..., 0] * offset[..., 1] - ahead[..., 1] * offset[..., 0] >= 0, 1, -1)
-    place = nearest / (len(curve) - 1)
+    place = np.asarray(nearest) / (len(curve) - 1)
     return (distance * side).astype(np.float32), place.astype(np.float32), (rows, columns)
 
 

@@ -15,16 +15,31 @@ from engine.body.rig import Rig
 from engine.body.skinning import bone_transforms, skin
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
-from engine.performances.eyes import RADIUS, profile
+from engine.performances.eyes import RADIUS, build_eyeball, profile
+from engine.performances.lids import Lids, build_lids
 from engine.render.surface import triangulate
 
 PERSON = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
 
 FEATURES = {
+    "r-eye-scale-incr": 0.22,
+    "l-eye-scale-incr": 0.22,
     "neck-scale-horiz-decr": 0.35,
     "neck-scale-depth-decr": 0.25,
 }
 """Local changes that make the average face a person."""
+
+CLOSED = {
+    "jawOpen": -0.035,
+    "mouthPressLeft": 0.10,
+    "mouthPressRight": 0.10,
+    "mouthSmileLeft": 0.06,
+    "mouthSmileRight": 0.05,
+}
+"""The template's lips stand a little apart: with these units they meet."""
+
+BLINKS = ("eyeBlinkLeft", "eyeBlinkRight")
+"""These units are carried out by `engine.performances.lids`: their weight is the share of the way to a shut eye."""
 
 NECK = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""
@@ -73,6 +88,7 @@ class Figure:
     coarse: sp.csr_array
     coarse_quads: NDArray[np.int32]
     eyes: tuple[Eye, Eye]
+    lids: tuple[Lids, Lids]
 
 
 @dataclass(frozen=True)
@@ -91,7 +107,7 @@ class Posed:
 def build_figure() -> Figure:
     """Make the actor's body."""
     template, rig = load_template(), load_rig("default")
-    shape = load_shape_space().shape(PERSON, FEATURES)
+    shape = load_shape_space().shape(PERSON, FEATURES) + template.face_units.displacement(CLOSED)
     arms_down = _arms_down(rig, shape)
     skin_quads = template.quads[template.faces("body")]
     framed = arms_down[skin_quads][:, :, 1].min(1) > FRAMED
@@ -101,14 +117,30 @@ def build_figure() -> Figure:
     twice = catmull_clark(once.quads, once.points.shape[0])
     fine, quads = _compact(sp.csr_array(twice.points @ once.points), twice.quads)
     coarse, coarse_quads = _compact(once.points, once.quads)
-    eyes = tuple(_fit_eye(arms_down[template.vertices_of(f"{side}_eye")]) for side in ("left", "right"))
-    return Figure(template, rig, arms_down, rig.joints(arms_down)[0], fine, quads, coarse, coarse_quads, eyes)  # type: ignore[arg-type]
+    left, right = (_fit_eye(arms_down[template.vertices_of(f"{side}_eye")]) for side in ("left", "right"))
+    lids = [
+        build_lids(
+            fine,
+            triangulate(quads),
+            arms_down,
+            build_eyeball(),
+            eye.centre,
+            template.face_units.displacement({name: 1}),
+        )
+        for eye, name in zip((left, right), BLINKS, strict=True)
+    ]
+    heads = rig.joints(arms_down)[0]
+    return Figure(
+        *(template, rig, arms_down, heads, fine, quads, coarse, coarse_quads), (left, right), (lids[0], lids[1])
+    )
 
 
 def pose_figure(figure: Figure, pose: Pose) -> Posed:
     """Carry out a pose."""
-    units = {name: weight for name, weight in pose.units.items() if weight}
+    units = {name: weight for name, weight in pose.units.items() if name not in BLINKS}
     moved = figure.rest + figure.template.face_units.displacement(units)
+    shut = [lids.close(moved, pose.units.get(name, 0.0)) for lids, name in zip(figure.lids, BLINKS, strict=True)]
+    moved = moved + shut[0] + shut[1]
     transforms = bone_transforms(figure.rig, figure.heads, _rotations(figure.rig, pose), np.asarray(pose.lean))
     cage = skin(moved, figure.rig.bones, figure.rig.weights, transforms)
     head = transforms[figure.rig.index("head")]
@@ -121,7 +153,7 @@ def pose_figure(figure: Figure, pose: Pose) -> Posed:
         for eye, motion in zip(figure.eyes, eyes, strict=True):
             _keep_off(surface, motion, motion[:3, :3] @ eye.centre + motion[:3, 3])
         surfaces.append(surface)
-    return Posed(cage, surfaces[0], surfaces[1], head, jaw, eyes)  # type: ignore[arg-type]
+    return Posed(cage, surfaces[0], surfaces[1], head, jaw, eyes)
 
 
 def rigid_motion(before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:

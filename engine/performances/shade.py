@@ -36,7 +36,7 @@ def light_through(
         density,
         np.ascontiguousarray(((points - low) / VOXEL).reshape(-1, 3), np.float32),
         lamps.directions,
-        np.float32(THICKNESS * VOXEL),
+        THICKNESS * VOXEL,
     )
     return passed.reshape(*points.shape[:2], -1) * facing[:, None]
 
@@ -53,14 +53,7 @@ def _march(density: np.ndarray, places: np.ndarray, directions: np.ndarray, weig
             z = places[i, 2] + 1.5 * directions[k, 2]
             for _ in range(28):
                 a, b, c = int(x), int(y), int(z)
-                if (
-                    a < 0
-                    or b < 0
-                    or c < 0
-                    or a >= density.shape[0]
-                    or b >= density.shape[1]
-                    or c >= density.shape[2]
-                ):
+                if a < 0 or b < 0 or c < 0 or a >= density.shape[0] or b >= density.shape[1] or c >= density.shape[2]:
                     break
                 total += density[a, b, c]
                 x += directions[k, 0]

@@ -62,8 +62,8 @@ def sew_shirt(figure: Figure, seed: int = 31) -> Shirt:
         rows[i] = np.searchsorted(run, run[first] + away).clip(0, len(column) - 1)
     found = raster.triangle[rows, columns]
     # a pixel that no triangle covers takes its neighbour's
-    for i in np.flatnonzero((found < 0).any(1)):
-        found[i], rows[i], columns[i] = found[i - 1], rows[i - 1], columns[i - 1]
+    for gap in np.flatnonzero((found < 0).any(1)):
+        found[gap], rows[gap], columns[gap] = found[gap - 1], rows[gap - 1], columns[gap - 1]
     share = raster.barycentrics[rows, columns]
     weave = np.stack(np.broadcast_arrays(turns[:, None] * 0.068, away[None]), 2)
     lift = _thickness(away)[None] + _folds(np.random.default_rng(seed), turns, away)
@@ -104,9 +104,7 @@ def _thickness(away: NDArray[np.floating]) -> NDArray[np.floating]:
     return np.where(away < -0.0015, -0.002, collar + seam + loose)
 
 
-def _folds(
-    rng: np.random.Generator, turns: NDArray[np.floating], away: NDArray[np.floating]
-) -> NDArray[np.floating]:
+def _folds(rng: np.random.Generator, turns: NDArray[np.floating], away: NDArray[np.floating]) -> NDArray[np.floating]:
     """Soft folds that run away from the collar, and a few across."""
     total = np.zeros((len(turns), len(away)))
     for _ in range(16):

@@ -12,7 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.chart import LEFT, SHAPE, TEXELS, TOP, blob, both, grid, noise, smooth_curve, step
+from engine.performances.brows import BROW
+from engine.performances.chart import LEFT, SHAPE, TEXELS, TOP, along, blob, both, grid, noise, smooth_curve, step
 
 GROUND = np.array([0.72, 0.52, 0.42], np.float32)
 """Diffuse reflectance (linear RGB) of the skin with hardly any pigment."""
@@ -47,6 +48,8 @@ def paint_skin(seed: int = 7) -> Skin:
     albedo = GROUND * np.exp(-blood[..., None] * BLOOD - melanin[..., None] * MELANIN)
     beard = _beard(rng) * (1 - lips)
     albedo *= 1 - beard[..., None] * np.array([0.40, 0.35, 0.27], np.float32)
+    brows = np.clip(1.25 * brow_shadow(), 0, 1)[..., None] * np.array([0.34, 0.40, 0.44], np.float32)
+    albedo *= 1 - brows
     pores = _pores(rng)
     relief = 2.6e-5 * pores * (1 - lips) + 1.2e-5 * noise(rng, 0.0011)
     relief = relief + lips * _lip_lines(rng)
@@ -77,15 +80,15 @@ def _blood(rng: np.random.Generator) -> NDArray[np.float32]:
         + 0.22 * blob((0.0, 0.756), (0.010, 0.008))  # tip of the nose
         + 0.28 * both((0.0165, 0.7515), (0.0035, 0.004))  # wings of the nose and the crease behind them
         + 0.10 * blob((0.0, 0.695), (0.014, 0.009))  # chin
-        + 0.16 * both((0.030, 0.7835), (0.013, 0.0035), -0.05)  # lower lids
-        + 0.20 * both((0.031, 0.7985), (0.013, 0.0035), 0.0)  # upper lids
-        + 0.35 * both((0.0185, 0.7885), (0.0022, 0.0024))  # corners of the eyes
+        + 0.12 * both((0.030, 0.7835), (0.013, 0.0035), -0.05)  # lower lids
+        + 0.12 * both((0.031, 0.7985), (0.013, 0.0035), 0.0)  # upper lids
+        + 0.22 * both((0.0185, 0.7885), (0.0022, 0.0024))  # corners of the eyes
         + 0.16 * both((0.0235, 0.7205), (0.004, 0.004))  # corners of the mouth
         + 0.55 * both((0.155, 0.772), (0.028, 0.034))  # ears
         + 0.06 * blob((0.0, 0.84), (0.05, 0.02))
     )
-    mottle = 0.026 * noise(rng, 0.012, 4) + 0.024 * noise(rng, 0.0022, 2)
-    return np.maximum(0.24 + flush + mottle * (1 + 0.8 * flush), 0.02)
+    mottle = 0.034 * noise(rng, 0.009, 4) + 0.032 * noise(rng, 0.0022, 2)
+    return np.maximum(0.215 + flush + mottle * (1 + 0.8 * flush), 0.02)
 
 
 def _melanin(rng: np.random.Generator) -> NDArray[np.float32]:
@@ -99,7 +102,7 @@ def _melanin(rng: np.random.Generator) -> NDArray[np.float32]:
     )
     spots = np.maximum(noise(rng, 0.0016) - 2.3, 0) * (0.4 + both((0.032, 0.765), (0.02, 0.012)))
     moles = sum(strength * blob(place, (size, size)) for place, size, strength in MOLES)
-    return np.maximum(0.25 + tan + 0.022 * noise(rng, 0.016, 3) + 0.07 * spots + moles, 0.02)
+    return np.maximum(0.265 + tan + 0.022 * noise(rng, 0.016, 3) + 0.07 * spots + moles, 0.02)
 
 
 MOLES = (((0.041, 0.7405), 0.00055, 1.1), ((-0.056, 0.7685), 0.0005, 0.9), ((-0.022, 0.6925), 0.0006, 0.7))
@@ -123,6 +126,15 @@ def _beard(rng: np.random.Generator) -> NDArray[np.float32]:
     return zone * patchy * hairs
 
 
+def brow_shadow() -> NDArray[np.float32]:
+    """Where brows grow, the skin is darker: the shade of hairs too fine to draw, [0, 1]."""
+    total = np.zeros(SHAPE, np.float32)
+    distance, place, (rows, columns) = along(BROW, 0.008)
+    half = np.interp(place, [0, 0.1, 0.4, 0.7, 1], [0.0022, 0.0036, 0.0036, 0.0028, 0.0010])
+    total[rows, columns] = np.exp(-0.5 * (distance / half) ** 2) * step(place, -0.02, 0.10) * step(place, 1.0, 0.86)
+    return total + total[:, ::-1]
+
+
 def _pores(rng: np.random.Generator) -> NDArray[np.float32]:
     """Relief of the pores, unit strength: coarse on nose and cheeks, fine elsewhere."""
     coarse = 0.35 + blob((0.0, 0.757), (0.013, 0.014)) + 0.8 * both((0.026, 0.757), (0.014, 0.012))
@@ -135,9 +147,7 @@ def _lip_lines(rng: np.random.Generator) -> NDArray[np.float32]:
     return (5e-5 * lines / lines.std()).astype(np.float32)
 
 
-def _roughness(
-    rng: np.random.Generator, lips: NDArray[np.float32], beard: NDArray[np.float32]
-) -> NDArray[np.float32]:
+def _roughness(rng: np.random.Generator, lips: NDArray[np.float32], beard: NDArray[np.float32]) -> NDArray[np.float32]:
     """GGX roughness: oily on forehead and nose, matt on cheeks, moist on the lips and along the lids."""
     oil = (
         0.10 * blob((0.0, 0.835), (0.035, 0.018))

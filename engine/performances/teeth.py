@@ -143,7 +143,14 @@ def _gum(arch: Arch, sizes: tuple[tuple[float, float], ...], detail: float) -> P
     place, outward = arch.place(length)
     rise = np.array([_gum_rise(arch, value) for value in length])
     rows = []
-    for drop, bulge in ((0.0, -0.0012), (0.0, 0.0001), (0.0007, 0.0010), (0.003, 0.0014), (0.010, 0.0006), (0.014, -0.003)):
+    for drop, bulge in (
+        (0.0, -0.0012),
+        (0.0, 0.0001),
+        (0.0007, 0.0010),
+        (0.003, 0.0014),
+        (0.010, 0.0006),
+        (0.014, -0.003),
+    ):
         foot = (scallop if drop < 0.003 else 0.3 * scallop) - 0.0011
         y = arch.gum - arch.up * (drop + foot) + arch.up * rise
         rows.append(np.stack([place[:, 0] + bulge * outward[:, 0], y, place[:, 1] + bulge * outward[:, 1]], 1))

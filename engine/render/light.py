@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit, prange
+from numba import njit
 from numpy.typing import NDArray
 
 from engine.render.rasteriser import depth_map
@@ -31,7 +31,7 @@ class Lamps:
 
 
 def softbox(
-    azimuth: float, elevation: float, extent: tuple[float, float], irradiance: tuple[float, float, float], count: int
+    azimuth: float, elevation: float, extent: tuple[float, float], irradiance: NDArray[np.floating], count: int
 ) -> Lamps:
     """A rectangular light.
 
@@ -39,7 +39,7 @@ def softbox(
     ----------
     azimuth, elevation : degrees; 0, 0 is where the camera stands, positive to the sitter's left and up.
     extent : width and height, degrees seen from the sitter.
-    irradiance : of the whole box, on a surface that faces it.
+    irradiance : (3,) RGB of the whole box, on a surface that faces it.
     count : number of lamps.
     """
     index = np.arange(count)
@@ -47,22 +47,20 @@ def softbox(
     v = (index * 0.6180339887498949) % 1 - 0.5  # a rank-1 lattice by the golden ratio covers the box evenly
     right, up = np.radians(azimuth + u * extent[0]), np.radians(elevation + v * extent[1])
     directions = np.stack([np.sin(right) * np.cos(up), np.sin(up), np.cos(right) * np.cos(up)], 1)
-    share = np.tile(np.asarray(irradiance) / count, (count, 1))
+    share = np.tile(irradiance / count, (count, 1))
     return Lamps(directions.astype(np.float32), share.astype(np.float32))
 
 
-def dome(
-    zenith: tuple[float, float, float], horizon: tuple[float, float, float], nadir: tuple[float, float, float], count: int
-) -> Lamps:
-    """Light from everywhere, given as radiance straight up, level and straight down: `count` lamps on a
+def dome(zenith: NDArray[np.floating], horizon: NDArray[np.floating], nadir: NDArray[np.floating], count: int) -> Lamps:
+    """Light from everywhere, given as radiance (3,) straight up, level and straight down: `count` lamps on a
     Fibonacci sphere."""
     index = np.arange(count) + 0.5
     height = 1 - 2 * index / count
     turn = np.pi * (1 + 5**0.5) * index
     flat = np.sqrt(1 - height**2)
     directions = np.stack([flat * np.cos(turn), height, flat * np.sin(turn)], 1)
-    ends = np.where(height[:, None] > 0, np.asarray(zenith), np.asarray(nadir))
-    radiance = np.asarray(horizon) + np.abs(height[:, None]) * (ends - np.asarray(horizon))
+    ends = np.where(height[:, None] > 0, zenith, nadir)
+    radiance = horizon + np.abs(height[:, None]) * (ends - horizon)
     return Lamps(directions.astype(np.float32), (radiance * 4 * np.pi / count).astype(np.float32))
 
 
@@ -116,21 +114,10 @@ def lit(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias:
     w = view[2, 0] * x + view[2, 1] * y + view[2, 2] * z + view[3, 2] - bias
     left, top = int(np.floor(u)), int(np.floor(v))
     if left < 0 or top < 0 or left + 1 >= depth.shape[1] or top + 1 >= depth.shape[0]:
-        return np.float32(1)
+        return 1.0
     fu, fv = np.float32(u - left), np.float32(v - top)
     upper = (1 - fu if depth[top, left] >= w else np.float32(0)) + (fu if depth[top, left + 1] >= w else np.float32(0))
     lower = (1 - fu if depth[top + 1, left] >= w else np.float32(0)) + (
         fu if depth[top + 1, left + 1] >= w else np.float32(0)
     )
-    return upper * (1 - fv) + lower * fv
-
-
-@njit(cache=True, parallel=True, fastmath=True)
-def visibility(points: np.ndarray, normals: np.ndarray, depth: np.ndarray, view: np.ndarray, bias: float) -> np.ndarray:
-    """The share of one lamp's light that reaches each of (N, 3) points; they are lifted by `bias` metres along
-    their normals, so that a surface does not shade itself."""
-    out = np.empty(len(points), np.float32)
-    for i in prange(len(points)):
-        x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        out[i] = lit(depth, view, x + bias * normals[i, 0], y + bias * normals[i, 1], z + bias * normals[i, 2], bias)
-    return out
+    return float(upper * (1 - fv) + lower * fv)

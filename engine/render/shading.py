@@ -60,10 +60,21 @@ def illuminate(
     mirrored = np.zeros_like(surface.position)
     for direction, colour in zip(lamps.directions, lamps.irradiance, strict=True):
         shadow = cast_shadow(*casters, direction, centre, radius, map_size)
-        _add(
-            *(surface.position, surface.normal, surface.bumped, surface.view),
-            *(surface.roughness, surface.reflectance, surface.softness),
-            *(direction, colour, shadow.depth, shadow.view, bias, irradiance, mirrored),
+        _add(  # in the order in which they are written: numba knows no keywords
+            surface.position,
+            surface.normal,
+            surface.bumped,
+            surface.view,
+            surface.roughness,
+            surface.reflectance,
+            surface.softness,
+            direction,
+            colour,
+            shadow.depth,
+            shadow.view,
+            bias,
+            irradiance,
+            mirrored,
         )
     return Lighting(irradiance, mirrored)
 

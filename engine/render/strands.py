@@ -32,9 +32,13 @@ def shade_strands(
     gloss : strength of the highlights.
     """
     return _shade(
-        *(np.ascontiguousarray(a, np.float32) for a in (tangents, view, passed, lamps.directions, lamps.irradiance)),
+        np.ascontiguousarray(tangents, np.float32),
+        np.ascontiguousarray(view, np.float32),
+        np.ascontiguousarray(passed, np.float32),
+        lamps.directions,
+        lamps.irradiance,
         np.ascontiguousarray(colour, np.float32),
-        np.float32(gloss),
+        gloss,
     )
 
 
@@ -124,11 +128,10 @@ def _draw(
             top, bottom = max(int(np.ceil(min(y0, y1) - pad)), 0), min(int(np.floor(max(y0, y1) + pad)), height - 1)
             for y in range(top, bottom + 1):
                 for x in range(left, right + 1):
-                    if length > 1e-4:
-                        t = ((x - x0) * dx + (y - y0) * dy) / (length * length)
-                    else:
-                        t = 0.5
-                    # the end caps of neighbours overlap by half a pixel at most
+                    t = ((x - x0) * dx + (y - y0) * dy) / (length * length) if length > 1e-4 else 0.5
+                    # pieces share no pixel; only the two ends of the hair reach out, by half a pixel
+                    if (t < 0 and k > 0) or (t >= 1 and k < points.shape[1] - 2):
+                        continue
                     beyond = max(-t, t - 1) * length
                     t = min(max(t, 0.0), 1.0)
                     if beyond > 0.5:

@@ -44,7 +44,7 @@ def diffuse(
         if sigma < 0.4:
             total += share * irradiance
             continue
-        reach = np.float32(max(2.5 * np.sqrt(variance) / 1000, 0.001))
+        reach = float(max(2.5 * np.sqrt(variance) / 1000, 0.001))
         once = _blur_rows(irradiance, translucency, depth, sigma, reach)
         turned = _blur_rows(
             np.ascontiguousarray(once.transpose(1, 0, 2)),

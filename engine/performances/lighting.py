@@ -1,0 +1,73 @@
+"""The studio's lamps, and the two things their light does besides falling on surfaces: mirroring in wet eyes, and
+wandering about in the mouth."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.performances.actor import Part, Scene
+from engine.performances.chart import step
+from engine.performances.sight import Seen
+from engine.render.light import Lamps, dome, softbox
+
+KEY = (-40.0, 34.0, 44.0, 52.0)
+FILL = (50.0, 8.0, 70.0, 60.0)
+"""Softboxes: azimuth, elevation, width and height in degrees."""
+
+KEY_LIGHT = np.array([2.05, 1.98, 1.86], np.float32)
+FILL_LIGHT = np.array([0.42, 0.44, 0.47], np.float32)
+"""Their irradiance on a surface that faces them."""
+
+ZENITH, HORIZON, FLOOR = np.array([0.14, 0.145, 0.155]), np.full(3, 0.085), np.array([0.05, 0.043, 0.037])
+"""Radiance of the room from above, the sides and below."""
+
+CATCHLIGHT = 2.8
+"""How much brighter the boxes look in the eyes than they light the face: their diffusers are not even."""
+
+BOUNCE = np.array([0.40, 0.31, 0.27], np.float32)
+"""Irradiance inside the mouth by light that its walls pass on to each other."""
+
+
+def lamps(detail: float = 1.0) -> Lamps:
+    """A large warm key from the sitter's right, a weak fill, two rims, a dim room; `detail` scales how many lamps
+    stand for each."""
+
+    def number(count: int) -> int:
+        return max(round(count * detail), 2)
+
+    return (
+        softbox(KEY[0], KEY[1], KEY[2:], KEY_LIGHT, number(26))
+        + softbox(FILL[0], FILL[1], FILL[2:], FILL_LIGHT, number(10))
+        + softbox(152, 42, (50, 40), np.array([0.75, 0.75, 0.77]), number(4))
+        + softbox(-152, 42, (50, 40), np.array([0.45, 0.45, 0.45]), number(4))
+        + dome(ZENITH, HORIZON, FLOOR, number(30))
+    )
+
+
+def bounce(scene: Scene, seen: Seen) -> NDArray[np.float32]:
+    """Irradiance (N, 3) inside the mouth by light that its walls pass on; it fades towards the throat."""
+    inside = np.isin(seen.part, (Part.TEETH, Part.TONGUE))
+    head = scene.posed.head
+    depth = 0.146 - ((seen.position - head[:3, 3]) @ head[:3, :3])[:, 2]
+    return (inside * np.exp(-np.clip(depth, 0, None) / 0.013))[:, None].astype(np.float32) * BOUNCE
+
+
+def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:
+    """What the wet eyes mirror (N, 3): the softboxes, sharp-edged, where the lids do not keep their light away."""
+    mirrored = np.zeros_like(seen.position)
+    eye = np.isin(seen.part, (Part.LEFT_EYE, Part.RIGHT_EYE))
+    normal, view = seen.normal[eye], seen.view[eye]
+    cosine = (normal * view).sum(1, keepdims=True)
+    ray = 2 * cosine * normal - view
+    azimuth = np.degrees(np.arctan2(ray[:, 0], ray[:, 2]))
+    elevation = np.degrees(np.arcsin(np.clip(ray[:, 1], -1, 1)))
+    fresnel = 0.025 + 0.975 * (1 - np.clip(cosine[:, 0], 0, 1)) ** 5
+    open_to = np.clip(irradiance[eye].mean(1) / 0.55, 0, 1)
+    for (x, y, width, height), light in ((KEY, KEY_LIGHT), (FILL, FILL_LIGHT)):
+        inside = step(np.abs(azimuth - x), width / 2 + 3, width / 2 - 3) * step(
+            np.abs(elevation - y), height / 2 + 3, height / 2 - 3
+        )
+        radiance = light / (np.radians(width) * np.radians(height) * np.cos(np.radians(y)))
+        mirrored[eye] += CATCHLIGHT * (inside * fresnel * open_to)[:, None] * radiance
+    return mirrored

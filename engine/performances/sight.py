@@ -1,0 +1,40 @@
+"""What the camera sees of a scene: the visible points, before anything is known of light or matter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.performances.actor import Scene
+from engine.render.attributes import interpolate
+from engine.render.camera import Camera
+from engine.render.rasteriser import Raster, rasterise
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The visible points of a picture, row by row, and where they lie: `covered` (H, W) marks their pixels."""
+
+    covered: NDArray[np.bool_]
+    raster: Raster
+    part: NDArray[np.uint8]
+    position: NDArray[np.float32]
+    normal: NDArray[np.float32]
+    view: NDArray[np.float32]
+
+
+def look(scene: Scene, camera: Camera) -> Seen:
+    """Which points of the scene the camera sees."""
+    raster = rasterise(camera.project(scene.vertices), scene.triangles, camera.size, perspective=True)
+    covered = raster.triangle >= 0
+    position = interpolate(scene.vertices, scene.triangles, raster)[covered]
+    normal = unit(interpolate(scene.normals, scene.triangles, raster)[covered])
+    view = unit(np.asarray(camera.eye, np.float32) - position)
+    return Seen(covered, raster, scene.part[raster.triangle[covered]], position, normal, view)
+
+
+def unit(vectors: NDArray[np.floating]) -> NDArray[np.float32]:
+    """Vectors (N, 3) scaled to length one."""
+    return (vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-9)).astype(np.float32)
