@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 
 from engine.errors import InputError
-from engine.perception.landmarks import MESH_SIZE, RIGID, fiducials
+from engine.perception.landmarks import RIGID, fiducials
 
 FOCAL = 1.5
 """Assumed focal length of a portrait's camera, in longer sides of the picture."""
@@ -78,11 +78,8 @@ def mesh_from_fiducials(points: NDArray[np.floating]) -> NDArray[np.float32]:
     Raises `InputError` `landmarks_invalid` where the points are not those of a face.
     """
     points = np.asarray(points, float)
-    if points.shape not in ((68, 2), (MESH_SIZE, 2), (MESH_SIZE, 3)) or not np.isfinite(points).all():
+    if points.shape != (68, 2) or not np.isfinite(points).all():
         raise InputError("landmarks_invalid", "Give 68 landmarks as [x, y] in pixels of the picture.", ("landmarks",))
-    if len(points) == MESH_SIZE:
-        depth = points[:, 2:] if points.shape[1] == 3 else _depth(points)
-        return np.column_stack([points[:, :2], depth]).astype(np.float32)
     canonical = canonical_face().astype(float)
     known = fiducials(canonical)[:, :2]
     if np.linalg.matrix_rank(points - points.mean(axis=0), tol=1.0) < 2:

@@ -33,7 +33,7 @@ class Similarity:
     def inverse(self) -> Similarity:
         """The transformation back."""
         linear = np.linalg.inv(self.linear)
-        return Similarity(linear, -linear @ self.shift)
+        return Similarity(np.asarray(linear, np.float64), np.asarray(-linear @ self.shift, np.float64))
 
     def matrix(self) -> NDArray[np.float64]:
         """(2, 3), as OpenCV's affine functions take it."""
@@ -47,7 +47,8 @@ def fit_similarity(source: NDArray[np.floating], destination: NDArray[np.floatin
     cosine = float((a * b).sum()) / norm
     sine = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()) / norm
     linear = np.array([[cosine, -sine], [sine, cosine]])
-    return Similarity(linear, destination.mean(axis=0) - linear @ source.mean(axis=0))
+    shift = destination.mean(axis=0) - linear @ source.mean(axis=0)
+    return Similarity(linear, np.asarray(shift, np.float64))
 
 
 def align(neutral: NDArray[np.floating], target: NDArray[np.floating]) -> Similarity:

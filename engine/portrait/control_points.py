@@ -21,7 +21,7 @@ PERIPHERY_SPACING = 0.5
 """Distance of peripheral points, in eye distances."""
 BORDER_POINTS = 12
 """Along the longer side of the image."""
-GRAZING = 0.2
+GRAZING = 0.0
 """Cosine between the line of sight and a surface that is still seen."""
 CARRY_REACH = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""

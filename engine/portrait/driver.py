@@ -90,7 +90,10 @@ def track_driver(
     """
     info = probe_video(path, limits)
     expected = max(1, round(info.seconds * (fps or info.fps)))
-    meshes, found, places, ends = [], [], [], [0]
+    meshes: list[NDArray[np.float32]] = []
+    found: list[bool] = []
+    places: list[NDArray[np.float64]] = []
+    ends = [0]
     periphery = PeripheryTracker()
     crops = Path(tempfile.mkdtemp(prefix="galatea-crops-")) / "crops.jpegs"
     with FaceTracker() as tracker, crops.open("wb") as file:
@@ -101,13 +104,10 @@ def track_driver(
             mesh = faces[0] if faces else (meshes[-1] if meshes else np.full((MESH_SIZE, 3), np.nan, np.float32))
             meshes.append(mesh)
             places.append(_crop_place(mesh) if np.isfinite(mesh).all() else np.eye(2, 3))
-            file.write(
-                _jpeg(
-                    cv2.warpAffine(
-                        frame.rgb, places[-1], CROP[::-1], flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
-                    )
-                )
+            crop = cv2.warpAffine(
+                frame.rgb, places[-1], CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
             )
+            file.write(_jpeg(np.asarray(crop, np.uint8)))
             ends.append(file.tell())
             periphery.follow(frame.rgb, mesh if found[-1] else None)
     if not any(found):

@@ -45,7 +45,7 @@ def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray
     return np.stack([_look(meshes, s) - _look(neutral[None], s) for s in SIDES], axis=1)
 
 
-def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:  # type: ignore[type-arg]
+def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
     _, iris, outer, inner = side
     a, b = meshes[:, outer, :2], meshes[:, inner, :2]
     along = b - a
@@ -61,7 +61,7 @@ def prepare_eyes(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[Ey
     return tuple(_prepare(rgb, mesh, side) for side in SIDES)  # type: ignore[return-value]
 
 
-def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) -> Eyeball | None:  # type: ignore[type-arg]
+def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) -> Eyeball | None:
     contour, iris, outer, inner = side
     ends = mesh[[outer, inner], :2].astype(np.float32)
     width = float(np.linalg.norm(ends[1] - ends[0]))
@@ -78,7 +78,8 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
     ys, xs = np.mgrid[: patch.shape[0], : patch.shape[1]].astype(np.float32)
     distance = np.hypot(xs - centre[0], ys - centre[1])
     seen = _fill(opening - low, patch.shape[:2])
-    seen = cv2.erode(seen, np.ones((3, 3), np.uint8)) if width > 30 else seen
+    if width > 30:
+        seen = np.asarray(cv2.erode(seen, np.ones((3, 3), np.uint8)), np.uint8)
     inside_iris = distance < 1.12 * radius
     white = _continue(patch, (seen > 0) & ~inside_iris)
     if white is None:
@@ -114,12 +115,12 @@ def _complete_iris(
     """The iris as a full disk: what the lids hide takes the mean colour at its distance from the pupil."""
     rings = np.minimum((distance / max(radius, 1) * 12).astype(int), 15)
     count = np.bincount(rings[known], minlength=16).astype(np.float32)
-    profile = np.stack([np.bincount(rings[known], patch[..., k][known], 16) for k in range(3)], axis=1)
+    total = np.stack([np.bincount(rings[known], patch[..., k][known], 16) for k in range(3)], axis=1)
     filled = np.flatnonzero(count > 0)
     if len(filled) == 0:
         return patch.copy()
-    profile = profile[filled] / count[filled, None]
-    profile = np.stack([np.interp(np.arange(16), filled, profile[:, k]) for k in range(3)], axis=1)
+    mean = total[filled] / count[filled, None]
+    profile = np.stack([np.interp(np.arange(16), filled, mean[:, k]) for k in range(3)], axis=1)
     modelled = cv2.GaussianBlur(profile[rings].astype(np.float32), (0, 0), max(radius / 12, 0.5))
     edge = np.minimum(cv2.distanceTransform(known.astype(np.uint8), cv2.DIST_L2, 3) / 2, 1)[..., None]
     return np.asarray(modelled + edge * (patch - modelled), np.float32)

@@ -60,7 +60,8 @@ class DetailMap:
 
 def luminance(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
     """f of equation 2: the luminance (H, W) float32, lightly smoothed."""
-    return cv2.GaussianBlur(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32), (0, 0), BLUR)
+    grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32)
+    return np.asarray(cv2.GaussianBlur(grey, (0, 0), BLUR), np.float32)
 
 
 def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -85,7 +86,8 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     middle = cv2.erode(sure, np.ones((9, 9), np.uint8))
     labels = np.where(probable | sure, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[middle > 0] = cv2.GC_FGD
-    cv2.grabCut(patch, labels, None, np.zeros((1, 65)), np.zeros((1, 65)), 3, cv2.GC_INIT_WITH_MASK)
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.grabCut(patch, labels, (0, 0, 1, 1), *models, 3, cv2.GC_INIT_WITH_MASK)
     inside = ((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.float32)
     inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((5, 5))), (0, 0), 3)
     region = np.zeros(rgb.shape[:2], np.float32)
@@ -118,7 +120,8 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
     for contour in (RIGHT_EYE, LEFT_EYE, LIPS_INNER):
         cv2.fillPoly(mask, [mesh[list(contour)].round().astype(np.int32)], 1.0)
     size = 2 * max(1, round(grow)) + 1
-    return cv2.GaussianBlur(cv2.dilate(mask, np.ones((size, size), np.uint8)), (0, 0), max(grow / 2, 0.8))
+    grown = cv2.dilate(mask, np.ones((size, size), np.uint8))
+    return np.asarray(cv2.GaussianBlur(grown, (0, 0), max(grow / 2, 0.8)), np.float32)
 
 
 class RatioImages:

@@ -102,7 +102,7 @@ def transfer_mouth(
     source = crop_mesh[list(LIPS_OUTER + LIPS_INNER)].astype(np.float32)
     origin = inverse_map(lips, source, mouth_triangles(), (y1 - y0, x1 - x0), outside=-1.0)
     aligned = cv2.remap(crop, origin[..., 0], origin[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    mouth = relight(aligned, palette)
+    mouth = relight(np.asarray(aligned, np.uint8), palette)
     below = frame[y0:y1, x0:x1].astype(np.float32)
     mask = _eroded(outer - corner, (y1 - y0, x1 - x0), EROSION * palette.height)
     opening = _soft_polygon(inner - corner, (y1 - y0, x1 - x0))
@@ -151,7 +151,7 @@ def _soft_polygon(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArra
     """Coverage [0, 1] of a polygon, anti-aliased."""
     mask = np.zeros(shape, np.uint8)
     cv2.fillPoly(mask, [np.round(points * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
-    return mask.astype(np.float32) / 255
+    return mask.astype(np.float32) / np.float32(255)
 
 
 def _eroded(points: NDArray[np.float32], shape: tuple[int, int], radius: float) -> NDArray[np.bool_]:

@@ -21,11 +21,11 @@ from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
 from engine.portrait.options import Part, PortraitOptions
 
-CORRECTED_FROM = 0.8
+CORRECTED_FROM = 0.3
 """Eye distances from the face's rim at which tracked points correct the proxy fully."""
-TURN_TRUSTED, TURN_LOST = 10.0, 20.0
+TURN_TRUSTED, TURN_LOST = 15.0, 30.0
 """Degrees of turn up to which tracked points of the head are trusted, and where no more."""
-MOST_CORRECTED = 0.3
+MOST_CORRECTED = 0.6
 """Largest correction of a point of the head, in eye distances."""
 CHUNK = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""

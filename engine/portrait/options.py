@@ -60,4 +60,5 @@ class PortraitOptions(BaseModel):
 
     def framing(self) -> PortraitOptions:
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
-        return PortraitOptions(size=self.size, crop=self.crop, face_index=self.face_index, landmarks=self.landmarks)
+        kept = ("size", "crop", "face_index", "landmarks")
+        return PortraitOptions.model_validate({name: getattr(self, name) for name in kept})

@@ -86,7 +86,8 @@ def _lucas_kanade(
         b, a, there, points[:, None].copy(), winSize=WINDOW, maxLevel=3, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
     )
     near = np.linalg.norm(back[:, 0] - points, axis=1) < FORWARD_BACKWARD
-    return there[:, 0], near & (ok[:, 0] == 1) & (ok_back[:, 0] == 1)
+    good = near & (ok[:, 0] == 1) & (ok_back[:, 0] == 1)
+    return np.asarray(there[:, 0], np.float32), np.asarray(good, bool)
 
 
 def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> NDArray[np.float32]:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
-from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
+from engine.portrait.registration import register_track
 from engine.portrait.render import render
 from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
 from engine.run import Run, write_report
 
-STAGES = {"find_face": 1.0, "separate_layers": 6.0, "track_driver": 10.0, "animate": 15.0}
+STAGES = {"find_face": 1.0, "separate_layers": 6.0, "track_driver": 10.0, "register_driver": 4.0, "animate": 15.0}
 """The stages and their usual share of the time."""
 
 
@@ -29,7 +30,7 @@ def animate_portrait(
     """Animate `inputs["image"]` by `inputs["driver"]`; leaves the artifacts of the contract in `out`."""
     image, driver = inputs["image"], inputs["driver"]
     assert isinstance(image, Path) and isinstance(driver, Path)
-    limits = Limits()
+    limits = run.limits
     run.plan(STAGES)
     framing = options.framing()
     target = run.stage("find_face", find_target_face, image, framing, limits, run.warn)
@@ -40,6 +41,8 @@ def animate_portrait(
         "track_driver", track_driver, driver, options.fps, options.trim, limits, run.tick, run.warn, shared=True
     )
     neutral = choose_neutral_frame(track, target.mesh, options.neutral_frame)
+    registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
+    track = replace(track, meshes=registration.meshes)
     with run.timed("animate"):
         name = _write_animation(track, neutral, target, layers, options, driver, out, run)
     _write_landmarks(out / "landmarks.json", target, track, neutral)

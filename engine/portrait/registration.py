@@ -1,0 +1,92 @@
+"""The driver's face held against its own neutral frame, so that control points stay on the skin.
+
+A landmark tracker puts the tip of the nose where a nose tip looks to be, not where that spot of skin went;
+over a turn or a frown they part by a pixel or two. After the mesh has brought a frame onto the neutral one,
+what is left is small, and dense optical flow (DIS; Kroeger et al. 2016) measures it on the skin itself.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from threading import local
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from engine.imaging.mesh_warp import inverse_map
+from engine.perception.landmarks import (
+    LEFT_EYE,
+    LEFT_IRIS,
+    LIPS_INNER,
+    LIPS_OUTER,
+    MESH_SIZE,
+    RIGHT_EYE,
+    RIGHT_IRIS,
+)
+from engine.perception.temporal_filter import steady
+from engine.portrait.driver import CROP, DriverTrack
+
+SMOOTHING = 4.0
+"""Pixels of the crop over which the measured rest is averaged."""
+LARGEST = 8.0
+"""Pixels of the crop; a larger rest is a misfit of the flow."""
+LIGHT = 20.0
+"""Pixels over which the light of the two frames is made equal first."""
+AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
+"""Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
+
+
+@dataclass(frozen=True)
+class Registration:
+    """`meshes` (N, 478, 3) float32: the track's, on the skin, pixels of the driver's frames."""
+
+    meshes: NDArray[np.float32]
+
+
+def register_track(
+    track: DriverTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
+) -> Registration:
+    """Correct a track's meshes by the flow that is left against its neutral frame."""
+    rest = track.in_crop(neutral)[:468]
+    triangles = Delaunay(rest).simplices.astype(np.int32)
+    reference = _grey(track.crop(neutral))
+    light = _wide(reference)
+    weight = np.ones(MESH_SIZE, np.float32)
+    weight[list(AS_TRACKED)] = 0
+    own = local()
+
+    def offsets(frame: int) -> NDArray[np.float32]:
+        if not hasattr(own, "flow"):
+            own.flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_FAST)
+        origin = inverse_map(rest, track.in_crop(frame)[:468], triangles, CROP)
+        grey = _grey(track.crop(frame))
+        moved = cv2.remap(grey, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        moved = np.clip(moved * (light / _wide(np.asarray(moved))), 0, 255)
+        aligned = np.where(origin[..., 0] > -1000, moved, reference).astype(np.uint8)
+        left = cv2.GaussianBlur(own.flow.calc(reference, aligned, None), (0, 0), SMOOTHING)
+        at = cv2.remap(left, rest[None, :, 0].copy(), rest[None, :, 1].copy(), cv2.INTER_LINEAR)[0]
+        size = np.linalg.norm(at, axis=1, keepdims=True)
+        at *= np.where(size < LARGEST, 1, 0)
+        return np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
+
+    meshes = track.meshes.copy()
+    with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
+        for frame, offset in enumerate(pool.map(offsets, range(len(track)))):
+            meshes[frame, :468, :2] += weight[:468, None] * offset
+            tick((frame + 1) / len(track))
+    return Registration(steady(meshes))
+
+
+def _grey(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return np.asarray(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY), np.uint8)
+
+
+def _wide(grey: NDArray) -> NDArray[np.float32]:
+    small = cv2.resize(grey, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA).astype(np.float32)
+    blurred = cv2.GaussianBlur(small, (0, 0), LIGHT / 8) + 5
+    return np.asarray(cv2.resize(blurred, grey.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
