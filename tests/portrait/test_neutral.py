@@ -1,0 +1,96 @@
+"""The neutral frame is found in tracks in which the test knows it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_face import driver, opened, placed, shut, smiling
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.portrait.driver import DriverTrack
+from engine.portrait.neutral import choose_neutral_frame, neutral_cost
+
+REST = 12
+"""The only frame of the clip with a closed mouth, open eyes and a face from the front."""
+
+
+def clip(rest: NDArray) -> list[NDArray]:
+    """Twenty frames that talk, blink and turn, and one at rest."""
+    frames: list[NDArray] = []
+    for i in range(20):
+        face = rest
+        if i % 4 == 0:
+            face = opened(face, 0.2)
+        elif i % 4 == 1:
+            face = shut(face, 0.1)
+        elif i % 4 == 2:
+            face = smiling(face, 0.2)
+        else:
+            face = placed(50, (100, 100), yaw=20, pitch=8)
+        frames.append(face)
+    frames[REST] = rest
+    return frames
+
+
+@pytest.fixture(scope="module")
+def rest() -> NDArray[np.float32]:
+    return placed(50, (100, 100))
+
+
+@pytest.fixture
+def track(tmp_path: Path, rest: NDArray) -> DriverTrack:
+    return driver(tmp_path, clip(rest))
+
+
+def test_it_is_the_frame_at_rest(track: DriverTrack, rest: NDArray) -> None:
+    assert choose_neutral_frame(track, rest, None) == REST
+
+
+def test_the_target_s_size_and_place_do_not_count(track: DriverTrack) -> None:
+    assert choose_neutral_frame(track, placed(160, (700, 500)), None) == REST
+
+
+def test_a_driver_that_moves_in_the_picture_has_the_same(tmp_path: Path, rest: NDArray) -> None:
+    moved = [m * np.float32(1 + 0.02 * i) + (3 * i, -2 * i, 0) for i, m in enumerate(clip(rest))]
+    assert choose_neutral_frame(driver(tmp_path, moved), rest, None) == REST
+
+
+def test_a_target_with_an_open_mouth_is_matched_with_an_open_mouth(track: DriverTrack, rest: NDArray) -> None:
+    assert choose_neutral_frame(track, opened(rest, 0.2), None) in (0, 4, 8, 16)
+
+
+def test_a_turned_target_is_matched_with_a_turned_head(track: DriverTrack) -> None:
+    """The paper assumes a frontal target; differences against a turned frame suit a turned one."""
+    assert choose_neutral_frame(track, placed(50, (100, 100), yaw=20, pitch=8), None) % 4 == 3
+
+
+def test_frames_without_a_face_are_not_taken(track: DriverTrack, rest: NDArray) -> None:
+    found = np.ones(20, bool)
+    found[REST] = False
+    assert choose_neutral_frame(replace(track, found=found), rest, None) != REST
+
+
+def test_the_user_s_choice_counts(track: DriverTrack, rest: NDArray) -> None:
+    assert choose_neutral_frame(track, rest, 5) == 5
+
+
+@pytest.mark.parametrize("chosen", [20, 999])
+def test_a_choice_beyond_the_clip_is_refused(track: DriverTrack, rest: NDArray, chosen: int) -> None:
+    with pytest.raises(InputError) as caught:
+        choose_neutral_frame(track, rest, chosen)
+    assert caught.value.code == "neutral_frame_out_of_range"
+    assert caught.value.correctable == ("neutral_frame",)
+
+
+def test_costs_are_least_for_a_match_and_finite(track: DriverTrack, rest: NDArray) -> None:
+    cost = neutral_cost(track.meshes, rest)
+    assert np.isfinite(cost).all() and (cost >= 0).all()
+    assert np.argsort(cost)[0] == REST
+
+
+def test_one_frame_is_enough(tmp_path: Path, rest: NDArray) -> None:
+    assert choose_neutral_frame(driver(tmp_path, [opened(rest, 0.1)]), rest, None) == 0
