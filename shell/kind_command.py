@@ -26,6 +26,7 @@ from engine.store import StageStore
 from service.kinds import library
 from service.settings import Settings
 from shell.complaint import Complaint
+from shell.noise import libraries_silenced
 from shell.settings import read_settings
 from worker.housekeeping import trim
 
@@ -87,14 +88,13 @@ def _options(kind: Kind, text: str) -> BaseModel:
 def _run(
     kind: Kind, inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, settings: Settings
 ) -> None:
-    console = Console(stderr=True)
     cache = settings.data_dir / "cache"
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     try:
         out.mkdir(parents=True, exist_ok=True)
         with (
             tempfile.TemporaryDirectory(prefix=".galatea-", dir=out) as draft,
-            Progress(*columns, console=console, transient=True) as bar,
+            libraries_silenced() as shown,
+            _bar(Console(file=shown)) as bar,
         ):
             task = bar.add_task(kind.name, total=1.0)
 
@@ -113,7 +113,12 @@ def _run(
             raise Complaint(f"{error.filename or out}: {error.strerror}") from error
         raise
     for notice in run.notices:
-        console.print(f"[yellow]{notice.code}[/yellow]: {notice.message}")
+        click.echo(f"{click.style(notice.code, fg='yellow')}: {notice.message}", err=True)
     for result in results:
         click.echo(result)
     trim(cache, settings.cache_mb)
+
+
+def _bar(console: Console) -> Progress:
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    return Progress(*columns, console=console, transient=True, disable=not console.is_terminal)

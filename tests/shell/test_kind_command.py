@@ -49,7 +49,7 @@ def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str
     options = f"@{tmp_path / 'options.json'}"
     ended = galatea(environment, "tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", options)
     assert ended.returncode == 2
-    assert ended.stderr.strip() == "Error: no_face: No face was found: choose another picture."
+    assert ended.stderr == "Error: no_face: No face was found: choose another picture.\n"
     assert list((tmp_path / "out").iterdir()) == [], "nothing half-made is left"
 
 
