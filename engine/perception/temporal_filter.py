@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+BLOCK = 64
+"""Points worked on at a time, so that a long clip takes little memory."""
 REACH = 8
 """Frames looked at on either side."""
 TEMPORAL_SIGMA = 5.0
@@ -26,8 +28,11 @@ def noise_level(tracks: NDArray[np.floating]) -> NDArray[np.float64]:
     """
     if len(tracks) < 5:
         return np.zeros(tracks.shape[1])
-    second = tracks[2:] - 2 * tracks[1:-1] + tracks[:-2]
-    deviation = np.median(np.abs(second), axis=0) / 0.6745 / np.sqrt(6.0)
+    deviation = np.empty(tracks.shape[1:])
+    for start in range(0, tracks.shape[1], BLOCK):
+        some = tracks[:, start : start + BLOCK]
+        second = some[2:] - 2 * some[1:-1] + some[:-2]
+        deviation[start : start + BLOCK] = np.median(np.abs(second), axis=0) / 0.6745 / np.sqrt(6.0)
     return np.asarray(np.sqrt((deviation**2).mean(axis=-1)), float)
 
 
@@ -44,6 +49,14 @@ def steady(tracks: NDArray[np.float32], noise: NDArray[np.floating] | None = Non
     (N, V, D): no frame looks later or earlier than it is.
     """
     sigma = noise_level(tracks) if noise is None else noise
+    out = np.empty(tracks.shape, np.float32)
+    for start in range(0, tracks.shape[1], BLOCK):
+        some = slice(start, start + BLOCK)
+        out[:, some] = _steady(tracks[:, some], sigma[some])
+    return out
+
+
+def _steady(tracks: NDArray[np.float32], sigma: NDArray[np.floating]) -> NDArray[np.float32]:
     width = 2.0 * (RANGE * np.maximum(sigma, 1e-4)) ** 2
     total = tracks.astype(np.float32).copy()
     weight = np.ones(tracks.shape[:2], np.float32)

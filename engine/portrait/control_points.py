@@ -87,7 +87,8 @@ def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
     corners = mesh[triangles].astype(float)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     rest = canonical_face()[triangles].astype(float)
-    front = np.sign(np.cross(rest[:, 1, :2] - rest[:, 0, :2], rest[:, 2, :2] - rest[:, 0, :2]))
+    a, b = rest[:, 1] - rest[:, 0], rest[:, 2] - rest[:, 0]
+    front = np.sign(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     total = np.zeros((MESH_SIZE, 3))
     np.add.at(total, triangles.ravel(), np.repeat(normal * front[:, None], 3, axis=0))
     length = np.linalg.norm(total, axis=1)

@@ -25,6 +25,8 @@ from engine.perception.temporal_filter import steady
 from engine.portrait.alignment import fit_similarity
 from engine.portrait.periphery import PeripheryTracker
 
+LONGEST_SIDE = 1280
+"""Pixels; larger drivers are read at this size, which holds all that their analysis keeps."""
 CROP = (320, 288)
 """Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
 CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
@@ -37,7 +39,7 @@ EASE_BACK = 8
 class DriverTrack:
     """A driver's analysis.
 
-    size : (width, height). fps. has_sound.
+    size : (width, height) at which it was read. fps. has_sound.
     meshes : (N, 478, 3) float32 face meshes, steadied, pixels; held where no face was found.
     found : (N,) bool. periphery : (N, K, 2) float32 points tracked around head and shoulders, pixels.
     tracked : (N, K) bool: the forward-backward check passed.
@@ -49,7 +51,6 @@ class DriverTrack:
     fps: float
     has_sound: bool
     meshes: NDArray[np.float32]
-    raw_meshes: NDArray[np.float32]
     found: NDArray[np.bool_]
     periphery: NDArray[np.float32]
     tracked: NDArray[np.bool_]
@@ -94,11 +95,15 @@ def track_driver(
     found: list[bool] = []
     places: list[NDArray[np.float64]] = []
     ends = [0]
+    size = (info.width, info.height)
     periphery = PeripheryTracker()
     crops = Path(tempfile.mkdtemp(prefix="galatea-crops-")) / "crops.jpegs"
     with FaceTracker() as tracker, crops.open("wb") as file:
-        for index, frame in enumerate(read_video(path, fps=fps, trim=trim, limits=limits, warn=warn)):
+        for index, frame in enumerate(
+            read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
+        ):
             tick(min(index / expected, 1.0))
+            size = (frame.rgb.shape[1], frame.rgb.shape[0])
             faces = tracker(frame.rgb)
             found.append(bool(faces))
             mesh = faces[0] if faces else (meshes[-1] if meshes else np.full((MESH_SIZE, 3), np.nan, np.float32))
@@ -116,7 +121,8 @@ def track_driver(
             "No face was found in the driving video: use one that shows a face from the front.",
             ("driver",),
         )
-    raw = _hold(np.array(meshes, np.float32), np.array(found))
+    held = _hold(np.array(meshes, np.float32), np.array(found))
+    meshes.clear()
     points, tracked = periphery.result()
     if not all(found):
         lost = len(found) - sum(found)
@@ -125,11 +131,10 @@ def track_driver(
             f"The driver's face was not seen in {lost} of {len(found)} frames: it holds still there.",
         )
     return DriverTrack(
-        size=(info.width, info.height),
+        size=size,
         fps=fps or info.fps,
         has_sound=info.has_sound,
-        meshes=steady(raw),
-        raw_meshes=raw,
+        meshes=steady(held),
         found=np.array(found),
         periphery=steady(points),
         tracked=tracked,

@@ -19,6 +19,8 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IR
 SIDES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
 MARGIN = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
+MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
+"""Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
 LEAST_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 
@@ -27,8 +29,8 @@ LEAST_WIDTH = 14.0
 class Eyeball:
     """One eye's layer at rest.
 
-    white, iris : (h, w, 3) float32; iris_alpha (h, w); corner (2,) of the layer in the picture;
-    rest (16, 2) the opening; width of the eye, centre and radius of the iris, pixels of the picture.
+    white, iris : (h, w, 3) float32; iris_alpha (h, w); corner (2,) of the layer in the picture; ends (2, 2)
+    the eye's corners and width between them, pixels of the picture; opening : its area in squares of the width.
     """
 
     white: NDArray[np.float32]
@@ -37,6 +39,7 @@ class Eyeball:
     corner: NDArray[np.float32]
     ends: NDArray[np.float32]
     width: float
+    opening: float
 
 
 def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -86,7 +89,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
         return None
     disk = _complete_iris(patch, (seen > 0) & inside_iris, distance, radius)
     alpha = np.clip((1.08 * radius - distance) / max(0.12 * radius, 1.0) + 0.5, 0, 1)
-    return Eyeball(white, disk, alpha.astype(np.float32), low.astype(np.float32), ends, width)
+    return Eyeball(white, disk, alpha.astype(np.float32), low.astype(np.float32), ends, width, area / width**2)
 
 
 def _fill(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.uint8]:
@@ -154,8 +157,15 @@ def draw_eye(
     disk = cv2.warpAffine(eye.iris_alpha, shifted, shape[::-1], flags=cv2.INTER_LINEAR)[..., None]
     ball = white + disk * (iris - white)
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
-    alpha = cover[..., None].astype(np.float32) / 255
+    alpha = _departure(eye, opening, look) * cover[..., None].astype(np.float32) / 255
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(below + alpha * (ball - below) + 0.5, 0, 255).astype(np.uint8)
+
+
+def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
+    """0 where lids and gaze are as in the picture, which then needs no drawing, 1 where they are not."""
+    width = float(np.linalg.norm(opening[8] - opening[0]))
+    lids = abs(float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening - 1)
+    return min(max(lids / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE), 1.0)
 
 
 def _place(eye: Eyeball, ends: NDArray[np.floating], low: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -20,7 +20,7 @@ from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
 from engine.portrait.driver import CROP, CROP_EYES, CropReader, DriverTrack
-from engine.portrait.head_motion import split_motion
+from engine.portrait.head_motion import turns
 from engine.portrait.outliers import Outliers, find_outliers
 
 BRIGHTENING = 0.01
@@ -136,9 +136,7 @@ class RatioImages:
         self._triangles = Delaunay(self._rest).simplices.astype(np.int32)
         self._neutral = luminance(crops(neutral))
         self._refined = refined
-        turn = np.rad2deg(
-            np.arccos(np.clip(split_motion(track.meshes, track.meshes[neutral]).rotation[:, 2, 2], -1, 1))
-        )
+        turn = np.rad2deg(turns(track.meshes, track.meshes[neutral]))
         self._frontal = SHADING * np.clip(1 - turn / TURNED, 0, 1).astype(np.float32)
         self.outliers: Outliers | None = None
         if outliers:
@@ -190,9 +188,10 @@ class RatioImages:
 def most_expressive(track: DriverTrack, neutral: int) -> int:
     """s_ref: the frame whose fiducials are furthest from the neutral's after a similarity (section 6)."""
     rest = fiducials(track.meshes[neutral, :, :2]).astype(float)
-    points = fiducials(track.meshes[..., :2]).astype(float)
-    far = [np.linalg.norm(fit_similarity(rest, p)(rest) - p, axis=1).mean() / eye_distance(m[:, :2])
-           for p, m in zip(points, track.meshes, strict=True)]  # fmt: skip
+    far = []
+    for mesh in track.meshes[..., :2]:
+        points = fiducials(mesh).astype(float)
+        far.append(np.linalg.norm(fit_similarity(rest, points)(rest) - points, axis=1).mean() / eye_distance(mesh))
     return int(np.argmax(np.where(track.found, far, -1)))
 
 

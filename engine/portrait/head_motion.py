@@ -53,6 +53,13 @@ def fit_rigid(
     return scale, rotation, destination_mean - scale[:, None] * (rotation @ source_mean)
 
 
+def turns(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) angle in radians between each mesh's line of sight and the neutral's: turns out of the picture plane."""
+    chosen = list(RIGID)
+    rotation = fit_rigid(neutral[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))[1]
+    return np.asarray(np.arccos(np.clip(rotation[:, 2, 2], -1, 1)), float)
+
+
 def split_motion(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> HeadMotion:
     """Separate the head's rigid motion from the expression.
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.perception.landmarks import RIGID, eye_opening, fiducials, mouth_opening
 from engine.portrait.driver import DriverTrack
-from engine.portrait.head_motion import fit_rigid
+from engine.portrait.head_motion import fit_rigid, turns
 
 MOUTH, EYES, TURN, MEAN = 4.0, 2.0, 1.5, 3.0
 """What counts how much: mouth opening, closing of the eyes, radians of turn, and distance from the mean."""
@@ -40,17 +40,14 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
 
 def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far each frame's mesh (478, 3) is from showing the target's expression, 0 is a match."""
-    weights = np.full(meshes.shape[1], 0.05)
-    weights[list(RIGID)] = 1.0
-    mean = meshes[len(meshes) // 2].astype(float)
-    for _ in range(2):
-        scale, rotation, shift = fit_rigid(mean, meshes, weights)
-        at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
-        mean = np.median(at_rest, axis=0)
-    unit = float(np.linalg.norm(mean[33] - mean[263]))
-    far = np.linalg.norm(fiducials(at_rest - mean)[:, 17:], axis=-1).mean(axis=-1) / unit
-    _, turn, _ = fit_rigid(target.astype(float), meshes, weights)
-    angle = np.arccos(np.clip(turn[:, 2, 2], -1, 1))
+    rigid = list(RIGID)
+    middle = meshes[len(meshes) // 2].astype(float)
+    scale, rotation, shift = fit_rigid(middle[rigid], meshes[:, rigid], np.ones(len(rigid)))
+    inner = fiducials(meshes)[:, 17:]
+    at_rest = np.einsum("nji,nvj->nvi", rotation, inner - shift[:, None]) / scale[:, None, None]
+    unit = float(np.linalg.norm(middle[33] - middle[263]))
+    far = np.linalg.norm(at_rest - np.median(at_rest, axis=0), axis=-1).mean(axis=-1) / unit
+    angle = turns(meshes, target)
     opening = np.abs(mouth_opening(meshes) - float(mouth_opening(target)))
     eyes = eye_opening(meshes)
     usual = np.quantile(eyes, 0.8, axis=0)

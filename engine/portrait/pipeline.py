@@ -13,6 +13,7 @@ from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.perception.landmarks import fiducials
 from engine.portrait.driver import DriverTrack, track_driver
+from engine.portrait.loop import close_loop
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
@@ -43,6 +44,8 @@ def animate_portrait(
     neutral = choose_neutral_frame(track, target.mesh, options.neutral_frame)
     registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
     track = replace(track, meshes=registration.meshes)
+    if options.loop:
+        track = close_loop(track)
     with run.timed("animate"):
         name = _write_animation(track, neutral, target, layers, options, driver, out, run)
     _write_landmarks(out / "landmarks.json", target, track, neutral)
@@ -77,9 +80,9 @@ def _write_animation(
         out / name, (width, height), track.fps, options.format, sound=sound, sound_trim=options.trim, loop=options.loop
     ) as writer:
         for index, frame in enumerate(render(track, neutral, target, layers, options)):
-            writer.write(frame)
+            writer.write(frame[..., :3], frame[..., 3] / np.float32(255) if frame.shape[2] == 4 else None)
             if index == neutral:
-                write_image(out / "poster.jpg", frame)
+                write_image(out / "poster.jpg", frame[..., :3])
             run.tick((index + 1) / len(track))
     return name
 

@@ -60,6 +60,7 @@ class Renderer:
         opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
         self._person = doubled(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
         self._plate = layers.plate
+        self._keep_alpha = layers.transparent and options.format != "mp4"
         self._control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255))
         self._mesh = build_warp_mesh(
             self._control.points, target.mesh, target.rgb.shape[:2], parts.smoothing, self._control.usable
@@ -85,7 +86,8 @@ class Renderer:
         """One frame: the warp, the plate behind, the creases, the eyes, the mouth's inside."""
         moved = self._mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
         origin = self._mesh.inverse_map(moved[:, :2], moved[:, 2], scale=2)
-        frame = over(warp_layer(self._person, origin), self._plate)
+        layer = warp_layer(self._person, origin)
+        frame = over(layer, self._plate)
         if ratio is not None:
             shade(frame, self._details, ratio, origin, scale=2)
         face = (self._control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE]).astype(np.float32)
@@ -94,7 +96,7 @@ class Renderer:
                 draw_eye(frame, eye, face, side, motion.look[side])
         if self._parts.hidden:
             transfer_mouth(frame, face, crop, self._track.in_crop(motion.frame), self._palette)
-        return frame
+        return np.dstack([frame, layer[..., 3]]) if self._keep_alpha else frame
 
 
 def render(
@@ -107,7 +109,7 @@ def render(
 ) -> Iterator[NDArray[np.uint8]]:
     """The target acting out the driver: one (H, W, 3) uint8 frame for each frame of the driver.
 
-    Frames are drawn side by side on all cores and given in order; memory does not grow with the length.
+    A cut-out target gives (H, W, 4) where the format can hold its alpha. Frames are drawn side by side on all cores and given in order; memory does not grow with the length.
     """
     renderer = Renderer(track, neutral, target, layers, options, parts)
     threads = os.cpu_count() or 1

@@ -28,6 +28,8 @@ LEAST_EYE_DISTANCE = 16.0
 """Pixels; a smaller face has nothing to animate."""
 MOST_TURNED = (35.0, 30.0)
 """Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
+CUT_OUT = 0.01
+"""A picture with more than this share of transparent pixels is a cut-out."""
 NEUTRAL = (12.0, 12.0, 0.08)
 """Degrees of yaw and pitch, and mouth opening, up to which a target counts as neutral and frontal."""
 
@@ -50,10 +52,12 @@ class Layers:
     """The person as a layer over the background plate.
 
     person : (H, W, 4) uint8, colours without the background in them, and alpha. plate : (H, W, 3) uint8.
+    transparent : the picture itself was cut out; formats that can stay so, others get a white plate.
     """
 
     person: NDArray[np.uint8]
     plate: NDArray[np.uint8]
+    transparent: bool = False
 
 
 def find_target_face(
@@ -109,6 +113,9 @@ def separate_layers(target: TargetFace) -> Layers:
     seed = np.zeros((height, width), np.float32)
     cv2.fillConvexPoly(seed, target.mesh[list(FACE_OVAL), :2].round().astype(np.int32), 1.0)
     alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha)
+    if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
+        person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
+        return Layers(person, np.full_like(target.rgb, 255), transparent=True)
     colours = np.clip(estimate_foreground(target.rgb, alpha) + 0.5, 0, 255).astype(np.uint8)
     person = np.dstack([colours, (alpha * 255 + 0.5).astype(np.uint8)])
     return Layers(person, background_plate(target.rgb, alpha))

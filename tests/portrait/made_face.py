@@ -136,7 +136,6 @@ def driver(
         fps=25.0,
         has_sound=False,
         meshes=stack,
-        raw_meshes=stack,
         found=np.ones(len(meshes), bool),
         periphery=points,
         tracked=np.ones(points.shape[:2], bool),
