@@ -42,3 +42,5 @@ class Kind:
     inputs: tuple[Input, ...]
     options: type[BaseModel]
     work: Callable[[Mapping[str, Path | tuple[Path, ...]], BaseModel, Path, Run], None]
+    prepare: Callable[[], None] | None = None
+    """Imports what `work` needs: called by a process that will do the work, so that importing a kind is cheap."""

@@ -151,6 +151,9 @@ def main() -> None:
         os._exit(0)  # the worker is gone or wants no more of this process
 
     threading.Thread(target=listen, daemon=True).start()
+    for kind in kinds.values():
+        if kind.prepare is not None:
+            kind.prepare()
     wire.send("ready")
     while True:
         job = jobs.get()

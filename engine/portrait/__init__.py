@@ -6,15 +6,28 @@ animate("portrait.jpg", "driver.mp4", "out")
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
+
 from engine.kind import Input, Kind
 from engine.portrait.options import PortraitOptions
-from engine.portrait.pipeline import animate_portrait
 from engine.run import Progress, Run
 from engine.store import StageStore
+
+
+def _work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, run: Run) -> None:
+    from engine.portrait.pipeline import animate_portrait  # the service reads KIND alone: it stays light
+
+    assert isinstance(options, PortraitOptions)
+    animate_portrait(inputs, options, out, run)
+
+
+def _prepare() -> None:
+    from engine.portrait import pipeline  # noqa: F401 - importing it is the preparation
+
 
 KIND = Kind(
     name="portrait",
@@ -24,7 +37,8 @@ KIND = Kind(
         Input("driver", "video", "A video of a face whose performance is carried over.", library="performances"),
     ),
     options=PortraitOptions,
-    work=animate_portrait,  # type: ignore[arg-type]
+    work=_work,
+    prepare=_prepare,
 )
 
 
@@ -57,7 +71,7 @@ def animate(
     folder.mkdir(parents=True, exist_ok=True)
     file = video(str(driver)) if str(driver) in names() else Path(driver)
     store = StageStore(Path(cache)) if cache is not None else None
-    animate_portrait({"image": Path(image), "driver": file}, chosen, folder, Run(store=store, on_progress=progress))
+    _work({"image": Path(image), "driver": file}, chosen, folder, Run(store=store, on_progress=progress))
     return next(folder.glob("animation.*"))
 
 

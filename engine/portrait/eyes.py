@@ -21,6 +21,8 @@ MARGIN = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
 MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
 """Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
+SHUT = 0.1
+"""Share of the picture's opening under which an eye is shut."""
 LEAST_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 
@@ -162,10 +164,12 @@ def draw_eye(
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
-    """0 where lids and gaze are as in the picture, which then needs no drawing, 1 where they are not."""
+    """How far the layer is drawn: 0 where lids and gaze are as in the picture, 1 where they are not, and 0
+    again where the lids have met, so that nothing shines through their seam."""
     width = float(np.linalg.norm(opening[8] - opening[0]))
-    lids = abs(float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening - 1)
-    return min(max(lids / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE), 1.0)
+    open_by = float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening
+    moved = max(abs(open_by - 1) / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE)
+    return min(moved, 1.0) * min(max((open_by - SHUT) / SHUT, 0.0), 1.0)
 
 
 def _place(eye: Eyeball, ends: NDArray[np.floating], low: NDArray[np.int64]) -> NDArray[np.float64]:
