@@ -33,10 +33,6 @@ def over(layer: NDArray[np.uint8], plate: NDArray[np.uint8]) -> NDArray[np.uint8
     return out
 
 
-_NO_SECOND_MAP = np.empty(0, np.float32)
-"""The inverse map comes in one array: what OpenCV wants in place of the other."""
-
-
 def doubled(layer: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """The layer at twice its size. Bilinear samples of it are as sharp as bicubic ones of the layer itself, at a
     sixth of their cost: a pixel (x, y) of the layer lies at (2 x + 0.5, 2 y + 0.5)."""
@@ -50,6 +46,5 @@ def warp_layer(twice: NDArray[np.uint8], origin: NDArray[np.float32]) -> NDArray
     ----------
     twice : (2H, 2W, C) from `doubled`. origin : (H, W, 2) in pixels of it.
     """
-    return np.asarray(
-        cv2.remap(twice, origin, _NO_SECOND_MAP, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.uint8
-    )
+    seen = cv2.remap(twice, origin, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    return np.asarray(seen, np.uint8)
