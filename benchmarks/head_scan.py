@@ -1,0 +1,91 @@
+"""A scanned head seen from any side: the truth that turned portraits are held against."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from engine.media.image import read_image
+from engine.render.attributes import interpolate, sample_texture
+from engine.render.camera import Camera
+from engine.render.film import shrink
+from engine.render.rasteriser import rasterise
+from engine.render.surface import vertex_normals
+
+SUPERSAMPLING = 3
+DISTANCE = 8.0
+"""From the camera to the head, in heights of the scan: a portrait lens."""
+LIGHT = np.array([0.25, 0.45, 0.85])
+"""Where the light comes from; it stays where it is when the head turns."""
+AMBIENT = 0.55
+BACKGROUND = (150, 160, 170)
+AIM = 0.17
+"""What is in the picture's middle: this far above the scan's middle, in heights of the scan."""
+NECK = (-0.28, -0.08)
+"""Heights of the scan above its middle between which the neck twists: the shoulders below do not turn."""
+
+
+@dataclass(frozen=True)
+class HeadScan:
+    """`vertices` (V, 3), y up, facing +z, centred; `triangles` (T, 3); `uv` (V, 2); `texture` (h, w, 3) uint8."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    uv: NDArray[np.float64]
+    texture: NDArray[np.uint8]
+
+
+def read_head_scan(folder: Path) -> HeadScan:
+    """The scan in `folder`: `head.obj` and `color.jpg`."""
+    mesh = trimesh.load(folder / "head.obj", process=False, force="mesh")
+    vertices = np.asarray(mesh.vertices, float)
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    uv = np.asarray(mesh.visual.uv, float) * [1, -1] + [0, 1]  # OBJ counts from the bottom, glTF from the top
+    return HeadScan(vertices - (low + high) / 2, np.asarray(mesh.faces), uv, read_image(folder / "color.jpg").rgb)
+
+
+def render_head(
+    scan: HeadScan,
+    yaw: float,
+    size: tuple[int, int],
+    background: NDArray[np.uint8] | None = None,
+    zoom: float = 1.0,
+    shoulders: bool = False,
+) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """The head turned by `yaw` degrees (> 0: the face to the picture's right), with a shadowless lamp.
+
+    `size` (width, height). `background` (height, width, 3), one colour if None. `shoulders` turns them too.
+    Returns the picture (height, width, 3) uint8 and the head's coverage (height, width) float32.
+    """
+    height = float(np.ptp(scan.vertices[:, 1]))
+    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM * height, 0)
+    width_px, height_px = size
+    camera = Camera(
+        eye=(0.0, 0.0, DISTANCE * height),
+        focal=zoom * 0.8 * height_px * DISTANCE,
+        centre=((width_px - 1) / 2, (height_px - 1) / 2),
+        size=(height_px, width_px),
+    ).enlarged(SUPERSAMPLING)
+    raster = rasterise(camera.project(vertices), scan.triangles, camera.size, perspective=True)
+    covered = raster.triangle >= 0
+    colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)
+    normals = interpolate(vertex_normals(vertices, scan.triangles), scan.triangles, raster)
+    lamp = np.clip(normals @ (LIGHT / np.linalg.norm(LIGHT)).astype(np.float32), 0, 1)
+    shaded = colours * (AMBIENT + (1 - AMBIENT) * lamp[..., None])
+    alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
+    premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    behind = np.asarray(BACKGROUND if background is None else background, np.float32)
+    picture = premultiplied + (1 - alpha[..., None]) * behind
+    return np.clip(picture + 0.5, 0, 255).astype(np.uint8), np.asarray(alpha, np.float32)
+
+
+def _turned(vertices: NDArray[np.float64], yaw: float, height: float, shoulders: bool) -> NDArray[np.float64]:
+    t = np.clip((vertices[:, 1] / height - NECK[0]) / (NECK[1] - NECK[0]), 0, 1)
+    angle = yaw * (np.ones_like(t) if shoulders else t * t * (3 - 2 * t))
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, z = vertices.T
+    return np.stack([c * x + s * z, y, c * z - s * x], axis=1)
