@@ -1,22 +1,30 @@
 """The background plate: the picture as it would be if the person were not there.
 
-Texture by patches that vote, from coarse to fine (Wexler, Shechtman, Irani, "Space-time completion of
-video", PAMI 2007; patches found by `engine.imaging.patchmatch`), begun from a membrane stretched over
-the hole, which is already right for plain backgrounds. Only a band behind the outline can ever become
-visible, so only that is filled in full detail; deeper inside the coarse picture stands.
+On a small picture a membrane is stretched over the hole, which is already right for plain backgrounds,
+and patches grow into it from the edge, lines first (`engine.imaging.exemplar_fill`). From there on, coarse to
+fine, overlapping patches vote (Wexler, Shechtman, Irani, "Space-time completion of video", PAMI 2007; found
+by `engine.imaging.patchmatch`). Only a band behind the outline can ever become visible, so only that is
+filled in full detail; deeper inside the coarse picture stands.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.patchmatch import RADIUS, match_patches, valid_centres, vote
+from engine.imaging.exemplar_fill import exemplar_fill
+from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
+from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 
-COARSEST = 48
+COARSEST = 120
 """Longest side, in pixels, of the coarsest picture."""
+
+TRUST = 1.4
+"""By how much a guessed pixel counts less with each pixel that it lies deeper in the hole."""
 
 MARGIN = 0.006
 """How far the hole reaches beyond the last trace of the person, as a share of the longer side."""
@@ -58,33 +66,69 @@ def hole_behind(alpha: NDArray[np.float32]) -> NDArray[np.bool_]:
     return np.asarray(cv2.dilate((alpha > 0.02).astype(np.uint8), disk) > 0)
 
 
+@dataclass(frozen=True)
+class _Level:
+    """One picture of the pyramid: 0 is the finest."""
+
+    number: int
+    picture: NDArray[np.float32]
+    hole: NDArray[np.bool_]
+
+
 def _fill(image: NDArray[np.float32], hole: NDArray[np.bool_], reach: float, seed: int) -> NDArray[np.float32]:
-    pictures, holes = [image], [hole]
-    while max(holes[-1].shape) > COARSEST:
-        half = (max(1, holes[-1].shape[1] // 2), max(1, holes[-1].shape[0] // 2))
-        known = resized((~holes[-1]).astype(np.float32), half)
-        mean = resized(pictures[-1] * ~holes[-1][..., None], half) / np.maximum(known, 1e-6)[..., None]
-        next_hole = known < 0.5
-        if valid_centres(~next_hole).sum() < 32 or next_hole.all():
-            break
-        pictures.append(mean.astype(np.float32))
-        holes.append(next_hole)
-    guess = membrane_fill(pictures[-1], holes[-1])
+    levels = _pyramid(image, hole)
+    coarsest = levels[-1]
+    guess = np.where(
+        coarsest.hole[..., None], membrane(coarsest.picture, coarsest.hole, cycles=6), coarsest.picture
+    ).astype(np.float32)
+    if (sources := valid_centres(~coarsest.hole)).any():
+        guess = exemplar_fill(guess, coarsest.hole, sources)
     field: NDArray[np.int32] | None = None
-    for level in range(len(pictures) - 1, -1, -1):
-        picture, empty = pictures[level], holes[level]
-        size = (empty.shape[1], empty.shape[0])
-        sources = valid_centres(~empty)
-        guess = np.where(empty[..., None], resized(guess, size), picture).astype(np.float32)
+    for level in reversed(levels):
+        sources = valid_centres(~level.hole)
+        size = (level.hole.shape[1], level.hole.shape[0])
+        guess = np.where(level.hole[..., None], resized(guess, size), level.picture).astype(np.float32)
         if not sources.any():
             continue
-        depth = cv2.distanceTransform(empty.astype(np.uint8), cv2.DIST_L2, 3)
-        active = empty & (depth <= max(reach / 2**level, LEAST_REACH)) if level < len(pictures) - 1 else empty
+        depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
+        active = level.hole & ((depth <= max(reach / 2**level.number, LEAST_REACH)) | (level is coarsest))
         targets = _centres_over(active)
-        weight = np.where(empty, 1.2 ** -np.minimum(depth, 40), 1.0).astype(np.float32)
         field = _start(field, targets, sources, seed)
-        guess = _refine(guess, weight, active, targets, sources, field, level, len(pictures) - 1 - level, seed)
+        weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
+        effort = _effort(len(levels) - 1 - level.number, level)
+        guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
     return guess
+
+
+def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_]) -> list[_Level]:
+    """The picture at full size, half, quarter, ...; means of known pixels only, while enough is known."""
+    levels = [_Level(0, image, hole)]
+    while max(hole.shape) > COARSEST:
+        half = (max(1, hole.shape[1] // 2), max(1, hole.shape[0] // 2))
+        known = resized((~hole).astype(np.float32), half)
+        image = (resized(image * ~hole[..., None], half) / np.maximum(known, 1e-6)[..., None]).astype(np.float32)
+        hole = known < 0.5
+        if valid_centres(~hole).sum() < 32:
+            break
+        levels.append(_Level(len(levels), image, hole))
+    return levels
+
+
+@dataclass(frozen=True)
+class _Effort:
+    """How often patches are matched and vote, sweeps each time, and random tries a patch."""
+
+    rounds: int
+    sweeps: int
+    tries: int
+
+
+def _effort(steps: int, level: _Level) -> _Effort:
+    """Much where it is cheap and decides about structure; at full size the field only needs settling."""
+    rounds, tries = ((5, 6), (4, 6), (3, 4), (2, 2), (1, 2))[min(steps, 4)]
+    if level.number > 0:
+        return _Effort(rounds, 2, tries)
+    return _Effort(min(rounds, 2), 2, tries) if level.hole.size < 1_000_000 else _Effort(1, 1, 1)
 
 
 def _refine(
@@ -94,25 +138,24 @@ def _refine(
     targets: NDArray[np.bool_],
     sources: NDArray[np.bool_],
     field: NDArray[np.int32],
-    level: int,
-    step: int,
+    effort: _Effort,
+    keep_grain: bool,
     seed: int,
 ) -> NDArray[np.float32]:
+    """Match and vote in turn; `field` is improved in place. The last vote keeps grain if wanted."""
     cost = np.zeros(active.shape, np.float32)
-    rounds, sweeps, tries = ((10, 4, 8), (8, 2, 8), (4, 2, 6), (2, 2, 4), (1, 1, 2))[min(step, 4)]
-    for turn in range(rounds):
-        match_patches(guess, weight, targets, sources, field, cost, sweeps, True, tries, seed + 31 * level + turn)
-        sharpness = max(float(np.percentile(cost[targets], 75)), 4.0)
-        if turn == rounds - 1:
-            sharpness /= 2
-        vote(guess.copy(), weight, active, targets, field, cost, sharpness, guess)
+    for turn in range(effort.rounds):
+        planes = colour_planes(guess)
+        match_patches(planes, weight, targets, sources, field, cost, effort.sweeps, effort.tries, seed + turn)
+        last = turn == effort.rounds - 1
+        sharpness = 0.0 if last and keep_grain else max(float(np.median(cost[targets])), 4.0)
+        vote(planes, weight, active, targets, field, cost, sharpness, guess)
     return guess
 
 
 def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Centres of the patches that touch an active pixel and lie inside the picture."""
-    side = 2 * RADIUS + 1
-    touched = cv2.dilate(active.astype(np.uint8), np.ones((side, side), np.uint8)) > 0
+    touched = cv2.dilate(active.astype(np.uint8), np.ones((SIDE, SIDE), np.uint8)) > 0
     return touched & valid_centres(np.ones_like(active))
 
 
@@ -133,13 +176,3 @@ def _start(
         fits = sources[found[..., 0], found[..., 1]]
         field = np.where(fits[..., None], found, field).astype(np.int32)
     return np.ascontiguousarray(field)
-
-
-def membrane_fill(image: NDArray[np.float32], hole: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """`image` (H, W, C) with the hole covered by a membrane: Laplace's equation, borders free."""
-    guess = np.where(hole[..., None], image[~hole].mean(0), image).astype(np.float32)
-    for _ in range(4 * max(hole.shape)):
-        padded = np.pad(guess, ((1, 1), (1, 1), (0, 0)), mode="edge")
-        mean = (padded[:-2, 1:-1] + padded[2:, 1:-1] + padded[1:-1, :-2] + padded[1:-1, 2:]) / 4
-        guess = np.where(hole[..., None], mean, image).astype(np.float32)
-    return guess

@@ -21,49 +21,81 @@ SHIFT_COST = 0.15
 """... and what a shift costs, as a share of what the same difference would cost unshifted."""
 
 
+SIDE = 2 * RADIUS + 1
+
+
+def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:
+    """`image` (H, W, 3) as (3, H, W + 1): a row of a patch is then eight numbers in a row, the last unused."""
+    return np.ascontiguousarray(np.pad(image, ((0, 0), (0, 1), (0, 0))).transpose(2, 0, 1), np.float32)
+
+
 @numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
 def _allowed_shift(mean):  # type: ignore[no-untyped-def]
-    return min(max(mean, -LARGEST_SHIFT), LARGEST_SHIFT)
+    return min(max(mean, np.float32(-LARGEST_SHIFT)), np.float32(LARGEST_SHIFT))
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
-def _distance(image, weight, ty, tx, sy, sx):  # type: ignore[no-untyped-def]
-    """Weighted mean squared difference of two patches after the best allowed shift (grey levels squared)."""
-    total = np.float32(0)
-    s0 = s1 = s2 = np.float32(0)
+def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
+    """Copy the patch at (y, x) into `target` (4, 7, 8): colours and weights. Returns the sum of the weights."""
     mass = np.float32(0)
-    for dy in range(-RADIUS, RADIUS + 1):
-        for dx in range(-RADIUS, RADIUS + 1):
-            w = weight[ty + dy, tx + dx]
-            d0 = image[ty + dy, tx + dx, 0] - image[sy + dy, sx + dx, 0]
-            d1 = image[ty + dy, tx + dx, 1] - image[sy + dy, sx + dx, 1]
-            d2 = image[ty + dy, tx + dx, 2] - image[sy + dy, sx + dx, 2]
+    for dy in range(SIDE):
+        for dx in range(SIDE):
+            target[0, dy, dx] = planes[0, y + dy - RADIUS, x + dx - RADIUS]
+            target[1, dy, dx] = planes[1, y + dy - RADIUS, x + dx - RADIUS]
+            target[2, dy, dx] = planes[2, y + dy - RADIUS, x + dx - RADIUS]
+            target[3, dy, dx] = weight[y + dy - RADIUS, x + dx - RADIUS]
+            mass += target[3, dy, dx]
+    return max(mass, np.float32(1e-6))
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
+def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
+    """Weighted mean squared difference, after the best allowed shift, of the taken patch and the one at
+    (sy, sx) (grey levels squared)."""
+    total = s0 = s1 = s2 = np.float32(0)
+    # unsigned indices need no wrap-around, without which the inner loop becomes vector instructions
+    oy, ox = np.uintp(sy - RADIUS), np.uintp(sx - RADIUS)
+    for dy in range(np.uintp(SIDE)):
+        for dx in range(np.uintp(8)):
+            w = target[3, dy, dx]
+            d0 = target[0, dy, dx] - planes[0, oy + dy, ox + dx]
+            d1 = target[1, dy, dx] - planes[1, oy + dy, ox + dx]
+            d2 = target[2, dy, dx] - planes[2, oy + dy, ox + dx]
             total += w * (d0 * d0 + d1 * d1 + d2 * d2)
             s0 += w * d0
             s1 += w * d1
             s2 += w * d2
-            mass += w
+    saved = np.float32(0)
     for s in (s0, s1, s2):
         shift = _allowed_shift(s / mass)
-        total -= (2 * s - mass * shift) * shift * (1 - SHIFT_COST)
-    return total / mass
+        saved += (2 * s - mass * shift) * shift
+    return (total - saved * np.float32(1 - SHIFT_COST)) / mass
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
-def match_patches(image, weight, targets, sources, field, cost, sweeps, first, random_tries, seed):  # type: ignore[no-untyped-def]
+def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
+    """The colour (3 numbers) to add to the patch at (sy, sx) so that it fits the taken one."""
+    s0 = s1 = s2 = np.float32(0)
+    for dy in range(SIDE):
+        for dx in range(SIDE):
+            w = target[3, dy, dx]
+            s0 += w * (target[0, dy, dx] - planes[0, sy + dy - RADIUS, sx + dx - RADIUS])
+            s1 += w * (target[1, dy, dx] - planes[1, sy + dy - RADIUS, sx + dx - RADIUS])
+            s2 += w * (target[2, dy, dx] - planes[2, sy + dy - RADIUS, sx + dx - RADIUS])
+    share = np.float32(1 - SHIFT_COST)
+    return _allowed_shift(s0 / mass) * share, _allowed_shift(s1 / mass) * share, _allowed_shift(s2 / mass) * share
+
+
+@numba.njit(cache=True, fastmath=True, nogil=True)
+def match_patches(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed):  # type: ignore[no-untyped-def]
     """Improve `field` (H, W, 2) int32, the centre (y, x) of the source of each target patch, in place.
 
-    `image` (H, W, 3) float32 holds the present guess inside the hole; `weight` (H, W) is how much each
-    of its pixels counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
-    `first` evaluates the given field before improving it.
+    `planes` (`colour_planes`) hold the present guess inside the hole; `weight` (H, W) is how much each
+    pixel counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
     """
     height, width = cost.shape
     state = np.uint32(seed * 2654435761 + 12345)
-    if first:
-        for y in range(height):
-            for x in range(width):
-                if targets[y, x]:
-                    cost[y, x] = _distance(image, weight, y, x, field[y, x, 0], field[y, x, 1])
+    target = np.zeros((4, SIDE, 8), np.float32)
     for sweep in range(sweeps):
         step = 1 if sweep % 2 == 0 else -1
         for row in range(height):
@@ -72,14 +104,16 @@ def match_patches(image, weight, targets, sources, field, cost, sweeps, first, r
                 x = column if step == 1 else width - 1 - column
                 if not targets[y, x]:
                     continue
-                best, by, bx = cost[y, x], field[y, x, 0], field[y, x, 1]
+                mass = take_target(planes, weight, y, x, target)
+                by, bx = field[y, x, 0], field[y, x, 1]
+                best = patch_distance(planes, target, mass, by, bx) if sweep == 0 else cost[y, x]
                 for k in range(2):
                     ny, nx = (y - step, x) if k == 0 else (y, x - step)
                     if ny < 0 or nx < 0 or ny >= height or nx >= width or not targets[ny, nx]:
                         continue
                     sy, sx = field[ny, nx, 0] + y - ny, field[ny, nx, 1] + x - nx
                     if 0 <= sy < height and 0 <= sx < width and sources[sy, sx] and not (sy == by and sx == bx):
-                        found = _distance(image, weight, y, x, sy, sx)
+                        found = patch_distance(planes, target, mass, sy, sx)
                         if found < best:
                             best, by, bx = found, sy, sx
                 reach = max(height, width)
@@ -92,40 +126,33 @@ def match_patches(image, weight, targets, sources, field, cost, sweeps, first, r
                     sx = bx + int((state >> np.uint32(8)) % np.uint32(2 * reach + 1)) - reach
                     reach //= 2
                     if 0 <= sy < height and 0 <= sx < width and sources[sy, sx]:
-                        found = _distance(image, weight, y, x, sy, sx)
+                        found = patch_distance(planes, target, mass, sy, sx)
                         if found < best:
                             best, by, bx = found, sy, sx
                 cost[y, x], field[y, x, 0], field[y, x, 1] = best, by, bx
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
-def vote(image, weight, hole, targets, field, cost, sharpness, result):  # type: ignore[no-untyped-def]
+def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type: ignore[no-untyped-def]
     """Each pixel of `hole` becomes the mean of what the patches over it say, the better ones counting more.
 
-    `sharpness` is the cost at which a patch counts for little (grey levels squared); `result` (H, W, 3)
-    float32 is written inside the hole only.
+    `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 only the best patch
+    counts, which keeps grain and fine texture that a mean would wash out. `result` (H, W, 3) float32 is
+    written inside the hole only.
     """
     height, width = cost.shape
     shift = np.zeros((height, width, 3), np.float32)
     trust = np.zeros((height, width), np.float32)
+    target = np.zeros((4, SIDE, 8), np.float32)
     for y in range(height):
         for x in range(width):
-            if not targets[y, x]:
-                continue
-            sy, sx = field[y, x, 0], field[y, x, 1]
-            mass = np.float32(0)
-            s0 = s1 = s2 = np.float32(0)
-            for dy in range(-RADIUS, RADIUS + 1):
-                for dx in range(-RADIUS, RADIUS + 1):
-                    w = weight[y + dy, x + dx]
-                    mass += w
-                    s0 += w * (image[y + dy, x + dx, 0] - image[sy + dy, sx + dx, 0])
-                    s1 += w * (image[y + dy, x + dx, 1] - image[sy + dy, sx + dx, 1])
-                    s2 += w * (image[y + dy, x + dx, 2] - image[sy + dy, sx + dx, 2])
-            shift[y, x, 0] = _allowed_shift(s0 / mass) * (1 - SHIFT_COST)
-            shift[y, x, 1] = _allowed_shift(s1 / mass) * (1 - SHIFT_COST)
-            shift[y, x, 2] = _allowed_shift(s2 / mass) * (1 - SHIFT_COST)
-            trust[y, x] = mass * np.exp(-cost[y, x] / sharpness) + 1e-6
+            if targets[y, x]:
+                mass = take_target(planes, weight, y, x, target)
+                shift[y, x] = patch_shift(planes, target, mass, field[y, x, 0], field[y, x, 1])
+                if sharpness > 0:
+                    trust[y, x] = mass * np.exp(-cost[y, x] / sharpness) + np.float32(1e-6)
+                else:
+                    trust[y, x] = 1 / (np.float32(1) + cost[y, x])
     for y in range(height):
         for x in range(width):
             if not hole[y, x]:
@@ -137,11 +164,15 @@ def vote(image, weight, hole, targets, field, cost, sharpness, result):  # type:
                     w = trust[cy, cx]
                     if w == 0:
                         continue
+                    if sharpness == 0:
+                        if w <= mass:
+                            continue
+                        s0 = s1 = s2 = mass = np.float32(0)
                     sy, sx = field[cy, cx, 0] + y - cy, field[cy, cx, 1] + x - cx
                     mass += w
-                    s0 += w * (image[sy, sx, 0] + shift[cy, cx, 0])
-                    s1 += w * (image[sy, sx, 1] + shift[cy, cx, 1])
-                    s2 += w * (image[sy, sx, 2] + shift[cy, cx, 2])
+                    s0 += w * (planes[0, sy, sx] + shift[cy, cx, 0])
+                    s1 += w * (planes[1, sy, sx] + shift[cy, cx, 1])
+                    s2 += w * (planes[2, sy, sx] + shift[cy, cx, 2])
             if mass > 0:
                 result[y, x, 0] = min(max(s0 / mass, 0.0), 255.0)
                 result[y, x, 1] = min(max(s1 / mass, 0.0), 255.0)
