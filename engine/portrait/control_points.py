@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
+from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 from engine.portrait.alignment import Similarity
 
 PERIPHERY_SPACING = 0.5
@@ -31,7 +31,8 @@ CARRY_REACH = 0.7
 class ControlPoints:
     """Rest positions in the target: `points` (C, 2) pixels, first the 478 of the face's mesh, then
     `peripheral` points, then those on the border. `usable` (C,) is False for points of the face that the
-    picture sees edge-on or from behind: where they lie says nothing about the pixels there."""
+    picture sees from behind, where they say nothing about the pixels there, and for the irises, which stay behind the lids
+    that move over them."""
 
     points: NDArray[np.float64]
     peripheral: int
@@ -78,6 +79,7 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
     )
     points = np.concatenate([mesh[:, :2].astype(float), grid, border])
     usable = np.concatenate([facing(mesh), np.ones(len(points) - MESH_SIZE, bool)])
+    usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
     return ControlPoints(points, len(grid), usable)
 
 

@@ -29,16 +29,19 @@ WINDOW = 21
 """Section 6: frames of the temporal Gaussian."""
 WIDE = 0.25
 """Ratios wider than this, in eye distances, are shading rather than creases ..."""
-SHADING = 0.5
+SHADING = 0.25
 """... and count this much ..."""
 TURNED = 12.0
 """... in a head that does not turn, down to nothing at this many degrees."""
-DARKEST = 0.6
+DARKEST = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
 FLOOR = 12.0
 """Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
 BLUR = 1.2
 """Pixels of the driver's crop: finer structure is noise of the video."""
+NOSE = (6, 197, 195, 5, 4, 1, 2, 98, 327, 129, 358, 209, 429, 198, 420, 236, 456)
+"""The nose: it hardly creases, but its own shadow and outline move with every turn."""
+NOSE_SPARED = 0.7
 RIM = 0.4
 """Within this distance of the face's rim, in eye distances, ratios fade out."""
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
@@ -108,6 +111,9 @@ def build_detail_map(
     weight = face_region(rgb, mesh)[y0:y1, x0:x1] * (origin[..., 0] > -1000)
     weight *= 1 - _openings(plane - corner, weight.shape, 0.06 * float(eye_distance(mesh[:, :2])))
     unit = float(eye_distance(mesh[:, :2]))
+    nose = np.zeros(weight.shape, np.float32)
+    cv2.fillConvexPoly(nose, cv2.convexHull((plane[list(NOSE)] - corner).round().astype(np.int32)), 1.0)
+    weight *= 1 - NOSE_SPARED * cv2.GaussianBlur(nose, (0, 0), 0.1 * unit)
     oval = np.zeros((weight.shape[0] + 2, weight.shape[1] + 2), np.uint8)  # the driver's rim borders on its background
     cv2.fillPoly(oval, [(plane[list(FACE_OVAL)] - corner + 1).round().astype(np.int32)], 1)
     ramp = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM * unit) - 0.25, 0, 1)
