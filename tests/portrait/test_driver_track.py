@@ -1,0 +1,185 @@
+"""Drivers analysed: faces that vanish and return, blinks that keep their depth, and an analysis that is kept."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from made_clip import write_frames
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.media.limits import Limits
+from engine.media.video import read_video
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
+from engine.portrait.driver import CROP, CROP_EYES, EASE_BACK, DriverTrack, track_driver
+from engine.run import Run
+from engine.store import StageStore
+
+LIMITS = Limits()
+BLANK = slice(10, 16)
+MOVED = 60
+"""Pixels to the right at which the face comes back."""
+
+
+@pytest.fixture(scope="module")
+def frames(clip) -> list[NDArray[np.uint8]]:
+    return clip("man_talk_tps.mp4", 0.6, 2.0)
+
+
+@pytest.fixture(scope="module")
+def whole(frames, tmp_path_factory) -> Path:
+    return write_frames(tmp_path_factory.mktemp("driver") / "whole.mp4", frames)
+
+
+@pytest.fixture(scope="module")
+def track(whole: Path) -> DriverTrack:
+    return track_driver(whole, None, None, LIMITS)
+
+
+def unfiltered(path: Path) -> NDArray[np.float32]:
+    """What the face tracker says, frame by frame."""
+    with FaceTracker() as tracker:
+        return np.array([tracker(f.rgb)[0] for f in read_video(path)])
+
+
+def shifted(frame: NDArray[np.uint8], by: float) -> NDArray[np.uint8]:
+    matrix = np.array([[1.0, 0.0, by], [0.0, 1.0, 0.0]])
+    return np.asarray(cv2.warpAffine(frame, matrix, frame.shape[1::-1], borderMode=cv2.BORDER_REPLICATE))
+
+
+def test_every_frame_has_a_mesh_on_its_face(frames, track: DriverTrack, whole: Path) -> None:
+    assert len(track) == len(frames)
+    assert track.found.all()
+    assert track.size == frames[0].shape[1::-1]
+    away = np.linalg.norm(track.meshes[..., :2] - unfiltered(whole)[..., :2], axis=-1)
+    assert away.mean() < 0.02 * float(eye_distance(track.meshes[0, :, :2]))
+
+
+def test_crops_show_the_face_in_its_place_and_are_small(track: DriverTrack, frames) -> None:
+    eyes = np.array(CROP_EYES)
+    for index in (0, len(track) - 1):
+        crop, mesh = track.crop(index), track.in_crop(index)
+        assert crop.shape == (*CROP, 3)
+        found = np.array([mesh[[33, 133]].mean(axis=0), mesh[[263, 362]].mean(axis=0)])
+        assert np.abs(found - eyes).max() < 4
+        again = cv2.warpAffine(frames[index], track.crop_places[index], CROP[::-1], borderMode=cv2.BORDER_REPLICATE)
+        inner = (slice(60, 260), slice(60, 230))
+        assert np.abs(again[inner].astype(int) - crop[inner]).mean() < 5
+    assert track.crops.stat().st_size / len(track) < 50_000
+
+
+def test_an_analysis_takes_at_most_50_kilobytes_a_frame_and_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
+    stored = []
+    for _ in range(2):
+        run = Run(store=StageStore(tmp_path))
+        stored.append(run.stage("track_driver", track_driver, whole, None, None, LIMITS, run.tick, run.warn))
+    fresh = track_driver(whole, None, None, LIMITS)
+    assert run.reused == ["track_driver"]
+    kept = stored[1]
+    for name in ("meshes", "found", "periphery", "tracked", "crop_ends", "crop_places"):
+        np.testing.assert_array_equal(getattr(kept, name), getattr(fresh, name), err_msg=name)
+    assert (kept.size, kept.fps, kept.has_sound) == (fresh.size, fresh.fps, fresh.has_sound)
+    assert kept.crops.read_bytes() == fresh.crops.read_bytes()
+    size = sum(p.stat().st_size for p in tmp_path.rglob("*") if p.is_file())
+    assert size / len(fresh) < 50_000
+
+
+@pytest.fixture(scope="module")
+def vanished(frames, tmp_path_factory) -> tuple[DriverTrack, list[str], NDArray[np.float32]]:
+    """The face is gone for some frames and comes back further to the right; the warnings; the true shifts."""
+    shift = np.array([0.0 if i < BLANK.stop else MOVED for i in range(len(frames))], np.float32)
+    acted = [
+        np.full_like(f, 128) if BLANK.start <= i < BLANK.stop else shifted(f, shift[i]) for i, f in enumerate(frames)
+    ]
+    path = write_frames(tmp_path_factory.mktemp("driver") / "vanished.mp4", acted)
+    codes: list[str] = []
+    return track_driver(path, None, None, LIMITS, warn=lambda code, message: codes.append(code)), codes, shift
+
+
+def test_where_the_face_is_gone_it_holds(vanished) -> None:
+    track, codes, _ = vanished
+    assert not track.found[BLANK].any()
+    assert track.found[: BLANK.start].all() and track.found[BLANK.stop :].all()
+    assert codes == ["driver_face_lost"]
+    unit = float(eye_distance(track.meshes[0, :, :2]))
+    still = track.meshes[BLANK, :, :2]
+    assert np.linalg.norm(still - still[0], axis=-1).max() < 0.03 * unit
+    assert np.linalg.norm(still[0] - track.meshes[BLANK.start - 1, :, :2], axis=-1).mean() < 0.03 * unit
+
+
+def test_when_it_comes_back_it_eases_back(vanished, track: DriverTrack) -> None:
+    """No step is a jump, and after the easing it is where it is seen."""
+    found, _, shift = vanished
+    centre = found.meshes[..., :2].mean(axis=1)
+    steps = np.linalg.norm(np.diff(centre, axis=0), axis=1)[BLANK.start - 1 : BLANK.stop + EASE_BACK]
+    assert steps.max() < 0.25 * MOVED
+    after = slice(BLANK.stop + EASE_BACK + 1, len(found))
+    expected = track.meshes[after, :, :2] + np.array([1.0, 0.0]) * shift[after, None, None]
+    unit = float(eye_distance(track.meshes[0, :, :2]))
+    assert np.linalg.norm(found.meshes[after, :, :2] - expected, axis=-1).mean() < 0.04 * unit
+
+
+def test_a_face_that_comes_later_holds_from_the_beginning(frames, tmp_path: Path) -> None:
+    late = [np.full_like(frames[0], 128)] * 4 + frames[:8]
+    track = track_driver(write_frames(tmp_path / "late.mp4", late), None, None, LIMITS)
+    assert not track.found[:4].any() and track.found[4:].all()
+    assert np.isfinite(track.meshes).all()
+    assert np.abs(track.meshes[:4] - track.meshes[4]).max() < 2
+    assert track.periphery.shape[0] == track.tracked.shape[0] == len(track) == 12
+
+
+def test_a_driver_without_a_face_is_refused(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    frames = [rng.integers(0, 255, (120, 160, 3), np.uint8) for _ in range(6)]
+    with pytest.raises(InputError) as caught:
+        track_driver(write_frames(tmp_path / "noise.mp4", frames), None, None, LIMITS)
+    assert caught.value.code == "no_face_in_driver"
+    assert caught.value.correctable == ("driver",)
+
+
+def test_rate_and_part_are_the_asked_ones(whole: Path) -> None:
+    half = track_driver(whole, 12.5, (0.2, 1.0), LIMITS)
+    assert len(half) == 10 and half.fps == 12.5
+    full = track_driver(whole, None, (0.2, 1.0), LIMITS)
+    assert len(full) == 20 and full.fps == 25
+
+
+def test_lips_and_lids_keep_their_moments_and_their_depth(track: DriverTrack, whole: Path) -> None:
+    """Against the unfiltered landmarks: lips peak on the same frame, blinks keep 95 % of their depth."""
+    raw = unfiltered(whole)
+    lips, seen = mouth_opening(raw), mouth_opening(track.meshes)
+    assert lips[int(seen.argmax())] > 0.97 * lips.max()
+    assert abs(int(seen.argmax()) - int(lips.argmax())) <= 1
+    lids, kept = eye_opening(raw).mean(axis=1), eye_opening(track.meshes).mean(axis=1)
+    usual = np.median(lids)
+    low = int(lids.argmin())
+    assert lids[low] < 0.6 * usual, "the clip has a blink here"
+    assert usual - kept[low - 1 : low + 2].min() >= 0.95 * (usual - lids[low])
+    assert abs(int(kept.argmin()) - low) <= 1
+
+
+def test_points_around_the_head_follow_it(small, tmp_path: Path) -> None:
+    """A still portrait carried across the picture: every tracked point does just that."""
+    from engine.media.image import read_image
+
+    picture = read_image(small("photo_woman_outdoor.jpg", 320)).rgb
+    shifts = [np.array([1.5 * i, -0.75 * i]) for i in range(12)]
+    moved = [
+        cv2.warpAffine(
+            picture, np.column_stack([np.eye(2), s]), picture.shape[1::-1],
+            flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE,
+        )
+        for s in shifts
+    ]  # fmt: skip
+    track = track_driver(write_frames(tmp_path / "moved.mp4", moved), None, None, LIMITS)
+    assert track.periphery.shape[1] > 20
+    assert track.tracked.mean() > 0.8
+    away = track.periphery - track.periphery[0] - np.array(shifts)[:, None]
+    assert np.median(np.linalg.norm(away, axis=-1)[track.tracked]) < 0.2
+    assert np.quantile(np.linalg.norm(away, axis=-1)[track.tracked], 0.95) < 1.0
+    mesh = track.meshes[..., :2].mean(axis=1) - track.meshes[0, :, :2].mean(axis=0) - np.array(shifts)
+    assert np.abs(mesh).max() < 1.0
