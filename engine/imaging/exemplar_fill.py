@@ -26,6 +26,9 @@ def exemplar_fill(
     Returns float32 (H, W, 3). Hole pixels that no whole patch reaches (in the picture's corners) are left.
     """
     ys, xs = np.nonzero(sources)
+    # every other source, like the white squares of a chessboard: straight lines still find their like
+    half = (ys + xs) % 2 == 0 if len(ys) > 500 else np.ones(len(ys), bool)
+    ys, xs = ys[half], xs[half]
     planes = colour_planes(image)
     _fill(planes, hole.copy(), ys.astype(np.int32), xs.astype(np.int32))
     return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
