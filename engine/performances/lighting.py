@@ -37,11 +37,11 @@ def lamps(detail: float = 1.0) -> Lamps:
         return max(round(count * detail), 2)
 
     return (
-        softbox(KEY[0], KEY[1], KEY[2:], KEY_LIGHT, number(26))
-        + softbox(FILL[0], FILL[1], FILL[2:], FILL_LIGHT, number(10))
-        + softbox(152, 42, (50, 40), np.array([0.75, 0.75, 0.77]), number(4))
-        + softbox(-152, 42, (50, 40), np.array([0.45, 0.45, 0.45]), number(4))
-        + dome(ZENITH, HORIZON, FLOOR, number(30))
+        softbox(KEY[0], KEY[1], KEY[2:], KEY_LIGHT, number(22))
+        + softbox(FILL[0], FILL[1], FILL[2:], FILL_LIGHT, number(8))
+        + softbox(152, 42, (50, 40), np.array([0.75, 0.75, 0.77]), number(3))
+        + softbox(-152, 42, (50, 40), np.array([0.45, 0.45, 0.45]), number(3))
+        + dome(ZENITH, HORIZON, FLOOR, number(24))
     )
 
 

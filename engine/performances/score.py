@@ -60,14 +60,14 @@ def happy(t: float) -> Pose:
         _add(units, f"mouthStretch{side}", 0.10 * corners + 0.22 * broad)
         _add(units, f"mouthDimple{side}", 0.14 * corners)
         _add(units, f"mouthUpperUp{side}", 0.10 * corners + 0.44 * broad)
-        _add(units, f"mouthLowerDown{side}", 0.14 * broad)
+        _add(units, f"mouthLowerDown{side}", 0.22 * broad)
         _add(units, f"cheekSquint{side}", 0.46 * cheeks + 0.40 * broad)
         _add(units, f"eyeSquint{side}", 0.12 * cheeks + 0.18 * broad)
         _add(units, f"noseSneer{side}", 0.10 * broad)
         _add(units, f"browOuterUp{side}", 0.22 * more * swell(t, 0.22, 0.62, 1.0, 2.2))
     laugh = swell(t, 1.05, 1.35, 1.75, 2.35)
     shake = laugh * _laughter(t - 1.05)
-    _add(units, "jawOpen", 0.04 * first + 0.14 * second + 0.035 * shake)
+    _add(units, "jawOpen", 0.04 * first + 0.19 * second + 0.035 * shake)
     _add(units, "browInnerUp", 0.12 * swell(t, 0.20, 0.58, 0.95, 2.0))
     _lids(units, blink(t, 0.36, depth=0.96) + blink(t, 2.86), lead=0.03, squint=0.5 * second)
     head = (
@@ -97,7 +97,7 @@ def surprise(t: float) -> Pose:
     _add(units, "mouthShrugUpper", 0.05 * swell(t, 2.0, 2.4, 2.45, 2.9))
     for side in ("Left", "Right"):
         _add(units, f"mouthPress{side}", 0.16 * swell(t, 2.05, 2.42, 2.50, 3.05))
-    _lids(units, blink(t, 0.20, depth=0.55, slow=0.8) + blink(t, 1.74) + 0.9 * blink(t, 2.30, slow=1.1), lead=0.0)
+    _lids(units, blink(t, 0.20, depth=0.55, slow=0.8) + blink(t, 1.74), lead=0.0)
     start = swell(t, 0.36, 0.72, 1.35, 2.8, sag=0.25)
     head = (
         -3.4 * start + 0.9 * swell(t, 0.26, 0.40, 0.44, 0.7) + 0.3 * calm * unrest(t, 71, period, 4),

@@ -24,6 +24,9 @@ WEIGHTS = (
 )
 """Red, green and blue share of each Gaussian."""
 
+NEGLIGIBLE = 0.01
+"""Smaller shares are left to the others: they cost as much as large ones and cannot be seen."""
+
 
 def diffuse(
     irradiance: NDArray[np.float32],
@@ -37,23 +40,23 @@ def diffuse(
     nor goes there); `depth` (H, W) metres, +inf where nothing is: light does not leap from one depth to another.
     """
     shares = np.array(WEIGHTS, np.float32)
+    shares[shares < NEGLIGIBLE] = 0
     shares /= shares.sum(0)
     total = np.zeros_like(irradiance)
-    for variance, share in zip(VARIANCES, shares, strict=True):
-        sigma = np.sqrt(variance) / 1000 * pixels_per_metre
-        if sigma < 0.4:
-            total += share * irradiance
-            continue
-        reach = float(max(2.5 * np.sqrt(variance) / 1000, 0.001))
-        once = _blur_rows(irradiance, translucency, depth, sigma, reach)
-        turned = _blur_rows(
-            np.ascontiguousarray(once.transpose(1, 0, 2)),
-            np.ascontiguousarray(translucency.T),
-            np.ascontiguousarray(depth.T),
-            sigma,
-            reach,
-        )
-        total += share * turned.transpose(1, 0, 2)
+    weight, turned_weight = np.ascontiguousarray(translucency), np.ascontiguousarray(translucency.T)
+    turned_depth = np.ascontiguousarray(depth.T)
+    for colour in range(3):
+        channel = np.ascontiguousarray(irradiance[..., colour])
+        for variance, share in zip(VARIANCES, shares[:, colour], strict=True):
+            if share == 0:
+                continue
+            sigma = np.sqrt(variance) / 1000 * pixels_per_metre
+            blurred = channel
+            if sigma > 0.4:
+                reach = float(max(2.5 * np.sqrt(variance) / 1000, 0.001))
+                once = _blur_rows(channel, weight, depth, sigma, reach)
+                blurred = _blur_rows(np.ascontiguousarray(once.T), turned_weight, turned_depth, sigma, reach).T
+            total[..., colour] += share * blurred
     return total
 
 
@@ -67,17 +70,12 @@ def _blur_rows(image: np.ndarray, weight: np.ndarray, depth: np.ndarray, sigma: 
         for x in range(width):
             if weight[y, x] <= 0:
                 continue
-            red, green, blue, total = np.float32(0), np.float32(0), np.float32(0), np.float32(0)
+            light, total = np.float32(0), np.float32(0)
             for k in range(max(-radius, -x), min(radius, width - 1 - x) + 1):
                 w = kernel[k + radius] * weight[y, x + k]
-                if w <= 0 or abs(depth[y, x + k] - depth[y, x]) > reach:
-                    continue
-                red += w * image[y, x + k, 0]
-                green += w * image[y, x + k, 1]
-                blue += w * image[y, x + k, 2]
-                total += w
+                if w > 0 and abs(depth[y, x + k] - depth[y, x]) <= reach:
+                    light += w * image[y, x + k]
+                    total += w
             if total > 0:
-                out[y, x, 0] = red / total
-                out[y, x, 1] = green / total
-                out[y, x, 2] = blue / total
+                out[y, x] = light / total
     return out
