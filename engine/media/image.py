@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pillow_heif
+import pi_heif
 from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
@@ -87,7 +87,7 @@ def _admit(path: Path, limits: Limits) -> str:
 
 
 def _read_heic(path: Path, limits: Limits) -> Image.Image:
-    heif = pillow_heif.open_heif(path, convert_hdr_to_8bit=True)
+    heif = pi_heif.open_heif(path, convert_hdr_to_8bit=True)
     _check_size(heif.size, limits)
     return heif.to_pillow()
 

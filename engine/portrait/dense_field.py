@@ -139,7 +139,8 @@ def build_warp_mesh(
             else np.full(len(vertices), LARGEST_DISK * diagonal / 2)
         )
         field = interpolation_matrix(control[used], samples, triangulation) @ select
-        keep = sparse.diags((radii < spacing / 2).astype(float))
+        on_border = ((vertices <= 0) | (vertices >= np.array([width - 1, height - 1]))).any(axis=1)
+        keep = sparse.diags(((radii < spacing / 2) | on_border).astype(float))
         smooth = _disk_average(vertices, radii, samples, spacing) @ field
         operator = keep @ operator + (sparse.eye(len(vertices)) - keep) @ smooth
     triangles = Delaunay(vertices).simplices

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.mesh_warp import inverse_map
 from engine.imaging.poisson import membrane
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
+from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
 EROSION = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
@@ -29,11 +29,13 @@ _LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
 class MouthPalette:
     """How the driver's colours become the target's: `gain` (3,) for the light; `tint` (3,) of the target's
     skin at luminance 1, and `chroma`, how far its palette departs from that tint (0 in black and white);
+    `brightest` luminance that its face shows, which teeth do not exceed by much;
     `area` the neutral mouth's inner area, px^2; `height` of its lips."""
 
     gain: NDArray[np.float32]
     tint: NDArray[np.float32]
     chroma: float
+    brightest: float
     area: float
     height: float
 
@@ -71,7 +73,14 @@ def match_palette(
     outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
     width = float(np.linalg.norm(mesh[61, :2] - mesh[291, :2]))
     area = max(float(cv2.contourArea(inner)), LEAST_AREA * width**2)
-    return MouthPalette(gain.astype(np.float32), tint.astype(np.float32), chroma, area, float(np.ptp(outer[:, 1])))
+    return MouthPalette(
+        gain.astype(np.float32),
+        tint.astype(np.float32),
+        chroma,
+        _brightest(target, mesh),
+        area,
+        float(np.ptp(outer[:, 1])),
+    )
 
 
 def transfer_mouth(
@@ -116,7 +125,13 @@ def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32
     """The driver's colours in the target's light and palette, float32."""
     lit = rgb.astype(np.float32) * palette.gain
     tinted = (lit @ LUMINANCE)[..., None] * palette.tint
-    return np.asarray(tinted + palette.chroma * (lit - tinted), np.float32)
+    mouth = tinted + palette.chroma * (lit - tinted)
+    light = np.maximum(mouth @ LUMINANCE, 1.0)
+    knee = 0.7 * palette.brightest
+    over = np.maximum(light - knee, 0)
+    room = palette.brightest - knee
+    held = np.where(over > 0, knee + room * np.tanh(over / room), light)
+    return np.asarray(mouth * (held / light)[..., None], np.float32)
 
 
 def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -125,6 +140,14 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.floa
     for cheek in ((116, 117, 118, 100, 126, 203, 206, 205, 50), (345, 346, 347, 329, 355, 423, 426, 425, 280)):
         cv2.fillConvexPoly(mask, cv2.convexHull(mesh[list(cheek), :2].round().astype(np.int32)), 1)
     return rgb[mask > 0].astype(np.float32) if mask.any() else rgb.reshape(-1, 3).astype(np.float32)
+
+
+def _brightest(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
+    """The 99th percentile of the luminance within the face's contour, and at least a mid grey."""
+    mask = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
+    light = rgb[mask > 0].astype(np.float32) @ LUMINANCE
+    return max(float(np.quantile(light, 0.99)) if len(light) else 255.0, 120.0)
 
 
 def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
