@@ -127,9 +127,9 @@ def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32
     tinted = (lit @ LUMINANCE)[..., None] * palette.tint
     mouth = tinted + palette.chroma * (lit - tinted)
     light = np.maximum(mouth @ LUMINANCE, 1.0)
-    knee = 0.7 * palette.brightest
+    knee = 1.1 * palette.brightest
     over = np.maximum(light - knee, 0)
-    room = palette.brightest - knee
+    room = 0.3 * palette.brightest
     held = np.where(over > 0, knee + room * np.tanh(over / room), light)
     return np.asarray(mouth * (held / light)[..., None], np.float32)
 
@@ -143,11 +143,11 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.floa
 
 
 def _brightest(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
-    """The 99th percentile of the luminance within the face's contour, and at least a mid grey."""
+    """The 99th percentile of the luminance within the face's contour."""
     mask = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
     light = rgb[mask > 0].astype(np.float32) @ LUMINANCE
-    return max(float(np.quantile(light, 0.99)) if len(light) else 255.0, 120.0)
+    return float(np.quantile(light, 0.99)) if len(light) else 255.0
 
 
 def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
