@@ -61,9 +61,11 @@ def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
     error = float(np.sqrt(((back[:, 0] - seen) ** 2).sum(axis=1).mean())) / max(unit, 1e-6)
     r = cv2.Rodrigues(rotation)[0]
     forward = -r[:, 2]
+    # a face is frontal when it looks back along the ray on which it is seen, not along the camera's axis
+    ray_yaw, ray_pitch = np.arctan2(shift[0, 0], shift[2, 0]), np.arctan2(shift[1, 0], shift[2, 0])
     return HeadPose(
-        yaw=float(np.arctan2(forward[0], -forward[2])),
-        pitch=float(np.arctan2(forward[1], np.hypot(forward[0], forward[2]))),
+        yaw=float(np.arctan2(forward[0], -forward[2]) + ray_yaw),
+        pitch=float(np.arctan2(forward[1], np.hypot(forward[0], forward[2])) + ray_pitch),
         roll=float(np.arctan2(r[1, 0], r[0, 0])),
         error=error,
     )
