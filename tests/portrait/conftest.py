@@ -81,3 +81,22 @@ def animation(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Made]:
         return made[key]
 
     return make
+
+
+OPENS = (1.9, 2.7)
+"""Seconds of `man_mouth_open_d18.mp4` in which a closed mouth opens wide: 24 frames."""
+
+
+@pytest.fixture(scope="session")
+def mouth_opens(media: Media) -> Path:
+    return media("driving/man_mouth_open_d18.mp4")
+
+
+@pytest.fixture(scope="session")
+def woman_white(small: Callable[[str, int], Path]) -> Path:
+    return small("photo_woman_white.png", 300)
+
+
+@pytest.fixture(scope="session")
+def opens(animation: Callable[..., Made], woman_white: Path, mouth_opens: Path) -> Made:
+    return animation(woman_white, mouth_opens, trim=OPENS, neutral_frame=0)
