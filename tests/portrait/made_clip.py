@@ -14,10 +14,10 @@ from engine.export.video import VideoWriter
 from engine.perception.faces import find_faces
 
 
-def write_frames(path: Path, frames: list[NDArray[np.uint8]], fps: float = 25) -> Path:
+def write_frames(path: Path, frames: list[NDArray[np.uint8]], fps: float = 25, crf: int = 8) -> Path:
     """A clip of these frames, hardly compressed."""
     height, width = frames[0].shape[:2]
-    with VideoWriter(path, (width, height), fps, crf=8) as writer:
+    with VideoWriter(path, (width, height), fps, crf=crf) as writer:
         for frame in frames:
             writer.write(frame)
     return path
