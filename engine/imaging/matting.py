@@ -19,6 +19,9 @@ SMOOTHNESS = 5e-3
 SMOOTHNESS_AT_EDGES = 0.1
 """... and by how much it grows with the step of alpha between neighbours (the paper: 1, and 1e-5)."""
 
+RESERVE = 0.1
+"""How reluctantly transparent pixels take up what the composition at rest misses."""
+
 
 def estimate_foreground(
     rgb: NDArray[np.uint8] | NDArray[np.float32], alpha: NDArray[np.float32]
@@ -50,6 +53,24 @@ def estimate_layers(
     front = np.where(opaque >= 1, image, front)
     back = np.where(opaque <= 0, image, back)
     return front.astype(np.float32), back.astype(np.float32)
+
+
+def reconcile_with_plate(
+    rgb: NDArray[np.uint8] | NDArray[np.float32],
+    alpha: NDArray[np.float32],
+    front: NDArray[np.float32],
+    plate: NDArray[np.uint8],
+) -> NDArray[np.float32]:
+    """The layer's colours `front` (H, W, 3), changed so that over this `plate` the layer at rest gives `rgb`.
+
+    A plate is a likely background, not the one that shone through the hair. What the composition at rest
+    misses is given back to the layer's colours, in full where it is nearly opaque and less the more
+    transparent it is, where it would turn into specks once the layer moves.
+    """
+    a = alpha[..., None]
+    missing = rgb - a * front - (1 - a) * plate
+    share = a / (np.square(a) + RESERVE * np.square(1 - a))
+    return np.clip(front + share * missing, 0, 255).astype(np.float32)
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)

@@ -21,6 +21,10 @@ SHIFT_COST = 0.15
 """... and what a shift costs, as a share of what the same difference would cost unshifted."""
 
 
+GRAIN = 8
+"""Power of a patch's inverse cost by which it counts where grain is to be kept: enough for the best patch to
+stand alone where it is clearly best, and for seams between equals to blend."""
+
 SIDE = 2 * RADIUS + 1
 
 
@@ -136,9 +140,9 @@ def match_patches(planes, weight, targets, sources, field, cost, sweeps, random_
 def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type: ignore[no-untyped-def]
     """Each pixel of `hole` becomes the mean of what the patches over it say, the better ones counting more.
 
-    `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 only the best patch
-    counts, which keeps grain and fine texture that a mean would wash out. `result` (H, W, 3) float32 is
-    written inside the hole only.
+    `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 hardly any but the
+    best counts, which keeps grain and fine texture that a mean would wash out. `result` (H, W, 3) float32
+    is written inside the hole only.
     """
     height, width = cost.shape
     shift = np.zeros((height, width, 3), np.float32)
@@ -157,6 +161,11 @@ def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type
         for x in range(width):
             if not hole[y, x]:
                 continue
+            best = np.float32(0)
+            if sharpness == 0:
+                for cy in range(max(0, y - RADIUS), min(height, y + RADIUS + 1)):
+                    for cx in range(max(0, x - RADIUS), min(width, x + RADIUS + 1)):
+                        best = max(best, trust[cy, cx])
             mass = np.float32(0)
             s0 = s1 = s2 = np.float32(0)
             for cy in range(max(0, y - RADIUS), min(height, y + RADIUS + 1)):
@@ -165,9 +174,7 @@ def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type
                     if w == 0:
                         continue
                     if sharpness == 0:
-                        if w <= mass:
-                            continue
-                        s0 = s1 = s2 = mass = np.float32(0)
+                        w = (w / best) ** GRAIN
                     sy, sx = field[cy, cx, 0] + y - cy, field[cy, cx, 1] + x - cx
                     mass += w
                     s0 += w * (planes[0, sy, sx] + shift[cy, cx, 0])

@@ -27,6 +27,9 @@ WORKING_SIZE = 800
 CUT_SIZE = 480
 """Longest side at which colours have their say."""
 
+KEPT = 0.6
+"""Belief from which a pixel stays with the person whatever its colour."""
+
 SELFIE_SHARE = 2 / 3
 """Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas)."""
 
@@ -57,10 +60,13 @@ def person_mask(
         return upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small)
-    if seed is not None:
-        belief = np.maximum(belief, resized(seed, (small.shape[1], small.shape[0])))
     figure = figure_on_plain_ground(small, belief)
-    belief = settle_by_colour(small, belief) if figure is None else figure
+    if figure is not None:
+        belief = figure
+    if seed is not None:
+        belief = np.maximum(belief, resized(seed.astype(np.float32), (small.shape[1], small.shape[0])))
+    if figure is None:
+        belief = settle_by_colour(small, belief)
     trimap = outline_trimap(small, belief)
     matte = alpha_matte(small, trimap.known, trimap.prior, trimap.weight)
     return matte if small.shape == rgb.shape else upsample_guided(matte, small, rgb)
@@ -109,7 +115,8 @@ def _pose_mask(rgb: NDArray[np.uint8]) -> Mask | None:
 
 
 def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
-    """The belief (H, W) averaged with what GrabCut makes of the colours where it is not sure."""
+    """The belief (H, W) averaged with what GrabCut makes of the colours where it is not sure; what the networks
+    rather believe than not (grey hair before a pale wall), colours do not take away."""
     size = size_within(belief.shape, CUT_SIZE)
     small, rough = resized(rgb, size), resized(belief, size)
     labels = np.where(rough > 0.5, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
@@ -121,4 +128,6 @@ def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
     no_box = (0, 0, 0, 0)
     cv2.grabCut(small.copy(), labels, no_box, np.zeros((1, 65)), np.zeros((1, 65)), 2, cv2.GC_INIT_WITH_MASK)
     person = np.isin(labels, (cv2.GC_FGD, cv2.GC_PR_FGD)).astype(np.float32)
-    return ((belief + resized(person, (belief.shape[1], belief.shape[0]))) / 2).astype(np.float32)
+    settled = (belief + resized(person, (belief.shape[1], belief.shape[0]))) / 2
+    kept = np.where(belief > KEPT, belief - KEPT + 0.5, 0)
+    return np.maximum(settled, kept).astype(np.float32)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.imaging.matting import estimate_foreground, estimate_layers
+from engine.imaging.matting import estimate_foreground, estimate_layers, reconcile_with_plate
 
 HEIGHT, WIDTH = 160, 200
 
@@ -73,3 +73,19 @@ def test_whole_and_empty_layers() -> None:
     np.testing.assert_array_equal(estimate_foreground(image, np.ones((HEIGHT, WIDTH), np.float32)), image)
     _, back = estimate_layers(image, np.zeros((HEIGHT, WIDTH), np.float32))
     np.testing.assert_array_equal(back, image)
+
+
+def test_at_rest_the_layer_over_another_plate_gives_the_picture() -> None:
+    alpha, front, back = hairy_disk(), smooth_colours(7, 20, 90), smooth_colours(8, 100, 200)
+    image = alpha[..., None] * front + (1 - alpha[..., None]) * back
+    plate = np.clip(back + 25, 0, 255).astype(np.uint8)
+    found = estimate_foreground(image, alpha)
+    reconciled = reconcile_with_plate(image, alpha, found, plate)
+
+    def missed(colours: np.ndarray) -> float:
+        composed = alpha[..., None] * colours + (1 - alpha[..., None]) * plate
+        return float(np.abs(composed - image)[(alpha > 0.3) & (alpha < 1)].mean())
+
+    assert missed(reconciled) < 0.4 * missed(found)
+    np.testing.assert_array_equal(reconciled[alpha == 0], found[alpha == 0])
+    np.testing.assert_allclose(reconciled[alpha == 1], image[alpha == 1], atol=1e-3)
