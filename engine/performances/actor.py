@@ -45,7 +45,8 @@ class Actor:
 
     `casting`: eyeball and teeth again with fewer triangles, for shadows.
     By vertex of the fine skin: `chart` (N, 2) place on the map of the head, `inner` (N,) inside of the mouth,
-    `margin` (N,) moist rims of the lids, `scalp` (N,) under the hair, [0, 1] each.
+    `margin` (N,) moist rims of the lids, `scalp` (N,) under the hair, `veiled` (N,) there and
+    just outside its border, where single hairs keep the skin from shining, [0, 1] each.
     """
 
     figure: Figure
@@ -59,6 +60,7 @@ class Actor:
     inner: NDArray[np.float32]
     margin: NDArray[np.float32]
     scalp: NDArray[np.float32]
+    veiled: NDArray[np.float32]
     tongue: tuple[object, NDArray[np.int32]]
     shirt: Shirt
     crop: Crop
@@ -92,6 +94,7 @@ def build_actor(lamps: Lamps) -> Actor:
     template = figure.template
     once = catmull_clark(template.quads[template.faces("tongue")], len(figure.rest))
     places = chart.coordinates(rest)
+    cover, above = hair_cover(places), chart.step(rest[:, 1], 0.70, 0.72)
     eyeball = build_eyeball()
     crop = grow_crop(figure, places)
     return Actor(
@@ -109,7 +112,8 @@ def build_actor(lamps: Lamps) -> Actor:
         chart=places,
         inner=inner.astype(np.float32),
         margin=chart.step(from_eye, 0.0168, 0.0160),
-        scalp=chart.step(hair_cover(places), -0.001, 0.006) * chart.step(rest[:, 1], 0.70, 0.72),
+        scalp=chart.step(cover, -0.001, 0.006) * above,
+        veiled=chart.step(cover, -0.011, -0.002) * above,
         tongue=(once.points, once.quads),
         shirt=sew_shirt(figure),
         crop=crop,

@@ -25,6 +25,9 @@ ZENITH, HORIZON, FLOOR = np.array([0.14, 0.145, 0.155]), np.full(3, 0.085), np.a
 CATCHLIGHT = 2.8
 """How much brighter the boxes look in the eyes than they light the face: their diffusers are not even."""
 
+EYE_BOUNCE = np.array([0.10, 0.11, 0.12], np.float32)
+"""Irradiance on the rims of the lids by light from the white of the eye."""
+
 BOUNCE = np.array([0.40, 0.31, 0.27], np.float32)
 """Irradiance inside the mouth by light that its walls pass on to each other."""
 
@@ -39,18 +42,21 @@ def lamps(detail: float = 1.0) -> Lamps:
     return (
         softbox(KEY[0], KEY[1], KEY[2:], KEY_LIGHT, number(22))
         + softbox(FILL[0], FILL[1], FILL[2:], FILL_LIGHT, number(8))
-        + softbox(152, 42, (50, 40), np.array([0.75, 0.75, 0.77]), number(3))
-        + softbox(-152, 42, (50, 40), np.array([0.45, 0.45, 0.45]), number(3))
+        + softbox(152, 42, (50, 40), np.array([0.45, 0.45, 0.46]), number(4))
+        + softbox(-152, 42, (50, 40), np.array([0.36, 0.36, 0.36]), number(4))
         + dome(ZENITH, HORIZON, FLOOR, number(24))
     )
 
 
-def bounce(scene: Scene, seen: Seen) -> NDArray[np.float32]:
-    """Irradiance (N, 3) inside the mouth by light that its walls pass on; it fades towards the throat."""
+def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Irradiance (N, 3) by light that surfaces pass on to each other: between the walls of the mouth, fading towards
+    the throat, and from the white of the eye onto the `wet` (N,) rims of the lids."""
     inside = np.isin(seen.part, (Part.TEETH, Part.TONGUE))
     head = scene.posed.head
     depth = 0.146 - ((seen.position - head[:3, 3]) @ head[:3, :3])[:, 2]
-    return (inside * np.exp(-np.clip(depth, 0, None) / 0.013))[:, None].astype(np.float32) * BOUNCE
+    return (inside * np.exp(-np.clip(depth, 0, None) / 0.013))[:, None].astype(np.float32) * BOUNCE + wet[
+        :, None
+    ] * EYE_BOUNCE
 
 
 def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -19,7 +19,8 @@ from engine.render.surface import bump, chart_tangents
 @dataclass(frozen=True)
 class Matter:
     """What the visible points are made of: `albedo` (N, 3), `bumped` normals (N, 3), `coarse` normals (N, 3) that
-    the diffuse light follows, `roughness` (N,), `reflectance` (N,), `softness` (N, 3), `translucency` (N,)."""
+    the diffuse light follows, `roughness` (N,), `reflectance` (N,), `softness` (N, 3), `translucency` (N,),
+    `wet` (N,) rims of the lids."""
 
     albedo: NDArray[np.float32]
     coarse: NDArray[np.float32]
@@ -28,6 +29,7 @@ class Matter:
     reflectance: NDArray[np.float32]
     softness: NDArray[np.float32]
     translucency: NDArray[np.float32]
+    wet: NDArray[np.float32]
 
 
 def materials(actor: Actor, scene: Scene, seen: Seen) -> Matter:
@@ -41,6 +43,7 @@ def materials(actor: Actor, scene: Scene, seen: Seen) -> Matter:
         reflectance=np.full(n, 0.028, np.float32),
         softness=np.zeros((n, 3), np.float32),
         translucency=np.zeros(n, np.float32),
+        wet=np.zeros(n, np.float32),
     )
     _skin(actor, scene, seen, matter)
     for side, part in enumerate((Part.LEFT_EYE, Part.RIGHT_EYE)):
@@ -56,8 +59,8 @@ def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     triangles = scene.triangles[scene.part == Part.SKIN]
     whole = np.ptp(actor.chart[triangles, 0], axis=1) < 0.1
     tangents = chart_tangents(scene.vertices[:count], actor.chart, triangles[whole])
-    by_vertex = np.zeros((len(scene.vertices), 11), np.float32)
-    masks = np.stack([actor.inner, actor.margin, actor.scalp], 1)
+    by_vertex = np.zeros((len(scene.vertices), 12), np.float32)
+    masks = np.stack([actor.inner, actor.margin, actor.scalp, actor.veiled], 1)
     by_vertex[:count] = np.concatenate([actor.chart, tangents, masks], 1)
     at = interpolate(by_vertex, scene.triangles, seen.raster)
     place = chart.texture_coordinates(at[..., :2])
@@ -90,9 +93,10 @@ def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     # relief finer than a pixel would sparkle where the skin turns away
     facing = chart.step((seen.normal[of_skin] * seen.view[of_skin]).sum(1), 0.1, 0.55)[:, None]
     matter.bumped[of_skin] = bump(matter.coarse[of_skin], values[:, 2:8], found[:, 4:6] * (1 - inner) * facing)
-    matter.reflectance[of_skin] *= 1 - values[:, 10]
+    matter.reflectance[of_skin] *= 1 - values[:, 11]
     matter.softness[of_skin] = [0.55, 0.30, 0.15]
     matter.translucency[of_skin] = 1
+    matter.wet[of_skin] = margin[:, 0]
 
 
 def _eye(actor: Actor, scene: Scene, seen: Seen, matter: Matter, side: int, part: Part) -> None:

@@ -27,6 +27,7 @@ def idle(t: float) -> Pose:
     breath = 0.5 - 0.5 * _breathing(t / period)
     units: Units = {}
     _lids(units, blink(t, 1.27) + 0.94 * blink(t, 3.63, slow=1.15), lead=0.02)
+    # tone in the muscles at rest: corners of the mouth, lips and brows wander by a few hundredths
     settle = 0.5 + 0.5 * unrest(t, 41, period, 3) * 0.5
     for side, seed in (("Left", 42), ("Right", 43)):
         _add(units, f"mouthSmile{side}", 0.022 * (unrest(t, seed, period, 3) + 0.4))
@@ -50,20 +51,25 @@ def happy(t: float) -> Pose:
     period = SECONDS["happy"]
     calm = ease(t, 0.0, 0.3) * (1 - ease(t, period - 0.35, period - 0.03))
     units: Units = {}
+    # two waves: a closed smile, then, out of it, the broad one that shows the teeth
     first = swell(t, 0.30, 0.92, 2.75, 3.62, sag=0.14)
     second = swell(t, 0.78, 1.38, 2.35, 3.20, sag=0.20)
     for side, lag, more in (("Left", 0.0, 1.0), ("Right", 0.035, 0.93)):
         corners = more * swell(t - lag, 0.30, 0.92, 2.80, 3.68, sag=0.12)
         broad = more * swell(t - lag, 0.78, 1.38, 2.35, 3.25, sag=0.20)
         cheeks = more * swell(t - lag, 0.36, 1.12, 2.55, 3.50, sag=0.18)
+        # zygomaticus major draws the corners up and out, risorius (stretch) and buccinator (dimple) help
         _add(units, f"mouthSmile{side}", 0.62 * corners + 0.36 * broad)
         _add(units, f"mouthStretch{side}", 0.10 * corners + 0.22 * broad)
         _add(units, f"mouthDimple{side}", 0.14 * corners)
+        # the upper lip is lifted off the teeth, the lower one drawn down a little
         _add(units, f"mouthUpperUp{side}", 0.10 * corners + 0.44 * broad)
         _add(units, f"mouthLowerDown{side}", 0.22 * broad)
+        # what makes it felt: orbicularis oculi raises the cheeks and narrows the eyes, a little later than the mouth
         _add(units, f"cheekSquint{side}", 0.46 * cheeks + 0.40 * broad)
         _add(units, f"eyeSquint{side}", 0.12 * cheeks + 0.18 * broad)
         _add(units, f"noseSneer{side}", 0.10 * broad)
+        # a flash of the brows comes before the smile and is gone when it is full
         _add(units, f"browOuterUp{side}", 0.22 * more * swell(t, 0.22, 0.62, 1.0, 2.2))
     laugh = swell(t, 1.05, 1.35, 1.75, 2.35)
     shake = laugh * _laughter(t - 1.05)
@@ -86,18 +92,23 @@ def surprise(t: float) -> Pose:
     calm = ease(t, 0.0, 0.3) * (1 - ease(t, period - 0.4, period - 0.03))
     units: Units = {}
     for side, lag, more in (("Left", 0.0, 1.0), ("Right", 0.02, 0.95)):
+        # frontalis: both brows, the whole forehead; it holds longest
         _add(units, f"browOuterUp{side}", 1.2 * more * swell(t - lag, 0.34, 0.66, 1.62, 2.75, sag=0.18))
+        # levator palpebrae: the lids are first to open and first to tire
         _add(units, f"eyeWide{side}", 0.85 * more * swell(t - lag, 0.31, 0.52, 1.45, 2.25, sag=0.25))
         _add(units, f"mouthUpperUp{side}", 0.10 * swell(t, 0.46, 0.84, 1.5, 2.2))
         _add(units, f"mouthLowerDown{side}", 0.08 * swell(t, 0.46, 0.84, 1.5, 2.2))
     _add(units, "browInnerUp", 1.15 * swell(t, 0.35, 0.68, 1.58, 2.70, sag=0.20))
+    # the jaw drops, slack: lips rounded a little, not stretched
     jaw = swell(t, 0.42, 0.86, 1.42, 2.28, sag=0.16)
     _add(units, "jawOpen", 0.52 * jaw)
     _add(units, "mouthFunnel", 0.30 * swell(t, 0.46, 0.95, 1.5, 2.35))
+    # closing, the lips press together for a moment before they settle
     _add(units, "mouthShrugUpper", 0.05 * swell(t, 2.0, 2.4, 2.45, 2.9))
     for side in ("Left", "Right"):
         _add(units, f"mouthPress{side}", 0.16 * swell(t, 2.05, 2.42, 2.50, 3.05))
     _lids(units, blink(t, 0.20, depth=0.55, slow=0.8) + blink(t, 1.74), lead=0.0)
+    # a tiny dip, then the head goes back and up
     start = swell(t, 0.36, 0.72, 1.35, 2.8, sag=0.25)
     head = (
         -3.4 * start + 0.9 * swell(t, 0.26, 0.40, 0.44, 0.7) + 0.3 * calm * unrest(t, 71, period, 4),

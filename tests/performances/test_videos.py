@@ -193,7 +193,7 @@ def test_the_shipped_videos_are_what_the_studio_makes(watched: dict[str, Watched
     assert np.abs(fresh - watched["happy"].frames[0]).mean() < 1.5
 
 
-def test_skin_is_lit_from_the_sitters_right(actor: Actor, watched: dict[str, Watched]) -> None:
+def test_skin_is_lit_from_the_sitters_right(watched: dict[str, Watched]) -> None:
     """The key stands at the left of the picture: that cheek is the brighter one."""
     happy = watched["happy"]
     cheeks = happy.mesh[0, [117, 346], :2].astype(int)
