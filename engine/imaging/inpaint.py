@@ -125,7 +125,7 @@ class _Effort:
 
 def _effort(steps: int, level: _Level) -> _Effort:
     """Much where it is cheap and decides about structure; at full size the field only needs settling."""
-    rounds, tries = ((5, 6), (4, 6), (3, 4), (2, 2), (1, 2))[min(steps, 4)]
+    rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
     if level.number > 0:
         return _Effort(rounds, 2, tries)
     return _Effort(min(rounds, 2), 2, tries) if level.hole.size < 1_000_000 else _Effort(1, 1, 1)
