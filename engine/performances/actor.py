@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.subdivision import catmull_clark
+from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import vertex_mask
 from engine.performances import chart
 from engine.performances.brows import Rooted, grow_brows, grow_lashes, plant
@@ -35,8 +35,12 @@ class Part(IntEnum):
     CLOTH = 5
 
 
+Piece = tuple[NDArray, NDArray, Part]
+"""Vertices, triangles, and what they belong to."""
+
 UPPER_ARCH = Arch(gum=0.7304, front=0.1442, up=-1)
 LOWER_ARCH = Arch(gum=0.7122, front=0.1415, up=1)
+"""Placed by eye: the upper incisors just show when the lips part, the lower ones stand behind them."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,7 @@ class Actor:
     """All that stays the same from frame to frame.
 
     `casting`: eyeball and teeth again with fewer triangles, for shadows.
+    `passed` (S, K, L): the share of the hair's lamps that reaches each point of the crop.
     By vertex of the fine skin: `chart` (N, 2) place on the map of the head, `inner` (N,) inside of the mouth,
     `margin` (N,) moist rims of the lids, `scalp` (N,) under the hair, `veiled` (N,) there and
     just outside its border, where single hairs keep the skin from shining, [0, 1] each.
@@ -61,7 +66,7 @@ class Actor:
     margin: NDArray[np.float32]
     scalp: NDArray[np.float32]
     veiled: NDArray[np.float32]
-    tongue: tuple[object, NDArray[np.int32]]
+    tongue: Subdivision
     shirt: Shirt
     crop: Crop
     passed: NDArray[np.float32]
@@ -114,7 +119,7 @@ def build_actor(lamps: Lamps) -> Actor:
         margin=chart.step(from_eye, 0.0168, 0.0160),
         scalp=chart.step(cover, -0.001, 0.006) * above,
         veiled=chart.step(cover, -0.011, -0.002) * above,
-        tongue=(once.points, once.quads),
+        tongue=once,
         shirt=sew_shirt(figure),
         crop=crop,
         passed=light_through(crop.points, crop.normals, crop.widths, lamps),
@@ -125,9 +130,8 @@ def build_actor(lamps: Lamps) -> Actor:
 def stage(actor: Actor, pose: Pose) -> Scene:
     """Set the actor into a pose."""
     posed = pose_figure(actor.figure, pose)
-    points, tongue_quads = actor.tongue
-    tongue = np.asarray(points @ posed.cage, np.float32)  # type: ignore[operator]
-    tongue_part = (tongue, triangulate(tongue_quads), Part.TONGUE)
+    tongue = (actor.tongue.points @ posed.cage).astype(np.float32)
+    tongue_part = (tongue, triangulate(actor.tongue.quads), Part.TONGUE)
     rest = [*_rigid_parts(actor, posed, actor.eyeball, actor.upper, actor.lower), tongue_part]
     skin_triangles = triangulate(actor.figure.quads)
     normals = vertex_normals(posed.skin, skin_triangles)
@@ -155,9 +159,6 @@ def stage(actor: Actor, pose: Pose) -> Scene:
         wrinkles=pressed(actor.wrinkles, pose.units),
         posed=posed,
     )
-
-
-Piece = tuple[NDArray, NDArray, Part]
 
 
 def _rigid_parts(actor: Actor, posed: Posed, eyeball: Eyeball, upper: Dentition, lower: Dentition) -> list[Piece]:

@@ -44,6 +44,9 @@ BLINKS = ("eyeBlinkLeft", "eyeBlinkRight")
 NECK = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""
 
+LID_GAP = 0.0006
+"""Metres between the eyeball and the surface of the skin on it."""
+
 FRAMED = 0.45
 """Metres: what lies lower in the template's rest pose is never in the picture."""
 
@@ -53,7 +56,7 @@ class Pose:
     """One moment of the performance. Angles in degrees, lengths in metres.
 
     `units`: weights of the face units. `head`: (pitch, yaw, roll), positive down, to the sitter's left, towards
-    the sitter's left shoulder. `gaze`: (up, left) of the eyes within the head. `breath`: 0 empty to 1 full.
+    the sitter's left shoulder; `lean`: how far the whole body moves (x, y, z). `gaze`: (up, left) of the eyes within the head. `breath`: 0 empty to 1 full.
     """
 
     units: Mapping[str, float] = field(default_factory=dict)
@@ -76,7 +79,7 @@ class Figure:
 
     `rest` (V, 3) the person's own template, arms down. `fine` (N, V) sparse and `quads` (F, 4): the skin, twice
     subdivided, cut to what the picture shows; `coarse` and `coarse_quads`: the same once subdivided, for shadows.
-    `head` is the index of the head's bone, `brow` of fine vertices ...
+    `heads` (B, 3) are the joints of the rest pose; `eyes` and `lids` left, then right.
     """
 
     template: Template
@@ -200,10 +203,6 @@ def _fit_eye(points: NDArray[np.float32]) -> Eye:
     return Eye(solution[:3])
 
 
-LID_GAP = 0.0006
-"""Metres between the eyeball and the skin's surface on it."""
-
-
 def _keep_off(surface: NDArray[np.float32], eye: NDArray[np.float64], centre: NDArray[np.float64]) -> None:
     """Push lid skin that a straight blend would sink into the eyeball out to its surface, in place.
 
@@ -229,8 +228,3 @@ def _about(centre: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArra
     motion[:3, :3] = rotation
     motion[:3, 3] = centre - rotation @ centre
     return motion
-
-
-def skin_triangles(figure: Figure) -> NDArray[np.int32]:
-    """The fine skin's triangles."""
-    return triangulate(figure.quads)

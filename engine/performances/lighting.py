@@ -54,9 +54,8 @@ def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.flo
     inside = np.isin(seen.part, (Part.TEETH, Part.TONGUE))
     head = scene.posed.head
     depth = 0.146 - ((seen.position - head[:3, 3]) @ head[:3, :3])[:, 2]
-    return (inside * np.exp(-np.clip(depth, 0, None) / 0.013))[:, None].astype(np.float32) * BOUNCE + wet[
-        :, None
-    ] * EYE_BOUNCE
+    in_mouth = (inside * np.exp(-np.clip(depth, 0, None) / 0.013)).astype(np.float32)
+    return in_mouth[:, None] * BOUNCE + wet[:, None] * EYE_BOUNCE
 
 
 def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:
