@@ -1,0 +1,60 @@
+"""A target and a driver made ready to act, and the frames they give, as the pipeline does it stage by stage."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.media.image import write_image
+from engine.media.limits import Limits
+from engine.portrait.driver import DriverTrack, track_driver
+from engine.portrait.neutral import choose_neutral_frame
+from engine.portrait.options import PortraitOptions
+from engine.portrait.registration import register_track
+from engine.portrait.render import ALL_PARTS, Parts, Renderer
+from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
+
+
+@dataclass(frozen=True)
+class Acting:
+    """Everything that `render` needs."""
+
+    track: DriverTrack
+    neutral: int
+    target: TargetFace
+    layers: Layers
+    options: PortraitOptions
+
+    def frames(self, parts: Parts = ALL_PARTS, step: int = 1) -> Iterator[NDArray[np.uint8]]:
+        """Every `step`-th frame of the animation; the others are not drawn."""
+        renderer = Renderer(self.track, self.neutral, self.target, self.layers, self.options, parts)
+        moments = zip(renderer.motions(), renderer.ratios(), strict=True)
+        with ThreadPoolExecutor() as pool:
+            drawn = [
+                pool.submit(renderer.draw, motion, ratio, renderer.crops(motion.frame))
+                for motion, ratio in moments
+                if motion.frame % step == 0
+            ]
+            for frame in drawn:
+                yield frame.result()
+
+
+def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers]:
+    """A picture (H, W, 3) as a target; `folder` takes its file."""
+    height, width = (side - side % 2 for side in rgb.shape[:2])
+    path = folder / "target.png"
+    write_image(path, np.ascontiguousarray(rgb[:height, :width]))
+    target = find_target_face(path, options, Limits(), lambda code, message: None)
+    return target, separate_layers(target)
+
+
+def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[DriverTrack, int]:
+    """A clip as a driver for a target, its meshes on the skin."""
+    track = track_driver(path, None, None, Limits())
+    chosen = choose_neutral_frame(track, target.mesh, neutral)
+    return replace(track, meshes=register_track(track, chosen).meshes), chosen

@@ -1,0 +1,53 @@
+"""The figures of the portrait system, printed as tables for the README.
+
+python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|all
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from benchmarks import portrait_fidelity, portrait_speed, portrait_steadiness, portrait_turn
+from benchmarks.tables import machine
+
+TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair")
+
+
+def main() -> None:
+    """Read the command line and print the tables asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("what", nargs="?", default="all", choices=(*TABLES, "all", "floor"))
+    parser.add_argument("paths", nargs="*", type=Path, help="floor alone: the clip, and where the encoded one goes")
+    parser.add_argument("--clips", nargs="+", default=[], metavar="NAME", help="driving clips by part of their name")
+    parser.add_argument("--repeats", type=int, default=3, help="speed: how often each case is timed (default 3)")
+    parser.add_argument("--frames", type=int, default=100, help="speed: frames of the clip (default 100)")
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="keep contact sheets here")
+    given = parser.parse_args()
+    if given.what == "floor":
+        portrait_speed.floor(*given.paths)
+        return
+    print(f"Taken on {machine()}")
+    for name in TABLES if given.what == "all" else (given.what,):
+        if name == "speed":
+            portrait_speed.speed(given.repeats, given.frames)
+        elif name == "fidelity":
+            portrait_fidelity.fidelity(given.clips, given.pictures)
+        elif name == "ablations":
+            portrait_fidelity.ablations(given.clips, given.pictures)
+        elif name == "stillness":
+            portrait_steadiness.stillness(given.clips)
+        elif name == "lag":
+            portrait_steadiness.lag(given.clips)
+        elif name == "turn":
+            portrait_turn.turn(given.pictures)
+        else:
+            portrait_fidelity.pair(given.pictures)
+        sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,205 @@
+"""How near an animation comes to the truth: a clip's first frame, driven by the clip disguised as another's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from benchmarks.acting import Acting, read_driver, read_target
+from benchmarks.shared_media import driving_clips, media, tool, write_clip
+from benchmarks.tables import mean_row, table
+from engine.imaging.mesh_warp import inverse_map
+from engine.media.image import read_image
+from engine.perception.faces import find_faces
+from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
+from engine.perception.person import believed_person
+from engine.portrait.alignment import align
+from engine.portrait.control_points import carry_fiducials
+from engine.portrait.options import PortraitOptions
+from engine.portrait.render import Parts
+
+FRAMES, STEP = 240, 8
+"""As the yardsticks were taken: every 8th of the first 240 frames."""
+REGIONS = ("face", "mouth", "eyes", "hair", "background")
+"""`hair` is the person outside the face: hair, ears, neck and shoulders."""
+WARP = Parts(layers=False, hidden=False, details=False, eyes=False)
+PLANE, SPACE = {"head_3d": False}, {"head_3d": True}
+ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
+    ("warp, no smoothing", replace(WARP, smoothing="none"), PLANE),
+    ("warp, constant smoothing", replace(WARP, smoothing="constant"), PLANE),
+    ("warp, confidence-aware", WARP, PLANE),
+    ("+ hidden regions", replace(WARP, hidden=True), PLANE),
+    ("+ full ratio image", replace(WARP, hidden=True, details=True, refined=False), PLANE),
+    ("+ refined ratio image", replace(WARP, hidden=True, details=True), PLANE),
+    ("+ layers", replace(WARP, hidden=True, details=True, layers=True), PLANE),
+    ("+ eyes", Parts(), PLANE),
+    ("+ 3D head (all)", Parts(), SPACE),
+)
+
+
+def fidelity(names: Sequence[str], pictures: Path | None) -> None:
+    """Print the main table: still frame, bare warp, ours on the disguised clip, ours on the clip itself."""
+    rows, figures = [], []
+    for path in driving_clips(names):
+        with TemporaryDirectory() as folder:
+            true, acting, own = _prepared(path, Path(folder), with_self=True)
+            kept = true[::STEP]
+            bare = _bare_warp(acting)
+            made = list(acting.frames(step=STEP))
+            still, warp, ours = (_measures(kept, f) for f in ([kept[0]] * len(kept), bare, made))
+            itself = _measures(kept, list(own.frames(step=STEP)))
+            regions = _regional(kept, made)
+        values = [*still[:2], *warp[:2], *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
+        figures.append(values)
+        rows.append([path.stem, *_shown(values, DIGITS)])
+        _save(pictures, f"fidelity-{path.stem}", kept, bare, made)
+    rows.append(mean_row("mean", figures, DIGITS))
+    head = ["clip", "still L1", "px", "warp L1", "px", "ours L1", "px", "SSIM", "face", "hair", "backgr.", "self L1", "px", "SSIM"]  # fmt: skip
+    print(table("Fidelity: a clip's first frame driven by the disguised clip, against the clip", head, rows))
+    print("\nL1 in [0, 1]; px: mean distance of 68 points at 256 px; face, hair, backgr.: ours' L1 split.")
+    ahead = [f[4] < f[2] and (f[5] or 9) < (f[3] or 0) for f in figures]
+    print(f"Ahead of the bare warp on both: {sum(ahead)} of {len(ahead)} clips.")
+
+
+DIGITS = (4, 2, 4, 2, 4, 3, 4, 4, 4, 4, 4, 3, 4)
+
+
+def ablations(names: Sequence[str], pictures: Path | None) -> None:
+    """Print what each part of the method gains, region by region."""
+    figures: dict[str, list[list[float | None]]] = {label: [] for label, _, _ in ABLATIONS}
+    for path in driving_clips(names):
+        with TemporaryDirectory() as folder:
+            true, acting, _ = _prepared(path, Path(folder), with_self=False)
+            kept = true[::STEP]
+            for label, parts, options in ABLATIONS:
+                varied = replace(acting, options=acting.options.model_copy(update=options))
+                made = list(varied.frames(parts, STEP))
+                regions = _regional(kept, made)
+                figures[label].append([*_measures(kept, made), *(regions[r] for r in REGIONS)])
+                _save(pictures, f"ablation-{path.stem}-{label.strip('+ ').replace(' ', '_')}", kept, made)
+    rows = [mean_row(label, values, (4, 3, 4, *(4,) * len(REGIONS))) for label, values in figures.items()]
+    print(table("Ablations: mean over the clips, disguised driver", ["parts", "L1", "px", "SSIM", *REGIONS], rows))
+    print("\nThe columns from `face` on are the L1 of that region alone, where each part should help.")
+
+
+def pair(pictures: Path | None) -> None:
+    """Print how near the neutral portrait, driven toward the smile, comes to the real smile."""
+    neutral, smile = (read_image(media(f"portraits/pair1_{name}.png")).rgb for name in ("neutral", "smile"))
+    true = [neutral] * 12 + [smile] * 24
+    landmarks = tool("face_measures").Landmarker()(neutral)
+    rows = []
+    for label, driver in (("disguised", tool("disguise").disguise(true, landmarks)), ("itself", true)):
+        with TemporaryDirectory() as folder:
+            options = PortraitOptions(neutral_frame=0)
+            target, layers = read_target(Path(folder), neutral, options)
+            track, chosen = read_driver(write_clip(Path(folder) / "driver.mp4", driver), target, 0)
+            made = list(Acting(track, chosen, target, layers, options).frames())[-1]
+        kept = [neutral, smile]
+        still, ours = (_measures(kept, [neutral, frame], last=True) for frame in (neutral, made))
+        rows.append([label, *_shown([*still, *ours], (4, 2, 4, 4, 2, 4))])
+        _save(pictures, f"pair-{label}", kept, [neutral, made])
+    head = ["driven by the pair", "still L1", "px", "SSIM", "ours L1", "px", "SSIM"]
+    print(table("The pair: neutral driven toward the smile, against the real smile", head, rows))
+
+
+def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[np.uint8]], Acting, Acting]:
+    """The true frames; the first one with the disguised clip; and with the clip itself where asked for."""
+    measures = tool("face_measures")
+    true = measures.frames(path, FRAMES)
+    height, width = (side - side % 2 for side in true[0].shape[:2])
+    true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
+    disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))
+    options = PortraitOptions(neutral_frame=0, size=(width, height) if max(width, height) > 64 else None)
+    target, layers = read_target(folder, true[0], options)
+    track, neutral = read_driver(write_clip(folder / "disguised.mp4", disguised), target, 0)
+    acting = Acting(track, neutral, target, layers, options)
+    if not with_self:
+        return true, acting, acting
+    track, neutral = read_driver(write_clip(folder / "itself.mp4", true), target, 0)
+    return true, acting, Acting(track, neutral, target, layers, options)
+
+
+def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:
+    """The yardstick: the mesh's points by equation 1, a fixed border, piecewise affine, nothing else."""
+    rgb, rest = acting.target.rgb, acting.target.mesh[:468, :2]
+    height, width = rgb.shape[:2]
+    xs, ys = np.linspace(0, width - 1, 9), np.linspace(0, height - 1, 9)
+    border = np.array([(x, y) for x in xs for y in ys if x in (xs[0], xs[-1]) or y in (ys[0], ys[-1])])
+    meshes = acting.track.meshes[::STEP]
+    neutral = acting.track.meshes[acting.neutral]
+    moved = carry_fiducials(align(neutral, acting.target.mesh), meshes, neutral, acting.target.mesh)[:, :468]
+    points = np.concatenate([rest, border]).astype(np.float32)
+    triangles = Delaunay(points).simplices.astype(np.int32)
+    frames = []
+    for face in moved:
+        placed = np.concatenate([face, border]).astype(np.float32)
+        origin = inverse_map(placed, points, triangles, (height, width))
+        frames.append(np.asarray(cv2.remap(rgb, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR), np.uint8))
+    return frames
+
+
+def _measures(
+    true: list[NDArray[np.uint8]], made: list[NDArray[np.uint8]], last: bool = False
+) -> tuple[float, float | None, float]:
+    """L1, mean distance of the 68 points, SSIM by the independent tool; `last` counts the last frame alone."""
+    if last:
+        true, made = [true[0], *true[-1:]], [true[0], *made[-1:]]
+        found = tool("face_measures").compare(true, made, step=1)
+        return 2 * found["l1"], 2 * found["akd"], 2 * found["ssim"] - 1
+    found = tool("face_measures").compare(true, made, step=1)
+    return found["l1"], found["akd"], found["ssim"]
+
+
+def _regional(true: list[NDArray[np.uint8]], made: list[NDArray[np.uint8]]) -> dict[str, float]:
+    """L1 in [0, 1] of each region of the true frames, over the whole picture."""
+    total, count = dict.fromkeys(REGIONS, 0.0), dict.fromkeys(REGIONS, 0.0)
+    for a, b in zip(true, made, strict=True):
+        found = find_faces(a)
+        if not found:
+            continue
+        apart = np.abs(a.astype(float) - b).mean(axis=2) / 255
+        for name, mask in _regions(a, found[0]).items():
+            total[name] += float(apart[mask].sum())
+            count[name] += float(mask.sum())
+    return {name: total[name] / max(count[name], 1) for name in REGIONS}
+
+
+def _regions(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> dict[str, NDArray[np.bool_]]:
+    def hull(vertices: Sequence[int], grow: float) -> NDArray[np.bool_]:
+        mask = np.zeros(rgb.shape[:2], np.uint8)
+        cv2.fillConvexPoly(mask, cv2.convexHull(mesh[list(vertices), :2].round().astype(np.int32)), 1)
+        side = 2 * round(grow) + 1
+        return np.asarray(cv2.dilate(mask, np.ones((side, side), np.uint8)) > 0)
+
+    unit = float(eye_distance(mesh[:, :2]))
+    face, person = hull(FACE_OVAL, 0), believed_person(rgb) > 0.5
+    return {
+        "face": face,
+        "mouth": hull(LIPS_OUTER, 0.06 * unit),
+        "eyes": hull(RIGHT_EYE, 0.08 * unit) | hull(LEFT_EYE, 0.08 * unit),
+        "hair": person & ~face,
+        "background": ~person & ~face,
+    }
+
+
+def _shown(values: Sequence[float | None], digits: Sequence[int]) -> list[str]:
+    return ["lost" if v is None else f"{v:.{d}f}" for v, d in zip(values, digits, strict=True)]
+
+
+def _save(pictures: Path | None, name: str, *rows: list[NDArray[np.uint8]]) -> None:
+    """A contact sheet: the rows under each other, up to eight moments side by side."""
+    if pictures is None:
+        return
+    chosen = np.linspace(0, len(rows[0]) - 1, min(8, len(rows[0]))).round().astype(int)
+    sheet = np.vstack([np.hstack([row[i] for i in chosen]) for row in rows])
+    scale = min(1.0, 2400 / sheet.shape[1])
+    sheet = cv2.resize(sheet, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    pictures.mkdir(parents=True, exist_ok=True)
+    cv2.imwrite(str(pictures / f"{name}.jpg"), sheet[..., ::-1])
