@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 BLOCK = 64
 """Points worked on at a time, so that a long clip takes little memory."""
-REACH = 8
+REACH = 12
 """Frames looked at on either side."""
-TEMPORAL_SIGMA = 5.0
+TEMPORAL_SIGMA = 8.0
 """Frames."""
 RANGE = 3.0
 """Positions further apart than about this many noise deviations are motion, not noise."""

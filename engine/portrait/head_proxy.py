@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID
-from engine.portrait.head_motion import HeadMotion, fit_rigid
+from engine.portrait.head_motion import SOFT_WEIGHT, HeadMotion, fit_rigid
 
 LARGEST_TURN = np.deg2rad(25.0)
 """Turns beyond are held back to this."""
@@ -85,7 +85,7 @@ def move_head(
     -------
     (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`.
     """
-    weights = np.full(MESH_SIZE, 0.05)
+    weights = np.full(MESH_SIZE, SOFT_WEIGHT)
     weights[list(RIGID)] = 1.0
     size, between, _ = fit_rigid(motion.neutral, target[None].astype(float), weights)
     rotation = limit_rotation(between[0] @ motion.rotation @ between[0].T)

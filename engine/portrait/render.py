@@ -76,9 +76,12 @@ class Renderer:
 
     def ratios(self) -> Iterator[NDArray[np.float32] | None]:
         """The refined ratio images, frame by frame (section 6); None where they are switched off."""
-        if not self._parts.details:
-            return iter([None] * len(self._track))
-        return iter(RatioImages(self._track, self._neutral, self.crops, self._parts.refined, self._parts.refined))
+        strength = min(self._options.strength, 1.0) if set(self._options.follow) - {"head"} else 0.0
+        if not self._parts.details or strength == 0:
+            yield from [None] * len(self._track)
+            return
+        for ratio in RatioImages(self._track, self._neutral, self.crops, self._parts.refined, self._parts.refined):
+            yield 1 + np.float32(strength) * (ratio - 1)
 
     def draw(
         self, motion: ControlMotion, ratio: NDArray[np.float32] | None, crop: NDArray[np.uint8]
