@@ -202,4 +202,4 @@ def _save(pictures: Path | None, name: str, *rows: list[NDArray[np.uint8]]) -> N
     scale = min(1.0, 2400 / sheet.shape[1])
     sheet = cv2.resize(sheet, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
     pictures.mkdir(parents=True, exist_ok=True)
-    cv2.imwrite(str(pictures / f"{name}.jpg"), sheet[..., ::-1])
+    cv2.imwrite(str(pictures / f"{name}.png"), sheet[..., ::-1])

@@ -63,7 +63,7 @@ def turn(pictures: Path | None) -> None:
     if pictures is not None:
         pictures.mkdir(parents=True, exist_ok=True)
         sheet = np.vstack([np.hstack([row[i] for i in at[::2]]) for row in (true, made["2D"], made["3D"])])
-        cv2.imwrite(str(pictures / "turn.jpg"), sheet[..., ::-1])
+        cv2.imwrite(str(pictures / "turn.png"), sheet[..., ::-1])
 
 
 def wall(shape: tuple[int, int]) -> NDArray[np.float64]:
