@@ -70,12 +70,13 @@ def _clip(folder: Path, frames: int) -> Path:
 
 
 def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> None:
-    def run(target: StageStore, driver: StageStore) -> Run:
+    def run(target: StageStore, driver: StageStore) -> tuple[Run, float]:
         out = folder / "out"
         out.mkdir(exist_ok=True)
         one = Run(store=target, shared=driver)
+        started = time.perf_counter()
         animate_portrait({"image": image, "driver": clip}, PortraitOptions(), out, one)
-        return one
+        return one, time.perf_counter() - started
 
     known = StageStore(folder / "target"), StageStore(folder / "driver")
     run(*known)  # loads the models, compiles, and fills the stores
@@ -84,7 +85,7 @@ def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> N
     def new() -> StageStore:
         return StageStore(folder / f"new{next(fresh)}")
 
-    cases: list[tuple[str, Callable[[], Run]]] = [
+    cases: list[tuple[str, Callable[[], tuple[Run, float]]]] = [
         ("target and driver known", lambda: run(*known)),
         ("target known, driver new", lambda: run(known[0], new())),
         ("both new", lambda: run(new(), new())),
@@ -92,9 +93,8 @@ def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> N
     rows = []
     for label, case in cases:
         runs = [case() for _ in range(repeats)]
-        totals = [sum(one.seconds.values()) for one in runs]
-        per_stage = [statistics.median(one.seconds.get(stage, 0.0) for one in runs) for stage in STAGES]
-        total = statistics.median(totals)
+        per_stage = [statistics.median(one.seconds.get(stage, 0.0) for one, _ in runs) for stage in STAGES]
+        total = statistics.median(seconds for _, seconds in runs)
         rows.append([label, *(f"{s:.2f}" for s in per_stage), f"{total:.2f}", f"{frames / total:.0f}"])
     title = f"Speed, warm process: {frames} frames at {SIZE[0]}x{SIZE[1]}, encoding included, seconds"
     print(table(title, ["", *STAGES, "all", "frames/s"], rows))
