@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.perception.landmarks import RIGID
 
-SOFT_WEIGHT = 0.05
+SOFT_WEIGHT = 0.01
 """What a vertex that expressions move counts for, against 1 for one of the rigid set."""
 
 
