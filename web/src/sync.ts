@@ -1,7 +1,10 @@
 /** Two videos in step: the result leads, the performance follows. */
 
-/** How far apart, in seconds, the two may be before the follower is set right: about two frames. */
+/** How far apart, in seconds, the two may be while they play before the follower is set right: about two frames. */
 export const TOLERANCE = 0.08;
+
+/** And while they rest: less than a frame of any video. */
+export const AT_REST = 0.004;
 
 /**
  * Where the performance is when the result is at `time`: later by the start of the trimmed part, and at
@@ -13,4 +16,5 @@ export function followerTime(time: number, start: number, duration: number): num
 }
 
 /** Whether the follower has to be set right. */
-export const apart = (actual: number, wanted: number): boolean => Math.abs(actual - wanted) > TOLERANCE;
+export const apart = (actual: number, wanted: number, tolerance: number): boolean =>
+  Math.abs(actual - wanted) > tolerance;

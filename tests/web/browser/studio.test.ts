@@ -14,6 +14,7 @@ afterEach(async () => {
 
 const start = (page: Page) => page.getByRole('button', { name: 'Bring it to life' });
 const portraitInput = (page: Page) => page.getByLabel(/Drop a picture|Portrait:/);
+const performance = (page: Page, name: string) => page.locator('form').getByText(name, { exact: true });
 const videoInput = (page: Page) => page.getByLabel(/Drop a video|Video:/);
 
 describe('choosing', () => {
@@ -30,7 +31,7 @@ describe('choosing', () => {
     await page.getByText('First choose a portrait.').waitFor();
     await portraitInput(page).setInputFiles(portrait);
     await page.getByText('Now choose a performance.').waitFor();
-    await page.getByText('Happy', { exact: true }).click();
+    await performance(page, 'Happy').click();
     expect(await start(page).isEnabled()).toBe(true);
   });
 
@@ -76,7 +77,7 @@ describe('choosing', () => {
   it('sends the options that were chosen', async () => {
     const page = await open(browser);
     await portraitInput(page).setInputFiles(portrait);
-    await page.getByText('Happy', { exact: true }).click();
+    await performance(page, 'Happy').click();
     await page.getByText('Options').click();
     await page.getByLabel('Strength').fill('0.5');
     await page.getByLabel('Head').uncheck();

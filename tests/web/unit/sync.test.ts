@@ -1,4 +1,4 @@
-import { apart, followerTime } from '@web/sync';
+import { apart, AT_REST, followerTime, TOLERANCE } from '@web/sync';
 import { describe, expect, it } from 'vitest';
 
 describe('two videos in step', () => {
@@ -16,9 +16,13 @@ describe('two videos in step', () => {
     expect(followerTime(9, 2.5, NaN)).toBe(11.5);
   });
 
-  it('leaves a difference of one frame alone and mends three', () => {
-    expect(apart(1, 1 + 1 / 25)).toBe(false);
-    expect(apart(1, 1 + 3 / 25)).toBe(true);
-    expect(apart(1 + 3 / 25, 1)).toBe(true);
+  it('leaves a difference of one frame alone while they play, and mends three', () => {
+    expect(apart(1, 1 + 1 / 25, TOLERANCE)).toBe(false);
+    expect(apart(1, 1 + 3 / 25, TOLERANCE)).toBe(true);
+    expect(apart(1 + 3 / 25, 1, TOLERANCE)).toBe(true);
+  });
+
+  it('mends the difference of one frame at rest', () => {
+    expect(apart(1, 1 + 1 / 60, AT_REST)).toBe(true);
   });
 });

@@ -4,7 +4,7 @@ import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { clock } from '../format';
 import { strings } from '../strings';
-import { apart, followerTime } from '../sync';
+import { apart, AT_REST, followerTime, TOLERANCE } from '../sync';
 
 interface Props {
   result: string;
@@ -162,13 +162,14 @@ function useInStep(
 
     const align = (): void => {
       onTime(lead.currentTime);
-      if (!follow || follow.seeking) return;
-      const wanted = followerTime(lead.currentTime, start, follow.duration);
-      if (apart(follow.currentTime, wanted) || lead.paused) follow.currentTime = wanted;
+      if (!follow) return;
       if (lead.paused !== follow.paused && !follow.ended) {
         if (lead.paused) follow.pause();
         else void follow.play().catch(() => undefined); // its format may not play here; the figure says so
       }
+      if (follow.seeking) return; // its own `seeked` comes back here
+      const wanted = followerTime(lead.currentTime, start, follow.duration);
+      if (apart(follow.currentTime, wanted, lead.paused ? AT_REST : TOLERANCE)) follow.currentTime = wanted;
     };
     let frame = 0;
     const watch = (): void => {
@@ -179,10 +180,12 @@ function useInStep(
     else align();
     lead.addEventListener('seeked', align);
     follow?.addEventListener('loadedmetadata', align);
+    follow?.addEventListener('seeked', align);
     return () => {
       cancelAnimationFrame(frame);
       lead.removeEventListener('seeked', align);
       follow?.removeEventListener('loadedmetadata', align);
+      follow?.removeEventListener('seeked', align);
     };
   }, [playing, start]);
 }
