@@ -11,7 +11,8 @@ from __future__ import annotations
 import hashlib
 import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
@@ -90,21 +91,43 @@ class Run:
         """
         with self.timed(name):
             store = (self._shared if shared else self._store) if stored else None
-            key = self.key(name, *arguments)
-            kept = store.load(key, get_type_hints(function)["return"]) if store is not None else None
-            if kept is not None:
-                notices, output = kept
-                self.notices.extend(notices)
-                self.reused.append(name)
-            else:
-                before = len(self.notices)
-                output = function(*arguments)
-                if store is not None:
-                    store.save(key, output, self.notices[before:])
-                    if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
-                        _, output = kept
-            self._keys[id(output)] = (output, key)
-            return output
+            before = len(self.notices)
+            return self._output(name, function, arguments, store, lambda: self.notices[before:])
+
+    def beside(self, name: str, function: Callable[..., T], *arguments: Any) -> Callable[[], T]:
+        """Begin a stage on another core while the next ones run; what is returned waits for its output.
+
+        For stages that give no notices and report nothing on the way. Its time is that of the wait.
+        """
+        pool = ThreadPoolExecutor(1, thread_name_prefix=name)
+        output = pool.submit(self._output, name, function, arguments, self._store, list)
+        pool.shutdown(wait=False)
+
+        def wait() -> T:
+            with self.timed(name):
+                return output.result()
+
+        return wait
+
+    def _output(
+        self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None,
+        given: Callable[[], list[Notice]],
+    ) -> T:  # fmt: skip
+        """The output from the store, or made and stored together with the notices `given` while it was made."""
+        key = self.key(name, *arguments)
+        kept = store.load(key, get_type_hints(function)["return"]) if store is not None else None
+        if kept is not None:
+            notices, output = kept
+            self.notices.extend(notices)
+            self.reused.append(name)
+        else:
+            output = function(*arguments)
+            if store is not None:
+                store.save(key, output, given())
+                if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
+                    _, output = kept
+        self._keys[id(output)] = (output, key)
+        return output
 
     @contextmanager
     def timed(self, name: str):  # type: ignore[no-untyped-def]

@@ -10,6 +10,7 @@ import json
 import os
 import shutil
 import tempfile
+import time
 import zipfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass
@@ -20,6 +21,9 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 from engine.errors import Notice
+
+IN_USE = 3600.0
+"""Seconds since its last use within which an output is not erased."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +85,25 @@ class StageStore:
         finally:
             shutil.rmtree(draft, ignore_errors=True)
 
+    def trim(self, most: float) -> None:
+        """Erase the outputs that were not used for longest until the store holds no more than `most` bytes.
+
+        What was used within the last hour stays: a running job may be about to read it.
+        """
+        folders = list(self.folder.glob("*")) if self.folder.is_dir() else []
+        entries = sorted((folder.stat().st_mtime, _size(folder), folder) for folder in folders)
+        total = sum(size for _, size, _ in entries)
+        limit = time.time() - IN_USE
+        for used, size, folder in entries:
+            draft = folder.name.startswith(".draft-")
+            if used > limit or (total <= most and not draft):
+                continue
+            # First out of sight in one step, so that nobody finds half of it.
+            doomed = folder.with_name(f".draft-erased-{folder.name}")
+            folder.rename(doomed)
+            shutil.rmtree(doomed, ignore_errors=True)
+            total -= size
+
     def _publish(self, draft: Path, key: str) -> None:
         try:
             draft.rename(self.folder / key)
@@ -127,3 +150,7 @@ def _unpack(kind: Any, value: Any, arrays: dict[str, np.ndarray], folder: Path, 
         hints = get_type_hints(kind)
         return kind(**{k: _unpack(hints[k], v, arrays, folder, f"{name}.{k}") for k, v in value.items()})  # type: ignore[operator]
     return value
+
+
+def _size(folder: Path) -> int:
+    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())

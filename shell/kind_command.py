@@ -24,11 +24,10 @@ from engine.kind import Input, Kind
 from engine.run import Run
 from engine.store import StageStore
 from service.kinds import library
-from service.settings import Settings
+from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced
 from shell.settings import read_settings
-from worker.housekeeping import trim
 
 
 def kind_command(kind: Kind) -> click.Command:
@@ -88,7 +87,7 @@ def _options(kind: Kind, text: str) -> BaseModel:
 def _run(
     kind: Kind, inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, settings: Settings
 ) -> None:
-    cache = settings.data_dir / "cache"
+    cache = StageStore(settings.data_dir / "cache")
     try:
         out.mkdir(parents=True, exist_ok=True)
         with (
@@ -101,7 +100,7 @@ def _run(
             def report(progress: engine_run.Progress) -> None:
                 bar.update(task, completed=progress.fraction, description=progress.message or progress.stage)
 
-            run = Run(shared=StageStore(cache), on_progress=report, limits=settings.limits)
+            run = Run(store=cache, on_progress=report, limits=settings.limits)
             kind.work(inputs, options, Path(draft), run)
             results = [Path(shutil.move(made, out / made.name)) for made in sorted(Path(draft).iterdir())]
     except InputError as error:
@@ -116,7 +115,7 @@ def _run(
         click.echo(f"{click.style(notice.code, fg='yellow')}: {notice.message}", err=True)
     for result in results:
         click.echo(result)
-    trim(cache, settings.cache_mb)
+    cache.trim(settings.cache_mb * MEGABYTE)
 
 
 def _bar(console: Console) -> Progress:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from sqlalchemy.orm import Session
 
+from engine.store import StageStore
 from service.artifacts import repository as artifacts
 from service.clock import now
 from service.context import Context
@@ -28,7 +29,7 @@ def keep_house(context: Context) -> None:
     """Erase once what has had its time."""
     erase_old_files(context)
     erase_orphans(context)
-    trim(context.settings.data_dir / "cache", context.settings.cache_mb)
+    StageStore(context.settings.data_dir / "cache").trim(context.settings.cache_mb * MEGABYTE)
 
 
 def erase_old_files(context: Context) -> None:
@@ -56,25 +57,6 @@ def erase_orphans(context: Context) -> None:
         path.unlink(missing_ok=True)
 
 
-def trim(cache: Path, most_mb: float) -> None:
-    """Erase the stage outputs that were not used for longest until the cache is no larger than allowed.
-
-    What was used within the last hour stays: a running job may be about to read it.
-    """
-    entries = [(entry.stat().st_mtime, _size(entry), entry) for entry in cache.glob("*")] if cache.is_dir() else []
-    total = sum(size for _, size, _ in entries)
-    limit = (now() - IN_PROGRESS).timestamp()
-    for used, size, entry in sorted(entries, key=lambda item: item[0]):
-        draft = entry.name.startswith(".draft-")
-        if used > limit or (total <= most_mb * MEGABYTE and not draft):
-            continue
-        # First out of sight in one step, so that nobody finds half of it.
-        doomed = entry.with_name(f".draft-erased-{entry.name}")
-        entry.rename(doomed)
-        shutil.rmtree(doomed, ignore_errors=True)
-        total -= size
-
-
 def _without_record(
     context: Context, ids: Sequence[str], known: Callable[[Session, Sequence[str]], set[str]]
 ) -> list[str]:
@@ -87,7 +69,3 @@ def _older(folder: Path, before: datetime) -> list[Path]:
     if not folder.is_dir():
         return []
     return [path for path in folder.iterdir() if path.stat().st_mtime < before.timestamp()]
-
-
-def _size(folder: Path) -> int:
-    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())

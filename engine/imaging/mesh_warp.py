@@ -6,17 +6,19 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+ROUNDING = 1e-4
+"""By how much a pixel may lie outside a triangle, in barycentric coordinates, and still count as in it."""
+NEVER = 1e9
+
 
 @numba.njit(cache=True, nogil=True, inline="always")
-def _span(start: float, slope: float, first: int, last: int) -> tuple[int, int]:
-    """The part of first..last where start + x * slope is not negative (by more than rounding)."""
-    if slope > 1e-12:
-        first = max(first, int(np.ceil((-1e-4 - start) / slope)))
-    elif slope < -1e-12:
-        last = min(last, int(np.floor((-1e-4 - start) / slope)))
-    elif start < -1e-4:
-        last = first - 1
-    return first, last
+def _bounds(w: float, wx: float, wy: float) -> tuple[float, float, float, float]:
+    """Where w + wx * dx + wy * dy is not negative: from a + b * dy to c + d * dy, as (a, b, c, d)."""
+    if wx > 1e-12:
+        return (-ROUNDING - w) / wx, -wy / wx, NEVER, 0.0
+    if wx < -1e-12:
+        return -NEVER, 0.0, (-ROUNDING - w) / wx, -wy / wx
+    return -NEVER, 0.0, NEVER, 0.0  # an edge along the row bounds rows, as the triangle's box does
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
@@ -30,38 +32,50 @@ def _rasterise(
 ) -> None:
     height, width = nearest.shape
     channels = field.shape[2]
+    along = np.zeros(channels)  # what a step along the row adds to each channel
+    start = np.zeros(channels)
     for t in range(triangles.shape[0]):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        ax, ay = out_xy[a, 0], out_xy[a, 1]
-        bx, by = out_xy[b, 0], out_xy[b, 1]
-        cx, cy = out_xy[c, 0], out_xy[c, 1]
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        ax, ay = float(out_xy[a, 0]), float(out_xy[a, 1])
+        bx, by = out_xy[b, 0] - ax, out_xy[b, 1] - ay
+        cx, cy = out_xy[c, 0] - ax, out_xy[c, 1] - ay
+        area = bx * cy - by * cx
         if abs(area) < 1e-9:
             continue
-        y0 = max(0, int(np.ceil(min(ay, by, cy) - 1e-3)))
-        y1 = min(height - 1, int(np.floor(max(ay, by, cy) + 1e-3)))
-        x0 = max(0, int(np.ceil(min(ax, bx, cx) - 1e-3)))
-        x1 = min(width - 1, int(np.floor(max(ax, bx, cx) + 1e-3)))
+        y0 = max(0, int(np.ceil(ay + min(0.0, by, cy) - 1e-3)))
+        y1 = min(height - 1, int(np.floor(ay + max(0.0, by, cy) + 1e-3)))
+        x0 = max(0, int(np.ceil(ax + min(0.0, bx, cx) - 1e-3)))
+        x1 = min(width - 1, int(np.floor(ax + max(0.0, bx, cx) + 1e-3)))
         if y0 > y1 or x0 > x1:
             continue
-        inverse = 1.0 / area
-        # barycentric coordinates are affine in x: wb = wb0 + x * wbx
-        wbx, wcx = (cy - ay) * inverse, (ay - by) * inverse
+        # barycentric coordinates, and all that is interpolated, are affine in the place relative to corner a
+        bdx, bdy, cdx, cdy = cy / area, -cx / area, -by / area, bx / area
+        from_b, from_b_dy, to_b, to_b_dy = _bounds(0.0, bdx, bdy)
+        from_c, from_c_dy, to_c, to_c_dy = _bounds(0.0, cdx, cdy)
+        from_a, from_a_dy, to_a, to_a_dy = _bounds(1.0, -bdx - cdx, -bdy - cdy)
+        zb, zc = depth[b] - depth[a], depth[c] - depth[a]
+        zx, zy = zb * bdx + zc * cdx, zb * bdy + zc * cdy
+        for k in range(channels):
+            along[k] = (source[b, k] - source[a, k]) * bdx + (source[c, k] - source[a, k]) * cdx
         for y in range(y0, y1 + 1):
-            wb0 = ((cx - ax) * -(y - ay) + (cy - ay) * -ax) * inverse
-            wc0 = ((bx - ax) * (y - ay) - (by - ay) * -ax) * inverse
-            first, last = _span(wb0, wbx, x0, x1)
-            first, last = _span(wc0, wcx, first, last)
-            first, last = _span(1.0 - wb0 - wc0, -wbx - wcx, first, last)
+            dy = y - ay
+            left = max(from_a + from_a_dy * dy, from_b + from_b_dy * dy, from_c + from_c_dy * dy)
+            right = min(to_a + to_a_dy * dy, to_b + to_b_dy * dy, to_c + to_c_dy * dy)
+            first, last = max(x0, int(np.ceil(ax + left))), min(x1, int(np.floor(ax + right)))
+            if first > last:
+                continue
+            dx = first - ax
+            z = depth[a] + zx * dx + zy * dy
+            wb, wc = bdx * dx + bdy * dy, cdx * dx + cdy * dy
+            for k in range(channels):
+                start[k] = source[a, k] + (source[b, k] - source[a, k]) * wb + (source[c, k] - source[a, k]) * wc
             for x in range(first, last + 1):
-                wb, wc = wb0 + x * wbx, wc0 + x * wcx
-                wa = 1.0 - wb - wc
-                z = wa * depth[a] + wb * depth[b] + wc * depth[c]
-                if z >= nearest[y, x]:
-                    continue
-                nearest[y, x] = z
-                for k in range(channels):
-                    field[y, x, k] = wa * source[a, k] + wb * source[b, k] + wc * source[c, k]
+                step = x - first
+                here = np.float32(z + step * zx)
+                if here < nearest[y, x]:
+                    nearest[y, x] = here
+                    for k in range(channels):
+                        field[y, x, k] = start[k] + step * along[k]
 
 
 def inverse_map(

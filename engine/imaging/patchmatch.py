@@ -7,6 +7,10 @@ melding", SIGGRAPH 2012), so that a gradually lit wall can be continued from a d
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+
 import cv2
 import numba
 import numpy as np
@@ -26,6 +30,9 @@ GRAIN = 8
 stand alone where it is clearly best, and for seams between equals to blend."""
 
 SIDE = 2 * RADIUS + 1
+
+BAND, MOST_BANDS = 6000, 4
+"""Patches that make a band of their own worth while, and how many bands at most."""
 
 
 def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -91,19 +98,14 @@ def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
-def match_patches(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed):  # type: ignore[no-untyped-def]
-    """Improve `field` (H, W, 2) int32, the centre (y, x) of the source of each target patch, in place.
-
-    `planes` (`colour_planes`) hold the present guess inside the hole; `weight` (H, W) is how much each
-    pixel counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
-    """
+def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom):  # type: ignore[no-untyped-def]
     height, width = cost.shape
-    state = np.uint32(seed * 2654435761 + 12345)
+    state = np.uint32((seed + top) * 2654435761 + 12345)
     target = np.zeros((4, SIDE, 8), np.float32)
     for sweep in range(sweeps):
         step = 1 if sweep % 2 == 0 else -1
-        for row in range(height):
-            y = row if step == 1 else height - 1 - row
+        for row in range(bottom - top):
+            y = top + row if step == 1 else bottom - 1 - row
             for column in range(width):
                 x = column if step == 1 else width - 1 - column
                 if not targets[y, x]:
@@ -113,7 +115,7 @@ def match_patches(planes, weight, targets, sources, field, cost, sweeps, random_
                 best = patch_distance(planes, target, mass, by, bx) if sweep == 0 else cost[y, x]
                 for k in range(2):
                     ny, nx = (y - step, x) if k == 0 else (y, x - step)
-                    if ny < 0 or nx < 0 or ny >= height or nx >= width or not targets[ny, nx]:
+                    if ny < top or nx < 0 or ny >= bottom or nx >= width or not targets[ny, nx]:
                         continue
                     sy, sx = field[ny, nx, 0] + y - ny, field[ny, nx, 1] + x - nx
                     if 0 <= sy < height and 0 <= sx < width and sources[sy, sx] and not (sy == by and sx == bx):
@@ -134,6 +136,30 @@ def match_patches(planes, weight, targets, sources, field, cost, sweeps, random_
                         if found < best:
                             best, by, bx = found, sy, sx
                 cost[y, x], field[y, x, 0], field[y, x, 1] = best, by, bx
+
+
+def match_patches(
+    planes: NDArray[np.float32], weight: NDArray[np.float32], targets: NDArray[np.bool_], sources: NDArray[np.bool_],
+    field: NDArray[np.int32], cost: NDArray[np.float32], sweeps: int, random_tries: int, seed: int,
+) -> None:  # fmt: skip
+    """Improve `field` (H, W, 2) int32, the centre (y, x) of the source of each target patch, in place.
+
+    `planes` (`colour_planes`) hold the present guess inside the hole; `weight` (H, W) is how much each
+    pixel counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
+    Large pictures are matched in bands side by side; the same ones on every machine, so that the result is too.
+    """
+    so_far = np.cumsum(targets.sum(axis=1))
+    bands = int(np.clip(so_far[-1] // BAND, 1, MOST_BANDS))
+    cuts = [0, *(int(np.searchsorted(so_far, so_far[-1] * k / bands)) for k in range(1, bands)), len(targets)]
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        work = [
+            pool.submit(
+                _match_band, planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom
+            )
+            for top, bottom in pairwise(cuts)
+        ]
+        for band in work:
+            band.result()
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.solutions import solution
+
 LANDMARKS = (
     *("Nose", "LeftEyeInner", "LeftEye", "LeftEyeOuter", "RightEyeInner", "RightEye", "RightEyeOuter"),
     *("LeftEar", "RightEar", "MouthLeft", "MouthRight", "LeftShoulder", "RightShoulder", "LeftElbow"),
@@ -95,9 +97,8 @@ def find_body(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Body | None:
 
 
 def _pose(video: bool, confidence: float) -> Any:
-    from mediapipe.python.solutions.pose import Pose
 
-    return Pose(
+    return solution("pose").Pose(
         static_image_mode=not video,
         model_complexity=1,
         min_detection_confidence=confidence,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import MESH_SIZE
+from engine.perception.solutions import solution
 
 SETTLING_PASSES = 3
 """A mesh found in a still is looked at again in its own region this often; then it moves no more."""
@@ -78,10 +79,9 @@ def _settled(rgb: NDArray[np.uint8], box: NDArray[np.float64], confidence: float
 
 
 def _detect(rgb: NDArray[np.uint8], confidence: float) -> list[NDArray[np.float64]]:
-    from mediapipe.python.solutions.face_detection import FaceDetection
 
     height, width = rgb.shape[:2]
-    with FaceDetection(model_selection=1, min_detection_confidence=confidence) as detector:
+    with solution("face_detection").FaceDetection(model_selection=1, min_detection_confidence=confidence) as detector:
         found = detector.process(np.ascontiguousarray(rgb)).detections or []
     boxes = []
     for face in found:
@@ -93,9 +93,8 @@ def _detect(rgb: NDArray[np.uint8], confidence: float) -> list[NDArray[np.float6
 
 
 def _face_mesh(faces: int, confidence: float) -> Any:
-    from mediapipe.python.solutions.face_mesh import FaceMesh
 
-    return FaceMesh(
+    return solution("face_mesh").FaceMesh(
         static_image_mode=False,
         refine_landmarks=True,
         max_num_faces=faces,

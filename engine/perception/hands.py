@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.body import Body
+from engine.perception.solutions import solution
 
 Side = Literal["Left", "Right"]
 
@@ -104,9 +105,8 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
 
 
 def _hands(video: bool, hands: int, confidence: float) -> Any:
-    from mediapipe.python.solutions.hands import Hands
 
-    return Hands(
+    return solution("hands").Hands(
         static_image_mode=not video,
         max_num_hands=hands,
         model_complexity=1,

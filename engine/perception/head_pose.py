@@ -9,7 +9,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import RBFInterpolator
 
 from engine.errors import InputError
 from engine.perception.landmarks import RIGID, fiducials
@@ -86,6 +85,8 @@ def mesh_from_fiducials(points: NDArray[np.floating]) -> NDArray[np.float32]:
     known = fiducials(canonical)[:, :2]
     if np.linalg.matrix_rank(points - points.mean(axis=0), tol=1.0) < 2:
         raise InputError("landmarks_invalid", "The placed landmarks all lie on one line.", ("landmarks",))
+    from scipy.interpolate import RBFInterpolator  # slow to import, and only placed landmarks need it
+
     bend = RBFInterpolator(known, points, kernel="thin_plate_spline", smoothing=1e-6)
     plane = bend(canonical[:, :2])
     return np.column_stack([plane, _depth(plane)]).astype(np.float32)

@@ -20,6 +20,7 @@ FIDUCIALS: tuple[tuple[int, ...], ...] = tuple(
     )
 )
 """The 68 points of the iBUG scheme as mesh vertices; where two are named, their mean."""
+_FIRST, _SECOND = np.array([(v[0], v[-1]) for v in FIDUCIALS]).T
 
 JAW, BROWS, NOSE, EYES, OUTER_LIPS, INNER_LIPS = (
     slice(0, 17),
@@ -64,7 +65,7 @@ RIGID = (
 
 def fiducials(mesh: NDArray[np.floating]) -> NDArray[np.floating]:
     """The 68 points of one mesh or many: (..., 478, D) to (..., 68, D), same units."""
-    return np.stack([mesh[..., list(v), :].mean(axis=-2) for v in FIDUCIALS], axis=-2)
+    return (mesh[..., _FIRST, :] + mesh[..., _SECOND, :]) / 2
 
 
 def mouth_opening(mesh: NDArray[np.floating]) -> NDArray[np.floating]:

@@ -18,6 +18,7 @@ from engine.imaging.resample import resized, size_within
 from engine.imaging.trimap import SURE, outline_trimap
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel
+from engine.perception.solutions import solution
 
 Mask = NDArray[np.float32]
 
@@ -82,9 +83,7 @@ def believed_person(rgb: NDArray[np.uint8]) -> Mask:
 def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:
     """The selfie network's belief, looking closer where people take up a small part of the picture."""
     height, width = rgb.shape[:2]
-    from mediapipe.python.solutions.selfie_segmentation import SelfieSegmentation
-
-    with SelfieSegmentation(model_selection=0) as network:
+    with solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
 
         def look(part: NDArray[np.uint8]) -> Mask:
             straight = network.process(np.ascontiguousarray(part)).segmentation_mask
@@ -107,9 +106,8 @@ def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:
 
 def _pose_mask(rgb: NDArray[np.uint8]) -> Mask | None:
     """The body pose's belief; None where it sees no body."""
-    from mediapipe.python.solutions.pose import Pose
 
-    with Pose(static_image_mode=True, model_complexity=1, enable_segmentation=True) as network:
+    with solution("pose").Pose(static_image_mode=True, model_complexity=1, enable_segmentation=True) as network:
         mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask
     return None if mask is None else np.asarray(mask, np.float32)
 

@@ -63,9 +63,8 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
     xs = xs + (np.arange(len(xs)) % 2)[:, None] * spacing / 2
     grid = np.stack([xs.ravel(), ys.ravel()], axis=1)
     grid = grid[(grid[:, 0] > spacing / 2) & (grid[:, 0] < width - 1 - spacing / 2)]
-    reach = 2 * round(spacing) + 1
-    around = cv2.dilate((person > 0.3).astype(np.uint8), cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
-    grid = grid[around[grid[:, 1].astype(int), grid[:, 0].astype(int)] > 0]
+    away = cv2.distanceTransform((person <= 0.3).astype(np.uint8), cv2.DIST_L2, 5)
+    grid = grid[away[grid[:, 1].astype(int), grid[:, 0].astype(int)] <= spacing]
     oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
     grid = grid[[cv2.pointPolygonTest(oval, (float(x), float(y)), True) < -0.35 * spacing for x, y in grid]]
     count = BORDER_POINTS

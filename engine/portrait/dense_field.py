@@ -128,10 +128,8 @@ def build_warp_mesh(
     samples = np.stack(np.meshgrid(samples_x, samples_y), axis=-1).reshape(-1, 2)
     triangulation = Delaunay(control[used])
     select = sparse.csr_matrix((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(control)))
-    rows = (interpolation_matrix(control[used], vertices, triangulation) @ select).tolil()
-    rows[: len(on_face)] = 0
-    rows[np.arange(len(on_face)), on_face] = 1
-    operator = rows.tocsr()
+    around = interpolation_matrix(control[used], vertices[len(on_face) :], triangulation)
+    operator = sparse.vstack([sparse.eye(len(control), format="csr")[on_face], around @ select], format="csr")
     if smoothing != "none":
         radii = (
             disk_radii(face, vertices, shape)

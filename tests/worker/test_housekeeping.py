@@ -17,7 +17,7 @@ from service.drivers.models import Driver
 from service.files.models import File
 from service.ids import new_id
 from service.jobs.models import Job, JobFile
-from worker.housekeeping import keep_house, trim
+from worker.housekeeping import keep_house
 
 
 def stored(context: Context, age: timedelta = timedelta(0), recorded: bool = True) -> File:
