@@ -300,3 +300,33 @@ def test_the_report_has_the_contract_s_fields(path: Path, tmp_path: Path) -> Non
 
 def test_content_hash_is_sha256(path: Path) -> None:
     assert content_hash(path) == "039058c6f2c0cb492c533b0a4d14ef77cc0f78abccced5287d84a1a2011cfb81"
+
+
+def _heavy(points: Points, by: float) -> Points:
+    if by < 0:
+        raise ValueError("less than nothing")
+    return Points(points.xy * by)
+
+
+def test_a_stage_beside_others_is_kept_like_any_other_and_takes_no_notices_of_theirs(store: StageStore) -> None:
+    for reused in ([], ["heavy", "light"]):
+        run = Run(store=store)
+        run.plan({"light": 1, "heavy": 1})
+        heavy = run.beside("heavy", _heavy, Points(np.ones(3)), 4.0)
+        light = run.stage("light", _warning, run.warn)
+        np.testing.assert_array_equal(heavy().xy, [4, 4, 4])
+        np.testing.assert_array_equal(light.xy, [0])
+        assert sorted(run.reused) == reused
+        assert [notice.code for notice in run.notices] == ["dark"], "the notice belongs to the other stage"
+
+
+def _warning(warn) -> Points:
+    warn("dark", "It is dark.")
+    return Points(np.zeros(1))
+
+
+def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
+    run = Run()
+    wait = run.beside("heavy", _heavy, Points(np.ones(3)), -1.0)
+    with pytest.raises(ValueError, match="less than nothing"):
+        wait()

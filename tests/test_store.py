@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -163,3 +165,16 @@ def test_an_output_counts_as_just_used_when_found(store: StageStore) -> None:
     os.utime(store.folder / "key", (1, 1))
     assert store.find("key") is not None
     assert (store.folder / "key").stat().st_mtime > 1_000_000
+
+
+def test_a_trimmed_store_loses_what_was_not_used_for_longest(tmp_path: Path) -> None:
+    store = StageStore(tmp_path)
+    for name, hours in (("a", 9), ("b", 7), ("c", 8), ("d", 0.5), (".draft-x", 5)):
+        store.save(name, (np.zeros(125_000),))  # a megabyte each
+        used = time.time() - 3600 * hours
+        os.utime(tmp_path / name, (used, used))
+    store.trim(3.5e6)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["b", "d"]
+    store.trim(0)
+    assert [path.name for path in tmp_path.iterdir()] == ["d"], "a running job may be about to read it"
+    assert store.find("d") is not None

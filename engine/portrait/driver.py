@@ -9,6 +9,7 @@ from __future__ import annotations
 import tempfile
 from collections import OrderedDict
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -98,7 +99,8 @@ def track_driver(
     size = (info.width, info.height)
     periphery = PeripheryTracker()
     crops = Path(tempfile.mkdtemp(prefix="galatea-crops-")) / "crops.jpegs"
-    with FaceTracker() as tracker, crops.open("wb") as file:
+    with FaceTracker() as tracker, crops.open("wb") as file, ThreadPoolExecutor(1) as beside:
+        around: Future[None] = beside.submit(lambda: None)  # the points around follow a frame behind, on another core
         for index, frame in enumerate(
             read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
         ):
@@ -114,7 +116,9 @@ def track_driver(
             )
             file.write(_jpeg(np.asarray(crop, np.uint8)))
             ends.append(file.tell())
-            periphery.follow(frame.rgb, mesh if found[-1] else None)
+            around.result()
+            around = beside.submit(periphery.follow, frame.rgb, mesh if found[-1] else None)
+        around.result()
     if not any(found):
         raise InputError(
             "no_face_in_driver",

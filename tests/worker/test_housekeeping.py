@@ -8,9 +8,6 @@ from datetime import timedelta
 from io import BytesIO
 from pathlib import Path
 
-import numpy as np
-
-from engine.store import StageStore
 from service.clock import now
 from service.context import Context
 from service.drivers.models import Driver
@@ -77,15 +74,3 @@ def test_what_lies_there_without_a_record_is_erased_once_nobody_can_be_at_it(con
     assert context.storage.local(fresh.key).exists()
     assert [path.name for path in (data / "jobs").iterdir()] == [known.id]
     assert [path.name for path in (data / "incoming").iterdir()] == ["coming"]
-
-
-def test_the_cache_loses_what_was_not_used_for_longest(tmp_path: Path) -> None:
-    store = StageStore(tmp_path)
-    for name, hours in (("a", 9), ("b", 7), ("c", 8), ("d", 0.5), (".draft-x", 5)):
-        store.save(name, (np.zeros(125_000),))  # a megabyte each
-        made_old(tmp_path / name, timedelta(hours=hours))
-    trim(tmp_path, 3.5)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["b", "d"]
-    trim(tmp_path, 0)
-    assert [path.name for path in tmp_path.iterdir()] == ["d"], "a running job may be about to read it"
-    assert store.find("d") is not None
