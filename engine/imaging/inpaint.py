@@ -19,6 +19,7 @@ from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
+from engine.imaging.seams import heal_seams
 
 COARSEST = 120
 """Longest side, in pixels, of the coarsest picture."""
@@ -97,6 +98,7 @@ def _fill(image: NDArray[np.float32], hole: NDArray[np.bool_], reach: float, see
         weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
         effort = _effort(len(levels) - 1 - level.number, level)
         guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
+        guess = heal_seams(guess, field, active & targets)
     return guess
 
 

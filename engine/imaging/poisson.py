@@ -29,11 +29,15 @@ def poisson_blend(
 
 
 def membrane(
-    boundary_difference: NDArray[np.float32], mask: NDArray[np.bool_], cycles: int = CYCLES
+    boundary_difference: NDArray[np.float32],
+    mask: NDArray[np.bool_],
+    cycles: int = CYCLES,
+    divergence: NDArray[np.float32] | None = None,
 ) -> NDArray[np.float32]:
     """Laplace interpolation into `mask` (H, W) of the values (H, W, C) found just outside it; 0 elsewhere.
 
-    Solves sum over the four neighbours q of p of (u_q - u_p) = 0 for p in the mask, u being given outside.
+    Solves sum over the four neighbours q of p of (u_q - u_p) = `divergence` (H, W, C), or 0, for p in the mask,
+    u being given outside.
     Where the mask meets the array's border the membrane is free there. A part of the mask that nothing
     outside holds is left at 0.
     """
@@ -45,7 +49,11 @@ def membrane(
     left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, mask.shape[1])
     inner = np.ascontiguousarray(mask[top:bottom, left:right])
     result = np.zeros_like(values)
-    result[top:bottom, left:right] = _solve(np.ascontiguousarray(values[top:bottom, left:right]), inner, cycles)
+    force = np.zeros_like(values) if divergence is None else -divergence
+    inside = slice(top, bottom), slice(left, right)
+    result[inside] = _solve(
+        np.ascontiguousarray(values[inside]), np.ascontiguousarray(force[inside], np.float32), inner, cycles
+    )
     return result
 
 
@@ -183,7 +191,7 @@ def _start_from(coarse, coarse_inverse, u, right, inverse):  # type: ignore[no-u
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
-def _solve(values, mask, cycles):  # type: ignore[no-untyped-def]
+def _solve(values, force, mask, cycles):  # type: ignore[no-untyped-def]
     height, width, channels = values.shape
     distance = _edge_distances(mask)
     u = [np.zeros((height + 2, width + 2, channels), np.float32)]
@@ -191,6 +199,7 @@ def _solve(values, mask, cycles):  # type: ignore[no-untyped-def]
     links = [np.zeros((height + 2, width + 2, 4), np.float32)]
     inverse = [np.zeros((height + 2, width + 2), np.float32)]
     _discretise(distance, values, 1, links[0], inverse[0], own[0])
+    own[0][1:-1, 1:-1] += force  # the coarse grids learn of it by the residual
     step = 1
     while (min(height, width) - 1) // (2 * step) >= 1:
         step *= 2
