@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.perception.landmarks import fiducials
+from engine.perception.models import matting_model
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.loop import close_loop
 from engine.portrait.neutral import choose_neutral_frame
@@ -37,7 +39,8 @@ def animate_portrait(
     target = run.stage("find_face", find_target_face, image, framing, limits, run.warn)
     write_image(out / "preview.jpg", target.rgb)
     run.publish(out / "preview.jpg")
-    layers_beside = run.beside("separate_layers", separate_layers, target)
+    model = matting_model(os.environ)
+    layers_beside = run.beside("separate_layers", separate_layers, target, model, model and model.file.sha256)
     track = run.stage(
         "track_driver", track_driver, driver, options.fps, options.trim, limits, run.tick, run.warn, shared=True
     )

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.export.video import even_size
 from engine.imaging.inpaint import background_plate
-from engine.imaging.matting import estimate_foreground
+from engine.imaging.matting import estimate_foreground, reconcile_with_plate
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
 from engine.perception.landmarks import FACE_OVAL, eye_distance, mouth_opening
+from engine.perception.models import MattingModel
 from engine.perception.person import person_mask
 from engine.portrait.options import PortraitOptions
 
@@ -107,18 +108,21 @@ def find_target_face(
     return TargetFace(rgb, alpha, moved, boxes, (width, height), place)
 
 
-def separate_layers(target: TargetFace) -> Layers:
-    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds)."""
+def separate_layers(target: TargetFace, model: MattingModel | None = None, model_hash: str | None = None) -> Layers:
+    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds).
+
+    `model` is a matting network of the operator's, if there is one, and `model_hash` its SHA-256.
+    """
     height, width = target.rgb.shape[:2]
     seed = np.zeros((height, width), np.float32)
     cv2.fillConvexPoly(seed, target.mesh[list(FACE_OVAL), :2].round().astype(np.int32), 1.0)
-    alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha)
+    alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha, model=model)
     if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
         person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
         return Layers(person, np.full_like(target.rgb, 255), transparent=True)
-    colours = np.clip(estimate_foreground(target.rgb, alpha) + 0.5, 0, 255).astype(np.uint8)
-    person = np.dstack([colours, (alpha * 255 + 0.5).astype(np.uint8)])
-    return Layers(person, background_plate(target.rgb, alpha))
+    plate = background_plate(target.rgb, alpha)
+    colours = reconcile_with_plate(target.rgb, alpha, estimate_foreground(target.rgb, alpha), plate)
+    return Layers(np.dstack([colours + 0.5, alpha * 255 + 0.5]).astype(np.uint8), plate)
 
 
 def _check_face(
