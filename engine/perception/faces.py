@@ -12,7 +12,7 @@ from engine.perception.landmarks import MESH_SIZE
 from engine.perception.solutions import solution
 
 SETTLING_PASSES = 3
-"""A mesh found in a still is looked at again in its own region this often; then it moves no more."""
+"""A mesh that was just found is looked at again in its own region this often; then it moves no more."""
 
 
 class FaceTracker:
@@ -20,6 +20,7 @@ class FaceTracker:
 
     def __init__(self, faces: int = 1, confidence: float = 0.3):
         self._mesh = _face_mesh(faces, confidence)
+        self._following = False
 
     def __enter__(self) -> FaceTracker:
         return self
@@ -41,7 +42,12 @@ class FaceTracker:
         Arrays (478, 3) float32: x and y in pixels, z in pixels of the same scale, smaller is nearer,
         0 near the head's middle.
         """
-        found = self._mesh.process(np.ascontiguousarray(rgb)).multi_face_landmarks or []
+        rgb = np.ascontiguousarray(rgb)
+        found = self._mesh.process(rgb).multi_face_landmarks or []
+        if found and not self._following:
+            for _ in range(SETTLING_PASSES):
+                found = self._mesh.process(rgb).multi_face_landmarks or found
+        self._following = bool(found)
         meshes = [_pixels(face, rgb.shape[:2]) for face in found]
         return sorted(meshes, key=_area, reverse=True)
 
@@ -64,7 +70,7 @@ def find_faces(rgb: NDArray[np.uint8], most: int = 8, confidence: float = 0.3) -
 
 
 def _settled(rgb: NDArray[np.uint8], box: NDArray[np.float64], confidence: float) -> NDArray[np.float32] | None:
-    """The mesh of the face in `box` (x0, y0, x1, y1), tracked on a crop of it until it is at rest."""
+    """The mesh of the face in `box` (x0, y0, x1, y1), looked at on a crop of it until it is at rest."""
     height, width = rgb.shape[:2]
     centre, reach = (box[:2] + box[2:]) / 2, 1.25 * float((box[2:] - box[:2]).max())
     x0, y0 = np.maximum(np.floor(centre - reach), 0).astype(int)
@@ -72,9 +78,7 @@ def _settled(rgb: NDArray[np.uint8], box: NDArray[np.float64], confidence: float
     if x1 - x0 < 8 or y1 - y0 < 8:
         return None
     with FaceTracker(1, confidence) as tracker:
-        meshes: list[NDArray[np.float32]] = []
-        for _ in range(SETTLING_PASSES):
-            meshes = tracker(rgb[y0:y1, x0:x1])
+        meshes = tracker(rgb[y0:y1, x0:x1])
     return meshes[0] + np.array([x0, y0, 0], np.float32) if meshes else None
 
 

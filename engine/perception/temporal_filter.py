@@ -58,14 +58,28 @@ def steady(tracks: NDArray[np.float32], noise: NDArray[np.floating] | None = Non
 
 def _steady(tracks: NDArray[np.float32], sigma: NDArray[np.floating]) -> NDArray[np.float32]:
     width = 2.0 * (RANGE * np.maximum(sigma, 1e-4)) ** 2
+    count, reach = len(tracks), min(REACH, len(tracks) - 1)
     total = tracks.astype(np.float32).copy()
     weight = np.ones(tracks.shape[:2], np.float32)
-    for lag in range(1, min(REACH, len(tracks) - 1) + 1):
-        apart = ((tracks[lag:] - tracks[:-lag]) ** 2).sum(axis=-1)
-        w = np.exp(-apart / width - 0.5 * (lag / TEMPORAL_SIGMA) ** 2).astype(np.float32)
+    longer = _extended(tracks, reach)
+    for lag in range(1, reach + 1):
+        later, earlier = longer[reach + lag : reach + lag + count], longer[reach - lag : reach - lag + count]
+        apart = np.maximum(((later - tracks) ** 2).sum(axis=-1), ((earlier - tracks) ** 2).sum(axis=-1))
         # a neighbour counts only together with its mirror image, so that steady motion is not bent
-        both = np.minimum(w[lag:], w[:-lag])
-        centre = slice(lag, len(tracks) - lag)
-        total[centre] += both[..., None] * (tracks[2 * lag :] + tracks[: -2 * lag])
-        weight[centre] += 2 * both
+        both = np.exp(-apart / width - 0.5 * (lag / TEMPORAL_SIGMA) ** 2).astype(np.float32)
+        total += both[..., None] * (later + earlier)
+        weight += 2 * both
     return total / weight[..., None]
+
+
+def _extended(tracks: NDArray[np.float32], reach: int) -> NDArray[np.float32]:
+    """The tracks with `reach` more frames at both ends: mirrored in time, about the line that the end follows."""
+    steps = np.arange(1, reach + 1, dtype=np.float32)[:, None, None]
+
+    def before(start: NDArray[np.float32]) -> NDArray[np.float32]:
+        moments = np.arange(len(start), dtype=np.float32) - np.float32((len(start) - 1) / 2)
+        slope = np.tensordot(moments, start, axes=1) / max(float((moments**2).sum()), 1.0)
+        return np.asarray((start[1:] - 2 * steps * slope)[::-1], np.float32)
+
+    first, last = before(tracks[: reach + 1]), before(tracks[::-1][: reach + 1])
+    return np.concatenate([first, tracks, last[::-1]])
