@@ -36,20 +36,24 @@ def noise_level(tracks: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.asarray(np.sqrt((deviation**2).mean(axis=-1)), float)
 
 
-def steady(tracks: NDArray[np.float32], noise: NDArray[np.floating] | None = None) -> NDArray[np.float32]:
+def steady(
+    tracks: NDArray[np.float32], noise: NDArray[np.floating] | None = None, out: NDArray[np.float32] | None = None
+) -> NDArray[np.float32]:
     """Remove the jitter of tracked points.
 
     Parameters
     ----------
     tracks : (N, V, D) positions over time, pixels.
     noise : (V,) standard deviation of the jitter; measured on the tracks where not given.
+    out : where the result goes; may be `tracks` themselves.
 
     Returns
     -------
     (N, V, D): no frame looks later or earlier than it is.
     """
     sigma = noise_level(tracks) if noise is None else noise
-    out = np.empty(tracks.shape, np.float32)
+    if out is None:
+        out = np.empty(tracks.shape, np.float32)
     for start in range(0, tracks.shape[1], BLOCK):
         some = slice(start, start + BLOCK)
         out[:, some] = _steady(tracks[:, some], sigma[some])

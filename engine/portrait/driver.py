@@ -125,8 +125,9 @@ def track_driver(
             "No face was found in the driving video: use one that shows a face from the front.",
             ("driver",),
         )
-    held = _hold(np.array(meshes, np.float32), np.array(found))
+    held = np.array(meshes, np.float32)
     meshes.clear()
+    _hold(held, np.array(found))
     points, tracked = periphery.result()
     if not all(found):
         lost = len(found) - sum(found)
@@ -138,7 +139,7 @@ def track_driver(
         size=size,
         fps=fps or info.fps,
         has_sound=info.has_sound,
-        meshes=steady(held),
+        meshes=steady(held, out=held),
         found=np.array(found),
         periphery=steady(points),
         tracked=tracked,
@@ -159,19 +160,17 @@ def _jpeg(rgb: NDArray[np.uint8]) -> bytes:
     return data.tobytes()
 
 
-def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Where the face was lost the last mesh holds; where it comes back the motion eases over to it."""
+def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> None:
+    """Where the face was lost the last mesh holds; where it comes back the motion eases over to it. In place."""
     first = int(np.argmax(found))
     meshes[:first] = meshes[first]
-    held, out = meshes.copy(), meshes.copy()
     back = None
-    for i in range(1, len(meshes)):
-        if found[i] and not found[i - 1] and i > first:
-            back = i
+    for i in range(first + 1, len(meshes)):
+        if found[i] and not found[i - 1]:
+            back, held = i, meshes[i - 1].copy()
         if back is not None and i < back + EASE_BACK:
             t = (i - back + 1) / (EASE_BACK + 1)
-            out[i] = held[back - 1] + (t * t * (3 - 2 * t)) * (held[i] - held[back - 1])
-    return out
+            meshes[i] = held + (t * t * (3 - 2 * t)) * (meshes[i] - held)
 
 
 class CropReader:

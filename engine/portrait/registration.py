@@ -79,7 +79,7 @@ def register_track(
         for frame, offset in enumerate(pool.map(offsets, range(len(track)))):
             meshes[frame, :468, :2] += weight[:468, None] * offset
             tick((frame + 1) / len(track))
-    return Registration(steady(meshes))
+    return Registration(steady(meshes, out=meshes))
 
 
 def _grey(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:

@@ -1,0 +1,46 @@
+"""How long the driver is says nothing about how much memory an animation takes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from made_clip import write_frames
+
+FPS, SIDE = 10, 224
+ANIMATE = """
+import re, sys
+from pathlib import Path
+from engine.portrait import animate
+from engine.media.video import read_video
+made = animate(*sys.argv[1:4])
+# Not getrusage, whose peak a child inherits from its parent.
+print(sum(1 for _ in read_video(made)), re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+"""
+
+
+@pytest.mark.timeout(600)
+def test_three_minutes_peak_within_100_mb_of_five_seconds(clip, small, tmp_path: Path) -> None:
+    """The frames of three minutes alone would take more than that."""
+    assert 175 * FPS * SIDE * SIDE * 3 > 200e6
+    part = [
+        np.asarray(cv2.resize(frame, (SIDE, SIDE), interpolation=cv2.INTER_AREA))
+        for frame in clip("man_mouth_open_d18.mp4", 0.0, 4.0)[::3]
+    ]
+    there_and_back = [*part, *part[-2:0:-1]]
+    picture, peaks = small("photo_woman_white.png", 240), {}
+    for seconds in (5, 180):
+        frames = [there_and_back[k % len(there_and_back)] for k in range(seconds * FPS)]
+        driver = write_frames(tmp_path / f"{seconds}.mp4", frames, FPS)
+        arguments = map(str, (picture, driver, tmp_path / f"out{seconds}"))
+        script = [sys.executable, "-c", ANIMATE, *arguments]
+        done = subprocess.run(script, capture_output=True, text=True, check=True)
+        count, peak = map(int, done.stdout.split())
+        assert count == seconds * FPS
+        peaks[seconds] = peak / 1000
+    print(peaks)
+    assert peaks[180] - peaks[5] < 100, peaks
