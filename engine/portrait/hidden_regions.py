@@ -19,6 +19,9 @@ APPEARS, WHOLE = 1.0, 2.0
 LEAST_AREA = 0.012
 """Floor of the neutral inner area, in squares of the mouth's width: a closed mouth has almost none."""
 
+PALE, RED = 0.2, 0.45
+"""Saturation of teeth, and of lips."""
+
 LUMINANCE = np.array([0.299, 0.587, 0.114], np.float32)
 
 _UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
@@ -65,7 +68,7 @@ def match_palette(
     target : (H, W, 3) with `mesh` (478, 2 or 3); crop : the driver's neutral frame with `crop_mesh` (478, 2).
     """
     a, b = _skin(target, mesh), _skin(crop, crop_mesh)
-    gain = (a.mean(axis=0) + 4) / (b.mean(axis=0) + 4)
+    gain = _light((a.mean(axis=0) + 4) / (b.mean(axis=0) + 4))
     tint = a.mean(axis=0) / max(float(a.mean(axis=0) @ LUMINANCE), 1.0)
     own = _departure(_lips(target, mesh), tint)
     chroma = float(np.clip(own / max(_departure(_lips(crop, crop_mesh) * gain, tint), 1e-3), 0, 1))
@@ -81,6 +84,15 @@ def match_palette(
         area,
         float(np.ptp(outer[:, 1])),
     )
+
+
+def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
+    """What of the ratio (3,) of two skins is light: all of its brightness, half of its colour (the other half
+    is that people differ), and none of it green, which skins are and light in pictures of people is not."""
+    brightness = float(ratio @ LUMINANCE)
+    colour = np.sqrt(ratio / brightness)
+    colour[1] = min(colour[1], max(colour[0], colour[2]))
+    return np.asarray(brightness * colour / float(colour @ LUMINANCE), np.float32)
 
 
 def transfer_mouth(
@@ -116,9 +128,21 @@ def transfer_mouth(
     mask = _eroded(outer - corner, (y1 - y0, x1 - x0), EROSION * palette.height)
     opening = _soft_polygon(inner - corner, (y1 - y0, x1 - x0))
     if mask.sum() > 9:
-        mouth = mouth + membrane(below - mouth, mask)
+        healed = membrane(below - mouth, mask)
+        light = (healed @ LUMINANCE)[..., None]
+        mouth = mouth + light + _redness(np.asarray(aligned, np.uint8)) * (healed - light)
     alpha = (min(blend, 1.0) * opening * mask)[..., None]
     frame[y0:y1, x0:x1] = np.clip(below + alpha * (mouth - below) + 0.5, 0, 255).astype(np.uint8)
+
+
+def _redness(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """How much a pixel (H, W, 1) is lip, gum or tongue rather than tooth, in [0, 1]: what the lips of two people differ
+    by in colour is true of the one, and would make the others green."""
+    colours = rgb.astype(np.float32)
+    most = colours.max(axis=2, keepdims=True)
+    saturation = 1 - colours.min(axis=2, keepdims=True) / np.maximum(most, 16)
+    t = np.clip((saturation - PALE) / (RED - PALE), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), np.float32)
 
 
 def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32]:
