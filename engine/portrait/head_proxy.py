@@ -15,13 +15,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID, eye_distance
 from engine.portrait.head_motion import SOFT_WEIGHT, HeadMotion, fit_rigid
 
 LARGEST_TURN = np.deg2rad(25.0)
 """Turns beyond are held back to this."""
 NECK = (0.9, 2.0)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
+JOINED = 0.2
+"""Within this distance of the contour, in eye distances, the face's depth passes over into the contour's."""
 BACK_OF_HAIR = 0.35
 """Outside the face the surface falls back to the ears' depth within this share of the face's width."""
 
@@ -37,9 +39,29 @@ class HeadProxy:
 def build_head_proxy(points: NDArray[np.floating], mesh: NDArray[np.floating]) -> HeadProxy:
     """Depth and belonging of points (C, 2) around a face: the mesh's own 478 first, then any others."""
     others = points[MESH_SIZE:]
-    depth = np.concatenate([mesh[:, 2].astype(float), surface_depth(mesh, others)])
+    depth = np.concatenate([_joined_rim(mesh), surface_depth(mesh, others)])
     share = np.concatenate([np.ones(MESH_SIZE), head_share(mesh, others)])
     return HeadProxy(np.column_stack([points, depth]), share)
+
+
+def _joined_rim(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Depth (478,) of the face's vertices; those that the picture shows on its contour have the contour's own.
+
+    Where the surface goes out of sight it is steep: neighbours in the picture differ much in depth, and turned
+    they would part into a serrated edge.
+    """
+    mesh = mesh.astype(float)
+    oval = mesh[list(FACE_OVAL)]
+    following = np.roll(oval, -1, axis=0)
+    way = (following - oval)[:, :2]
+    along = ((mesh[:, None, :2] - oval[:, :2]) * way).sum(axis=2) / (way**2).sum(axis=1)
+    along = np.clip(along, 0, 1)[..., None]
+    nearest = oval + along * (following - oval)
+    apart = np.linalg.norm(mesh[:, None, :2] - nearest[..., :2], axis=2)
+    closest = apart.argmin(axis=1)
+    rim = np.take_along_axis(nearest[..., 2], closest[:, None], axis=1)[:, 0]
+    t = np.clip(apart.min(axis=1) / (JOINED * float(eye_distance(mesh[:, :2]))), 0, 1)
+    return np.asarray(rim + t * t * (3 - 2 * t) * (mesh[:, 2] - rim), float)
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
