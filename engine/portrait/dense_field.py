@@ -9,7 +9,6 @@ costs one small product and one rasterisation of that mesh, which is the inverse
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 from engine.imaging.mesh_warp import inverse_map
-from engine.perception.landmarks import FACE_OVAL, eye_distance
+from engine.perception.landmarks import FACE_OVAL
 
 DISKS = 10
 """Section 4: "10 different blurring kernels"."""
@@ -27,8 +26,6 @@ LARGEST_DISK = 0.05
 """Section 4: radii in [0, 0.05 of the image's diagonal]."""
 FALLOFF = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
-RIM = 0.12
-"""The skin goes on a little beyond the mesh's contour: so far, in eye distances, the image moves with the contour."""
 CELLS = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
 
@@ -125,25 +122,21 @@ def build_warp_mesh(
     spacing = diagonal / CELLS
     used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
     on_face = used[used < len(face)]
-    contour = [v for v in FACE_OVAL if usable is None or usable[v]]
-    rim = _beyond(face, contour)
-    vertices = np.concatenate([face[on_face, :2].astype(float), rim, _grid_around(face, shape, spacing)])
+    vertices = np.concatenate([face[on_face, :2].astype(float), _grid_around(face, shape, spacing)])
     samples_x = np.linspace(0, width - 1, int(np.ceil(2 * width / spacing)) + 1)
     samples_y = np.linspace(0, height - 1, int(np.ceil(2 * height / spacing)) + 1)
     samples = np.stack(np.meshgrid(samples_x, samples_y), axis=-1).reshape(-1, 2)
-    given = np.concatenate([control[used], rim])
-    triangulation = Delaunay(given)
-    select = sparse.eye(len(control), format="csr")[[*used, *contour]]
-    fixed = np.concatenate([on_face, contour]).astype(int)
-    around = interpolation_matrix(given, vertices[len(fixed) :], triangulation)
-    operator = sparse.vstack([sparse.eye(len(control), format="csr")[fixed], around @ select], format="csr")
+    triangulation = Delaunay(control[used])
+    select = sparse.csr_matrix((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(control)))
+    around = interpolation_matrix(control[used], vertices[len(on_face) :], triangulation)
+    operator = sparse.vstack([sparse.eye(len(control), format="csr")[on_face], around @ select], format="csr")
     if smoothing != "none":
         radii = (
             disk_radii(face, vertices, shape)
             if smoothing == "confidence"
             else np.full(len(vertices), LARGEST_DISK * diagonal / 2)
         )
-        field = interpolation_matrix(given, samples, triangulation) @ select
+        field = interpolation_matrix(control[used], samples, triangulation) @ select
         on_border = ((vertices <= 0) | (vertices >= np.array([width - 1, height - 1]))).any(axis=1)
         keep = sparse.diags(((radii < spacing / 2) | on_border).astype(float))
         smooth = _disk_average(vertices, radii, samples, spacing) @ field
@@ -154,23 +147,15 @@ def build_warp_mesh(
     )
 
 
-def _beyond(face: NDArray[np.floating], contour: Sequence[int]) -> NDArray[np.float64]:
-    """Points (R, 2) outside those of the face's contour, where the skin ends."""
-    points = face[list(contour), :2].astype(float)
-    outwards = points - face[list(FACE_OVAL), :2].mean(axis=0)
-    unit = float(eye_distance(face[:, :2]))
-    return np.asarray(points + RIM * unit * outwards / np.linalg.norm(outwards, axis=1, keepdims=True))
-
-
 def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: float) -> NDArray[np.float64]:
-    """A regular grid outside the face and its rim that reaches the image's corners."""
+    """A regular grid outside the face's contour that reaches the image's corners."""
     height, width = shape
     xs = np.linspace(0, width - 1, int(np.ceil(width / spacing)) + 1)
     ys = np.linspace(0, height - 1, int(np.ceil(height / spacing)) + 1)
     grid = np.stack(np.meshgrid(xs, ys), axis=-1).reshape(-1, 2)
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
     distance = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in grid])
-    return grid[distance < -RIM * float(eye_distance(face[:, :2])) - 0.4 * spacing]
+    return grid[distance < -0.4 * spacing]
 
 
 def _disk_average(

@@ -23,6 +23,8 @@ MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
 """Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT = 0.1
 """Share of the picture's opening under which an eye is shut."""
+LASHES = 0.045
+"""Width of the line of lashes on a shut eye, in eye widths: it covers the seam, which a picture of an open eye lacks."""
 LEAST_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 
@@ -32,7 +34,8 @@ class Eyeball:
     """One eye's layer at rest.
 
     white, iris : (h, w, 3) float32; iris_alpha (h, w); corner (2,) of the layer in the picture; ends (2, 2)
-    the eye's corners and width between them, pixels of the picture; opening : its area in squares of the width.
+    the eye's corners and width between them, pixels of the picture; opening : its area in squares of the width;
+    lashes (3,) : the colour of the upper lid's edge.
     """
 
     white: NDArray[np.float32]
@@ -42,6 +45,7 @@ class Eyeball:
     ends: NDArray[np.float32]
     width: float
     opening: float
+    lashes: NDArray[np.float32]
 
 
 def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -91,7 +95,24 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
         return None
     disk = _complete_iris(patch, (seen > 0) & inside_iris, distance, radius)
     alpha = np.clip((1.08 * radius - distance) / max(0.12 * radius, 1.0) + 0.5, 0, 1)
-    return Eyeball(white, disk, alpha.astype(np.float32), low.astype(np.float32), ends, width, area / width**2)
+    return Eyeball(
+        white,
+        disk,
+        alpha.astype(np.float32),
+        low.astype(np.float32),
+        ends,
+        width,
+        area / width**2,
+        _lashes(rgb, opening),
+    )
+
+
+def _lashes(rgb: NDArray[np.uint8], opening: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The darker half of the colours along the upper lid's edge, their mean (3,)."""
+    edge = np.round(opening[1:8]).astype(int)
+    edge = np.clip(edge, 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
+    colours = rgb[edge[:, 1], edge[:, 0]].astype(np.float32)
+    return np.asarray(colours[np.argsort(colours.sum(axis=1))[:4]].mean(axis=0), np.float32)
 
 
 def _fill(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.uint8]:
@@ -160,16 +181,39 @@ def draw_eye(
     ball = white + disk * (iris - white)
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     alpha = _departure(eye, opening, look) * cover[..., None].astype(np.float32) / 255
-    frame[low[1] : high[1], low[0] : high[0]] = np.clip(below + alpha * (ball - below) + 0.5, 0, 255).astype(np.uint8)
+    drawn = below + alpha * (ball - below)
+    seam = _shut(eye, opening) * _seam(opening - low, shape)[..., None]
+    drawn += seam * (eye.lashes - drawn)
+    frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
+
+
+def _seam(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """The line on which the lids meet, as wide as lashes are, (h, w) in [0, 1]."""
+    line = np.concatenate([opening[:1], (opening[1:8] + opening[15:8:-1]) / 2, opening[8:9]])
+    width = float(np.linalg.norm(opening[8] - opening[0]))
+    mask = np.zeros(shape, np.uint8)
+    thick = max(1, round(LASHES * width))
+    cv2.polylines(mask, [np.round(line * 16).astype(np.int32)], False, 255, thick, cv2.LINE_AA, 4)
+    return np.asarray(mask, np.float32) / np.float32(255)
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
     """How far the layer is drawn: 0 where lids and gaze are as in the picture, 1 where they are not, and 0
     again where the lids have met, so that nothing shines through their seam."""
-    width = float(np.linalg.norm(opening[8] - opening[0]))
-    open_by = float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening
+    open_by = _open_by(eye, opening)
     moved = max(abs(open_by - 1) / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE)
     return min(moved, 1.0) * min(max((open_by - SHUT) / SHUT, 0.0), 1.0)
+
+
+def _open_by(eye: Eyeball, opening: NDArray[np.float32]) -> float:
+    """Area of the opening against the picture's."""
+    width = float(np.linalg.norm(opening[8] - opening[0]))
+    return float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening
+
+
+def _shut(eye: Eyeball, opening: NDArray[np.float32]) -> float:
+    """1 where the lids have met, 0 where they have not."""
+    return min(max((2 * SHUT - _open_by(eye, opening)) / SHUT, 0.0), 1.0)
 
 
 def _place(eye: Eyeball, ends: NDArray[np.floating], low: NDArray[np.int64]) -> NDArray[np.float64]:

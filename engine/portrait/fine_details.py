@@ -33,6 +33,8 @@ SHADING = 0.25
 """... and count this much ..."""
 TURNED = 12.0
 """... in a head that does not turn, down to nothing at this many degrees."""
+TRUSTED, LOST = 8.0, 20.0
+"""Degrees of turn up to which a ratio is a crease's, and from which it is the nose's shadow and no crease's."""
 DARKEST = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
 FLOOR = 12.0
@@ -144,6 +146,7 @@ class RatioImages:
         self._refined = refined
         turn = np.rad2deg(turns(track.meshes, track.meshes[neutral]))
         self._frontal = SHADING * np.clip(1 - turn / TURNED, 0, 1).astype(np.float32)
+        self._trusted = np.clip((LOST - turn) / (LOST - TRUSTED), 0, 1).astype(np.float32)
         self.outliers: Outliers | None = None
         if outliers:
             reference = most_expressive(track, neutral)
@@ -173,7 +176,7 @@ class RatioImages:
         ratio = self._without_shading(ratio, frame)
         if self.outliers is not None:
             ratio = 1 + self.outliers.keep(origin, frame) * (ratio - 1)
-        return _damped(ratio)
+        return 1 + self._trusted[frame] * (_damped(ratio) - 1)
 
     def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
         """A head that turns in fixed light changes shade over wide areas: no part of the expression."""

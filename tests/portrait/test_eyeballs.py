@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -124,16 +125,19 @@ def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> 
         assert np.abs(out[still].astype(int) - picture[still]).mean() < 6
 
 
-def test_a_shut_eye_is_not_drawn(mesh: NDArray) -> None:
-    """With the lids on each other no pixel of the eye shows through."""
+def test_a_shut_eye_shows_its_lashes_and_nothing_of_the_eye(mesh: NDArray) -> None:
+    """With the lids on each other a line in the colour of the upper lid's edge covers their seam."""
     closed = shut(mesh, 0.0)
     skin = np.full((SIZE[1], SIZE[0], 3), SKIN, np.uint8)
     out = skin.copy()
+    lashes = np.array([90, 60, 50], np.float32)
     for side, eye in enumerate(prepare_eyes(painted(mesh, SIZE), mesh)):
         assert eye is not None
-        draw_eye(out, eye, closed, side, REST)
-    assert np.abs(out.astype(int) - skin).max() < 60  # the line at which the lids meet
-    assert (np.abs(out.astype(int) - skin).max(axis=2) > 20).sum() < 0.02 * 2 * width(mesh, 0) ** 2
+        draw_eye(out, replace(eye, lashes=lashes), closed, side, REST)
+    share = (out.astype(float) - SKIN) @ (lashes - SKIN) / float((lashes - SKIN) @ (lashes - SKIN))
+    np.testing.assert_allclose(out, SKIN + share[..., None] * (lashes - SKIN), atol=2)
+    assert share.max() > 0.8
+    assert (share > 0.1).sum() < 0.12 * 2 * width(mesh, 0) ** 2
 
 
 def test_what_lids_hide_of_the_iris_is_completed(mesh: NDArray) -> None:

@@ -8,9 +8,10 @@ import pytest
 from made_face import placed, turn
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import MESH_SIZE, RIGID
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID
 from engine.portrait.head_motion import HeadMotion, split_motion
 from engine.portrait.head_proxy import (
+    JOINED,
     LARGEST_TURN,
     build_head_proxy,
     head_share,
@@ -36,8 +37,22 @@ def acted(mesh: NDArray, rotation: NDArray, scale: float = 1.0, shift=(0.0, 0.0,
 def test_the_proxy_has_the_mesh_s_own_depth_on_the_face(mesh: NDArray) -> None:
     points = np.concatenate([mesh[:, :2], [[10.0, 10.0]]])
     proxy = build_head_proxy(points, mesh)
-    np.testing.assert_allclose(proxy.points[:MESH_SIZE], mesh, atol=1e-4)
+    oval = mesh[list(FACE_OVAL), :2]
+    inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in mesh[:, :2]])
+    own = (inside > JOINED * UNIT) | np.isin(np.arange(MESH_SIZE), FACE_OVAL)
+    assert own.sum() > 430
+    np.testing.assert_allclose(proxy.points[:MESH_SIZE][own], mesh[own], atol=1e-4)
+    np.testing.assert_array_equal(proxy.points[:MESH_SIZE, :2], mesh[:, :2])
     assert (proxy.share[:MESH_SIZE] == 1).all()
+
+
+def test_what_the_picture_shows_on_the_contour_moves_with_it(mesh: NDArray) -> None:
+    """A cheek that hides the contour's line of sight has the contour's depth: turned, the two stay together."""
+    bulged = mesh.copy()
+    jaw = (mesh[58] + mesh[172]) / 2
+    bulged[177, :2], bulged[177, 2] = jaw[:2], jaw[2] - 0.4 * UNIT
+    proxy = build_head_proxy(bulged[:, :2].astype(float), bulged)
+    assert proxy.points[177, 2] == pytest.approx(jaw[2], abs=0.02 * UNIT)
 
 
 def test_depth_beside_the_face_falls_back_to_the_ears(mesh: NDArray) -> None:
