@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser lock bench clean
+.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser lock bench picture clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
@@ -46,6 +46,9 @@ lock:  ## resolve the dependencies anew into requirements.lock and web/package-l
 
 bench:  ## the figures of the README
 	@$(BIN)/python -m benchmarks.portrait
+
+picture: setup  ## the README's picture
+	@$(BIN)/python -m scripts.picture
 
 clean:  ## remove what can be made again (keeps .venv and node_modules)
 	@rm -rf web/dist demo var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis

@@ -11,6 +11,7 @@ from tiny_onnx import brightness_model
 
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
 from engine.perception.person import person_mask
+from engine.portrait.target import TargetFace, separate_layers
 
 
 def settings_for(path: Path, **more: str) -> dict[str, str]:
@@ -76,3 +77,14 @@ def test_what_cannot_be_run_is_refused_with_a_reason(tmp_path: Path) -> None:
         load_matting_model(ModelFile(tmp_path / "absent.onnx", "0" * 64, "MIT"))
     with pytest.raises(ModelError, match=r"\(1, 3, h, w\)"):
         matting_model(settings_for(brightness_model(tmp_path / "grey.onnx", channels=1)))
+
+
+def test_portraits_are_cut_out_by_the_operator_s_model(tmp_path: Path) -> None:
+    """The layer's alpha is what the model says of the picture, at its outline refined to the picture's edges."""
+    rgb, disk = disk_picture()
+    model = matting_model(settings_for(brightness_model(tmp_path / "bright.onnx", side=64)))
+    assert model is not None
+    mesh = np.repeat([[70.0, 40.0, 0.0]], 478, axis=0).astype(np.float32)
+    target = TargetFace(rgb, None, mesh, np.zeros((1, 4), np.float32), (128, 96), np.eye(2, 3))
+    alpha = separate_layers(target, model, model.file.sha256).person[..., 3]
+    assert np.mean((alpha > 127) != disk) < 0.01

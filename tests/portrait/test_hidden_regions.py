@@ -7,7 +7,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
-from made_face import DARK, in_crop, opened, painted, placed
+from made_face import DARK, SKIN, in_crop, opened, painted, placed
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
@@ -188,3 +188,19 @@ def test_a_mouth_at_or_beyond_the_border_does_no_harm(closed, driver, palette) -
         mesh[:, :2] += shift
         frame = painted(closed, SIZE)
         transfer_mouth(frame, mesh[:, :2], *driver, palette)
+
+
+@pytest.mark.parametrize("skin", [(235, 215, 220), (200, 170, 80), (90, 60, 45)], ids=["rosy", "varnished", "dark"])
+def test_teeth_never_turn_green(closed, driver, neutral, skin) -> None:
+    """Whatever the two skins and lips differ by: a tooth keeps a tooth's colour, a little of the light at most."""
+    picture = painted(closed, SIZE)
+    picture[(picture == SKIN).all(axis=2)] = skin
+    palette = match_palette(picture, closed, *neutral)
+    mesh = opened(closed, 0.6)
+    frame = np.where((warped(mesh) == (170, 90, 85)).all(axis=2)[..., None], np.uint8([105, 108, 106]), warped(mesh))
+    frame = np.ascontiguousarray(frame, np.uint8)
+    transfer_mouth(frame, mesh[:, :2], *driver, palette)
+    inside = frame[inner_mask(mesh, -3)].astype(float)
+    teeth = inside[inside.sum(axis=1) > np.quantile(inside.sum(axis=1), 0.8)]
+    red, green, blue = teeth.mean(axis=0)
+    assert green <= 1.08 * red, (red, green, blue)

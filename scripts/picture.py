@@ -1,0 +1,56 @@
+"""`make picture`: the README's picture, a portrait that comes with matplotlib acting out built-in performances."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.media.image import write_image
+from engine.media.video import probe_video, read_video
+from engine.performances import video
+from engine.portrait import animate
+
+OUT = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
+MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
+"""Performance, and seconds into it."""
+SIDE = 300
+
+
+def main() -> None:
+    """Write the picture: the performances above, the portrait acting them out below."""
+    assert (package := find_spec("matplotlib")) is not None and package.origin is not None
+    portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
+    above, below = [], []
+    with TemporaryDirectory() as folder:
+        made = {
+            name: _frames(animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE, 2 * SIDE)))
+            for name in {name for name, _ in MOMENTS}
+        }
+        for name, seconds in MOMENTS:
+            index = round(seconds * probe_video(video(name)).fps)
+            above.append(_square(_frames(video(name))[index]))
+            below.append(_square(made[name][index]))
+        blank = np.full_like(above[0], 255)
+        still = _square(made["happy"][0])
+    OUT.parent.mkdir(parents=True, exist_ok=True)
+    write_image(OUT, np.vstack([np.hstack([blank, *above]), np.hstack([still, *below])]))
+
+
+def _frames(path: Path) -> list[NDArray[np.uint8]]:
+    return [frame.rgb.copy() for frame in read_video(path)]
+
+
+def _square(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    side = min(rgb.shape[:2])
+    left = (rgb.shape[1] - side) // 2
+    part = np.ascontiguousarray(rgb[:side, left : left + side])
+    return np.asarray(cv2.resize(part, (SIDE, SIDE), interpolation=cv2.INTER_AREA), np.uint8)
+
+
+if __name__ == "__main__":
+    main()
