@@ -23,7 +23,8 @@ SIDE = 300
 
 def main() -> None:
     """Write the picture: the performances above, the portrait acting them out below."""
-    assert (package := find_spec("matplotlib")) is not None and package.origin is not None
+    package = find_spec("matplotlib")
+    assert package is not None and package.origin is not None
     portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
     above, below = [], []
     with TemporaryDirectory() as folder:
