@@ -20,23 +20,27 @@ from scipy.spatial import Delaunay
 
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import (
+    FACE_OVAL,
     LEFT_EYE,
     LEFT_IRIS,
     LIPS_INNER,
     LIPS_OUTER,
-    MESH_SIZE,
     RIGHT_EYE,
     RIGHT_IRIS,
 )
 from engine.perception.temporal_filter import steady
-from engine.portrait.driver import CROP, DriverTrack
+from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
 
+UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
+"""Eye distance in the crop, pixels."""
 SMOOTHING = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
 LARGEST = 8.0
 """Pixels of the crop; a larger rest is a misfit of the flow."""
 LIGHT = 20.0
 """Pixels over which the light of the two frames is made equal first."""
+RIM = 0.4
+"""Within this distance of the face's contour, in eye distances, the flow fades out."""
 AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
 """Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
 
@@ -56,8 +60,7 @@ def register_track(
     triangles = Delaunay(rest).simplices.astype(np.int32)
     reference = _grey(track.crop(neutral))
     light = _wide(reference)
-    weight = np.ones(MESH_SIZE, np.float32)
-    weight[list(AS_TRACKED)] = 0
+    weight = _trust(rest)
     own = local()
 
     def offsets(frame: int) -> NDArray[np.float32]:
@@ -77,9 +80,20 @@ def register_track(
     meshes = track.meshes.copy()
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
         for frame, offset in enumerate(pool.map(offsets, range(len(track)))):
-            meshes[frame, :468, :2] += weight[:468, None] * offset
+            meshes[frame, :468, :2] += weight[:, None] * offset
             tick((frame + 1) / len(track))
     return Registration(steady(meshes, out=meshes))
+
+
+def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(468,) how far the flow is believed at each vertex: not at `AS_TRACKED`, nor at the rim, where it follows what
+    lies behind the face."""
+    oval = rest[list(FACE_OVAL)]
+    inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
+    t = np.clip(inside / (RIM * UNIT), 0, 1)
+    weight = t * t * (3 - 2 * t)
+    weight[[v for v in AS_TRACKED if v < len(weight)]] = 0
+    return np.asarray(weight, np.float32)
 
 
 def _grey(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
