@@ -22,7 +22,7 @@ LARGEST_TURN = np.deg2rad(25.0)
 """Turns beyond are held back to this."""
 NECK = (0.9, 2.0)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
-JOINED = 0.08
+JOINED = 0.07
 """Within this distance of the contour, in eye distances, the face's depth passes over into the contour's."""
 BACK_OF_HAIR = 0.35
 """Outside the face the surface falls back to the ears' depth within this share of the face's width."""

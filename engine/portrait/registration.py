@@ -39,7 +39,7 @@ LARGEST = 8.0
 """Pixels of the crop; a larger rest is a misfit of the flow."""
 LIGHT = 20.0
 """Pixels over which the light of the two frames is made equal first."""
-RIM = 0.4
+RIM = 0.35
 """Within this distance of the face's contour, in eye distances, the flow fades out."""
 AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
 """Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
