@@ -13,6 +13,7 @@ import json
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
@@ -27,6 +28,9 @@ from engine.media.limits import Limits
 from engine.store import StageStore
 
 T = TypeVar("T")
+
+PATIENCE = 0.2
+"""Seconds after which a wait for another core looks whether the run was canceled."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +109,8 @@ class Run:
 
         def wait() -> T:
             with self.timed(name):
+                while not wait_for([output], timeout=PATIENCE).done:
+                    self.check()
                 return output.result()
 
         return wait

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -323,6 +324,21 @@ def test_a_stage_beside_others_is_kept_like_any_other_and_takes_no_notices_of_th
 def _warning(warn) -> Points:
     warn("dark", "It is dark.")
     return Points(np.zeros(1))
+
+
+def test_a_wait_for_what_works_beside_can_be_canceled() -> None:
+    go_on, canceled = threading.Event(), threading.Event()
+
+    def slow(points: Points) -> Points:
+        go_on.wait(30)
+        return points
+
+    wait = Run(canceled=canceled.is_set).beside("slow", slow, Points(np.ones(1)))
+    threading.Timer(0.1, canceled.set).start()
+    with pytest.raises(Canceled):
+        wait()
+    assert not go_on.is_set()
+    go_on.set()
 
 
 def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
