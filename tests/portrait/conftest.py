@@ -11,7 +11,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from made_clip import read_frames
+from made_clip import OPENS, read_frames
 from numpy.typing import NDArray
 
 from engine.media.image import read_image, write_image
@@ -83,10 +83,6 @@ def animation(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Made]:
     return make
 
 
-OPENS = (1.9, 2.7)
-"""Seconds of `man_mouth_open_d18.mp4` in which a closed mouth opens wide: 24 frames."""
-
-
 @pytest.fixture(scope="session")
 def mouth_opens(media: Media) -> Path:
     return media("driving/man_mouth_open_d18.mp4")
@@ -100,3 +96,15 @@ def woman_white(small: Callable[[str, int], Path]) -> Path:
 @pytest.fixture(scope="session")
 def opens(animation: Callable[..., Made], woman_white: Path, mouth_opens: Path) -> Made:
     return animation(woman_white, mouth_opens, trim=OPENS, neutral_frame=0)
+
+
+@pytest.fixture
+def driver(mouth_opens: Path) -> Path:
+    """The driver of a test that says no other."""
+    return mouth_opens
+
+
+@pytest.fixture
+def woman(woman_white: Path) -> Path:
+    """The picture of a test that says no other."""
+    return woman_white

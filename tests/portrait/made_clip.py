@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 from engine.export.video import VideoWriter
 from engine.perception.faces import find_faces
 
+OPENS = (1.9, 2.7)
+"""Seconds of `man_mouth_open_d18.mp4` in which a closed mouth opens wide: 24 frames."""
+
 
 def write_frames(path: Path, frames: list[NDArray[np.uint8]], fps: float = 25, crf: int = 8) -> Path:
     """A clip of these frames, hardly compressed."""

@@ -9,24 +9,11 @@ from pathlib import Path
 import av
 import numpy as np
 import pytest
-from made_clip import face, unpacked, write_frames
+from made_clip import OPENS, face, unpacked, write_frames
 from numpy.typing import NDArray
 
 from engine.media.image import read_image
 from engine.perception.landmarks import eye_distance, fiducials, mouth_opening
-
-OPENS = (1.9, 2.7)
-"""The seconds of the driver that `opens` shows, see conftest: 24 frames."""
-
-
-@pytest.fixture
-def driver(mouth_opens: Path) -> Path:
-    return mouth_opens
-
-
-@pytest.fixture
-def woman(woman_white: Path) -> Path:
-    return woman_white
 
 
 def test_it_has_the_target_s_size_and_a_frame_for_each_of_the_driver_s(opens, woman: Path) -> None:

@@ -10,23 +10,10 @@ import av
 import cv2
 import numpy as np
 import pytest
-from made_clip import read_frames, unpacked
+from made_clip import OPENS, read_frames, unpacked
 from numpy.typing import NDArray
 
 from engine.media.image import read_image, write_image
-
-OPENS = (1.9, 2.7)
-"""The seconds of the driver that `opens` shows, see conftest: 24 frames."""
-
-
-@pytest.fixture
-def driver(mouth_opens: Path) -> Path:
-    return mouth_opens
-
-
-@pytest.fixture
-def woman(woman_white: Path) -> Path:
-    return woman_white
 
 
 def test_size_and_rate_are_the_asked_ones(animation, woman, driver) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_clip import face, read_frames
+from made_clip import OPENS, face, read_frames
 
 from engine.errors import Canceled, InputError
 from engine.media.image import read_image
@@ -16,19 +16,6 @@ from engine.perception.landmarks import fiducials
 from engine.portrait import PortraitOptions, animate
 from engine.portrait.pipeline import animate_portrait
 from engine.run import Progress, Run
-
-OPENS = (1.9, 2.7)
-"""The seconds of the driver that `opens` shows, see conftest: 24 frames."""
-
-
-@pytest.fixture
-def driver(mouth_opens: Path) -> Path:
-    return mouth_opens
-
-
-@pytest.fixture
-def woman(woman_white: Path) -> Path:
-    return woman_white
 
 
 def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens, woman, driver) -> None:
