@@ -42,14 +42,20 @@ def test_empty_file(tmp_path: Path) -> None:
     "content",
     [
         b"just some text, nothing more",
-        b"#EXTM3U\n#EXTINF:1,\nfile:///etc/passwd\n",
-        b"ffconcat version 1.0\nfile /etc/hostname\n",
         b"<svg xmlns='http://www.w3.org/2000/svg'/>",
         bytes(2000),
     ],
 )
 def test_files_that_are_no_video(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "clip.mp4").write_bytes(content)
+    assert refusal(tmp_path / "clip.mp4") == "not_a_video"
+
+
+@pytest.mark.parametrize("playlist", ["#EXTM3U\n#EXTINF:1,\n{uri}\n", "ffconcat version 1.0\nfile {path}\n"])
+def test_a_playlist_does_not_open_other_files(tmp_path: Path, playlist: str) -> None:
+    """The file that it names is a video that could be read, and is not."""
+    other = count_up(tmp_path / "other.mp4", 5)
+    (tmp_path / "clip.mp4").write_text(playlist.format(path=other, uri=other.as_uri()))
     assert refusal(tmp_path / "clip.mp4") == "not_a_video"
 
 

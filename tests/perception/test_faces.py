@@ -151,3 +151,12 @@ def test_the_tracker_says_when_the_face_is_gone(woman: NDArray) -> None:
         assert len(tracker(woman)) == 1
         assert tracker(np.full_like(woman, 128)) == []
         assert len(tracker(woman)) == 1
+
+
+def test_a_face_just_found_is_where_it_stays(woman: NDArray) -> None:
+    """Also one that comes back: no jump in the first frames after."""
+    with FaceTracker() as tracker:
+        for _ in range(2):
+            meshes = [tracker(woman)[0] for _ in range(6)]
+            assert apart(meshes[0], meshes[-1]) < 0.01
+            assert tracker(np.full_like(woman, 128)) == []

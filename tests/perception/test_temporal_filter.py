@@ -98,3 +98,10 @@ def test_the_ends_are_as_quiet_as_a_clip_allows() -> None:
     raw = np.abs(tracks - tracks.mean(axis=0)).mean()
     assert apart[60] < 0.35 * raw
     assert max(apart[0], apart[-1]) < 0.7 * raw, "half as many frames say where the first one is"
+
+
+def test_in_place_is_the_same() -> None:
+    tracks = still(40, points=150)
+    expected = steady(tracks)
+    assert steady(tracks, out=tracks) is tracks
+    np.testing.assert_array_equal(tracks, expected)

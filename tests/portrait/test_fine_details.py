@@ -116,6 +116,16 @@ def test_shading_of_a_head_that_turns_in_fixed_light_is_no_expression(tmp_path: 
     assert found[165:175, 60:95].min() < beside.min() - 0.08
 
 
+def test_creases_fade_as_the_head_turns(tmp_path: Path) -> None:
+    """What a turned head shows are the driver's shadows: half of it at 14 degrees of turn, nothing beyond 20."""
+    turned = [FACE, *(placed(70, (100, 100), yaw=yaw) for yaw in (5, 14, 23))]
+    track = track_of(tmp_path, [plain(LEVEL)] + [with_crease(0.75)] * 3, turned)
+    darker = [1 - ratios(track).single(k)[155:185, 50:140].min() for k in (1, 2, 3)]
+    assert darker[0] > 0.15
+    assert 0.3 * darker[0] < darker[1] < 0.7 * darker[0]
+    assert darker[2] == pytest.approx(0, abs=1e-5)
+
+
 def test_ratios_are_taken_where_the_skin_went(tmp_path: Path) -> None:
     """A mole that moves with the face is in both pictures: no ratio where the mesh says it is the same skin."""
     moved = smiling(FACE, 0.15)

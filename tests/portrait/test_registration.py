@@ -68,3 +68,9 @@ def test_it_tells_how_far_it_is(slipped: DriverTrack) -> None:
     seen: list[float] = []
     register_track(slipped, 0, seen.append)
     assert seen == sorted(seen) and seen[-1] == 1.0 and len(seen) == len(slipped)
+
+
+def test_the_contour_stays_as_tracked(slipped: DriverTrack) -> None:
+    """Beyond it the flow sees what lies behind the face, and vertices beside each other would part."""
+    found = register_track(slipped, 0).meshes
+    np.testing.assert_allclose(found[:, list(FACE_OVAL)], slipped.meshes[:, list(FACE_OVAL)], atol=1e-3)
