@@ -1,0 +1,53 @@
+"""Meshes whose vertices are doubled along the seams of a texture, seen as the surfaces that they are."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.geometry.skinned_mesh import SkinnedMesh
+
+
+def weld(mesh: SkinnedMesh) -> NDArray[np.int32]:
+    """(V,) int32: to which point of the surface each vertex belongs, points numbered from 0.
+
+    Vertices are one point where they lie at the same place and move alike (same bones, same weights): parts that
+    merely touch at rest stay apart.
+    """
+    key = np.concatenate(
+        [
+            np.ascontiguousarray(column).view(np.uint8).reshape(len(mesh.vertices), -1)
+            for column in (mesh.vertices + np.float32(0), mesh.bones, mesh.weights)  # + 0: no negative zeros
+        ],
+        1,
+    )
+    rows = np.ascontiguousarray(key).view(np.dtype((np.void, key.shape[1]))).ravel()
+    return np.unique(rows, return_inverse=True)[1].astype(np.int32)
+
+
+def is_closed(faces: NDArray[np.integer]) -> bool:
+    """Whether triangles (T, 3) of points leave no border: every edge is met once in each direction."""
+    count = int(faces.max()) + 1 if len(faces) else 0
+    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, 1).ravel()
+    there, back = np.sort(start * count + end), np.sort(end * count + start)
+    return bool((there == back).all() and (np.diff(there) > 0).all())
+
+
+def seamless_normals(mesh: SkinnedMesh) -> NDArray[np.float32]:
+    """(V, 3) float32 unit normals at rest, the same on both sides of a seam of the texture.
+
+    A vertex without area about it gets (0, 1, 0), since file formats ask for unit normals.
+    """
+    point = weld(mesh)
+    a, b, c = (mesh.vertices[mesh.triangles[:, k]].astype(np.float64) for k in range(3))
+    areas = np.cross(b - a, c - a)
+    sums = np.stack(
+        [
+            np.bincount(point[mesh.triangles].ravel(), areas[:, axis].repeat(3), minlength=int(point.max()) + 1)
+            for axis in range(3)
+        ],
+        1,
+    )
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    normals = np.where(lengths > 1e-20, sums / np.maximum(lengths, 1e-20), [0.0, 1.0, 0.0])
+    return normals[point].astype(np.float32)
