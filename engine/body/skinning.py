@@ -1,11 +1,19 @@
-"""Posing the template: forward kinematics and linear blend skinning."""
+"""Posing meshes: forward kinematics and linear blend skinning, for one frame or for many at once.
+
+Source: N. Magnenat-Thalmann, R. Laperrière, D. Thalmann, Joint-dependent local deformations for hand animation and
+object grasping, Graphics Interface 1988.
+"""
 
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
+from engine.motion import rotation
+from engine.motion.kinematics import place_joints, world_rotations
+from engine.motion.skeleton import Skeleton
 
 
 def bone_transforms(
@@ -36,19 +44,64 @@ def bone_transforms(
     return world
 
 
+def pose_transforms(
+    skeleton: Skeleton, rotations: NDArray[np.floating], root: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """What each joint does to the rest pose, (F, J, 4, 4) float32, acting on column vectors.
+
+    Parameters
+    ----------
+    rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's turn from the T-pose in its parent's axes, as in
+        `engine.motion.clip.Clip`.
+    root : (F, 3) the root joint's places, metres.
+    """
+    world = world_rotations(skeleton.parents, rotations)
+    places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
+    turns = rotation.to_matrix(world)
+    transforms = np.zeros((*turns.shape[:2], 4, 4), np.float32)
+    transforms[..., :3, :3] = turns
+    transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", turns, skeleton.heads.astype(np.float64))
+    transforms[..., 3, 3] = 1
+    return transforms
+
+
 def skin(
     vertices: NDArray[np.floating],
     bones: NDArray[np.integer],
     weights: NDArray[np.floating],
     transforms: NDArray[np.floating],
 ) -> NDArray[np.float32]:
-    """Linear blend skinning: (V, 3) rest vertices and (V, K) influences to (V, 3) float32 posed vertices."""
-    posed = np.zeros((len(vertices), 3), np.float32)
-    rest = np.asarray(vertices, np.float32)
-    matrices = np.asarray(transforms, np.float32)
-    for k in range(bones.shape[1]):
-        moved = np.flatnonzero(weights[:, k])
-        chosen = matrices[bones[moved, k]]
-        moved_to = np.einsum("vij,vj->vi", chosen[:, :3, :3], rest[moved]) + chosen[:, :3, 3]
-        posed[moved] += weights[moved, k, None] * moved_to
-    return posed
+    """Linear blend skinning: (V, 3) rest vertices and (V, K) influences to float32 posed vertices.
+
+    `transforms` (B, 4, 4) give (V, 3); those of many frames, (F, B, 4, 4), give (F, V, 3).
+    """
+    single = transforms.ndim == 3
+    matrices = np.ascontiguousarray(transforms[None] if single else transforms, np.float32)
+    posed = np.empty((len(matrices), len(vertices), 3), np.float32)
+    _skin(
+        np.ascontiguousarray(vertices, np.float32),
+        np.ascontiguousarray(bones),
+        np.ascontiguousarray(weights, np.float32),
+        matrices,
+        posed,
+    )
+    return posed[0] if single else posed
+
+
+@njit(cache=True, nogil=True, boundscheck=False)  # no fastmath: what is drawn from posed figures must come out alike
+def _skin(
+    vertices: np.ndarray, bones: np.ndarray, weights: np.ndarray, transforms: np.ndarray, posed: np.ndarray
+) -> None:
+    for f in range(len(transforms)):
+        for v in range(len(vertices)):
+            x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
+            px, py, pz = np.float32(0), np.float32(0), np.float32(0)
+            for k in range(bones.shape[1]):
+                w = weights[v, k]
+                if w == 0:
+                    continue
+                m = transforms[f, bones[v, k]]
+                px += w * (m[0, 0] * x + m[0, 1] * y + m[0, 2] * z + m[0, 3])
+                py += w * (m[1, 0] * x + m[1, 1] * y + m[1, 2] * z + m[1, 3])
+                pz += w * (m[2, 0] * x + m[2, 1] * y + m[2, 2] * z + m[2, 3])
+            posed[f, v, 0], posed[f, v, 1], posed[f, v, 2] = px, py, pz

@@ -1,0 +1,255 @@
+"""Fitting the template to a person in a picture: pose, shape and place from landmarks.
+
+The role of F. Bogo et al., Keep it SMPL: Automatic Estimation of 3D Human Pose and Shape from a Single Image, ECCV 2016,
+with other data terms: besides the landmarks in the picture (their equation 2, with the same robust penalty), the
+directions of limbs in space as perception believes them, which settle what lies in front and what behind. Priors keep
+joints within what bodies can do (their 3.2) and the shape near the mean (equation 6).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.body.body_space import BodySpace
+from engine.body.landmarks import LandmarkModel
+
+TURNED = (
+    *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
+    *(f"{side}{name}" for side in ("Left", "Right") for name in ("Shoulder", "Arm", "ForeArm", "Hand")),
+    *(f"{side}{name}" for side in ("Left", "Right") for name in ("UpLeg", "Leg", "Foot")),
+)
+"""The joints whose turns are sought; the others stay as at rest."""
+
+LIMBS = (
+    *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (("Arm", "ForeArm"), ("ForeArm", "Hand"))),
+    *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (("UpLeg", "Leg"), ("Leg", "Foot"))),
+)
+"""Limbs whose direction in space is believed, as joints."""
+
+COEFFICIENTS = 12
+LOOSENESS = {
+    "Spine": (0.25, 0.2, 0.15),
+    "Spine1": (0.25, 0.2, 0.15),
+    "Spine2": (0.25, 0.2, 0.15),
+    "Neck": (0.3, 0.4, 0.25),
+    "Head": (0.3, 0.4, 0.25),
+    "Shoulder": (0.1, 0.2, 0.2),
+    "Arm": (0.8, 1.5, 1.5),
+    "ForeArm": (0.6, 1.2, 0.15),
+    "Hand": (0.3, 0.4, 0.4),
+    "UpLeg": (0.5, 0.4, 0.4),
+    "Leg": (0.6, 0.1, 0.1),
+    "Foot": (0.4, 0.2, 0.2),
+}
+"""Radians by which joints turn about x, y and z, usually: their prior's standard deviation."""
+
+BEYOND = 0.05
+"""Radians beyond a joint's limit that weigh as much as one standard deviation."""
+
+NOISE = 0.012
+"""How far perception's landmarks are off, usually, as a share of the body's height in the picture."""
+ROBUST = 4.0
+"""Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
+DIRECTION = np.array([[0.25, 0.25, 0.35]] * 4 + [[0.25, 0.25, 1.2]] * 4)
+"""How far the directions of `LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
+the viewer, by half a right angle at times: only where they bend much is it to be believed."""
+UPRIGHT, LEVEL = 0.12, 0.2
+"""How much trunks, and legs, lean towards the viewer or away, usually (the z of unit vectors): cameras look level at people
+who stand. From the picture alone somebody who leans is somebody with shorter legs."""
+BALANCE = 0.07
+"""Metres by which the ankles' middle is before or behind the hips, usually: else one would fall."""
+TINY = 1e-4
+TURNS = 40
+"""Most steps of the search ..."""
+LEAST_GAIN = 1e-5
+"""... which ends when a step makes less of a difference than this."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What is known of the person. `points` (L, 2) pixels and `confidence` (L,) of the model's landmarks; `directions`
+    (M, 3) of `LIMBS` in space (x right, y up, z to the viewer) and their `sureness` (M,); `focal` pixels and `centre`
+    (2,) of the camera; `noise`: how far the points are off, usually, as a share of the body's height."""
+
+    points: NDArray[np.float32]
+    confidence: NDArray[np.float32]
+    directions: NDArray[np.float32]
+    sureness: NDArray[np.float32]
+    focal: float
+    centre: tuple[float, float]
+    noise: float = NOISE
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The template fitted to a person.
+
+    `coefficients` (K,) of the body space; `rotations` (J, 3, 3) each joint's turn in its parent's axes (the world's, at
+    rest); `place` (3,) metres: the root joint seen from the camera, x right, y up, -z away. `reprojection`: the root
+    mean square distance in pixels of the landmarks that were believed. `parameters` (P,): all of it as it was sought.
+    """
+
+    coefficients: NDArray[np.float32]
+    rotations: NDArray[np.float32]
+    place: NDArray[np.float32]
+    reprojection: float
+    parameters: NDArray[np.float64]
+
+
+class _Body:
+    """The model's joints and landmarks for many parameters at once."""
+
+    def __init__(self, space: BodySpace, landmarks: LandmarkModel):
+        self.space, self.landmarks = space, landmarks
+        self.turned = [space.names.index(name) for name in TURNED]
+        self.count = 3 + 3 * len(TURNED) + COEFFICIENTS
+
+    def split(
+        self, parameters: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Places (N, 3), turns (N, T, 3) as rotation vectors, coefficients (N, K)."""
+        place, turns, shape = np.split(parameters, [3, 3 + 3 * len(TURNED)], axis=-1)
+        return place, turns.reshape(*turns.shape[:-1], len(TURNED), 3), shape
+
+    def __call__(self, parameters: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Joints (N, J, 3) and landmarks (N, L, 3) for parameters (N, P)."""
+        place, turns, shape = self.split(parameters)
+        own = rotation_matrices(turns)
+        rest = self.space.joints(shape).astype(np.float64)
+        marks = self.landmarks.mean + np.tensordot(shape, self.landmarks.basis[:COEFFICIENTS], 1)
+        world = np.empty((len(parameters), len(self.space.names), 3, 3))
+        joints = np.empty_like(rest)
+        for joint, parent in enumerate(self.space.parents):
+            if parent < 0:
+                world[:, joint], joints[:, joint] = np.eye(3), place
+            else:
+                offset = rest[:, joint] - rest[:, parent]
+                joints[:, joint] = joints[:, parent] + np.einsum("nij,nj->ni", world[:, parent], offset)
+                world[:, joint] = world[:, parent]
+            if joint in self.turned:
+                world[:, joint] = world[:, joint] @ own[:, self.turned.index(joint)]
+        at = self.landmarks.joints
+        points = joints[:, at] + np.einsum("nlij,nlj->nli", world[:, at], marks - rest[:, at])
+        return joints, points
+
+
+def forward(
+    space: BodySpace, landmarks: LandmarkModel, parameters: NDArray[np.floating]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Joints (J, 3) and landmarks (L, 3), metres from the camera, for the parameters (P,) of a fit."""
+    joints, points = _Body(space, landmarks)(np.asarray(parameters, np.float64)[None])
+    return joints[0], points[0]
+
+
+def rotation_matrices(vectors: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Rotation vectors (..., 3) to matrices (..., 3, 3)."""
+    found = Rotation.from_rotvec(np.asarray(vectors, np.float64).reshape(-1, 3)).as_matrix()
+    return np.asarray(found.reshape(*np.shape(vectors), 3))
+
+
+def fit_body(space: BodySpace, landmarks: LandmarkModel, seen: Seen, start: NDArray[np.floating]) -> Fit:
+    """Fit pose, shape and place to what is seen of a person.
+
+    `start` (P,): first guess (`engine.body.first_guess.first_guess`). By Levenberg and Marquardt's method, with the
+    derivatives from differences: all of them come out of one vectorised evaluation.
+    """
+    body = _Body(space, landmarks)
+    height = max(float(np.ptp(seen.points[seen.confidence > 0.3, 1], axis=0)), 1.0)
+    parameters = np.asarray(start, np.float64).copy()
+    parameters = _descend(body, replace(seen, noise=max(NOISE, seen.noise)), height, parameters)
+    if seen.noise < NOISE:  # near the end only: robust penalties pull no more at what is many deviations off
+        parameters = _descend(body, seen, height, parameters)
+    return _fit(body, seen, parameters)
+
+
+def _descend(body: _Body, seen: Seen, height: float, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    damping = 1e-2
+    residuals = _residuals(body, seen, height, parameters[None])[0]
+    for _ in range(TURNS):
+        nudged = parameters + TINY * np.eye(body.count)
+        jacobian = (_residuals(body, seen, height, nudged) - residuals).T / TINY
+        gradient, hessian = jacobian.T @ residuals, jacobian.T @ jacobian
+        gain = 0.0
+        for _ in range(6):
+            step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian) + 1e-6), -gradient)
+            tried = _residuals(body, seen, height, (parameters + step)[None])[0]
+            if tried @ tried < residuals @ residuals:
+                gain = float(1 - (tried @ tried) / (residuals @ residuals))
+                parameters, residuals, damping = parameters + step, tried, damping / 3
+                break
+            damping *= 4
+        if gain < LEAST_GAIN:
+            break
+    return parameters
+
+
+def _fit(body: _Body, seen: Seen, parameters: NDArray[np.float64]) -> Fit:
+    place, turns, shape = body.split(parameters)
+    rotations = np.broadcast_to(np.eye(3), (len(body.space.names), 3, 3)).copy()
+    rotations[body.turned] = rotation_matrices(turns)
+    off = _project(body(parameters[None])[1], seen)[0] - seen.points
+    believed = seen.confidence > 0.5
+    error = float(np.sqrt((off[believed] ** 2).sum(-1).mean())) if believed.any() else 0.0
+    return Fit(shape.astype(np.float32), rotations.astype(np.float32), place.astype(np.float32), error, parameters)
+
+
+def _project(points: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
+    """(..., 3) metres from the camera to (..., 2) pixels."""
+    distance = np.maximum(-points[..., 2:], 0.1)
+    return points[..., :2] * [seen.focal, -seen.focal] / distance + seen.centre
+
+
+def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N, R): what is to be small, in standard deviations."""
+    joints, points = body(parameters)
+    _, turns, shape = body.split(parameters)
+    off = (_project(points, seen) - seen.points) / (seen.noise * height)
+    squared = (off**2).sum(-1, keepdims=True)
+    off = off * np.sqrt(seen.confidence[:, None] / (1 + squared / ROBUST**2))
+    names = body.space.names
+    starts, ends = ([names.index(limb[end]) for limb in LIMBS] for end in (0, 1))
+    limbs = joints[:, ends] - joints[:, starts]
+    limbs /= np.linalg.norm(limbs, axis=-1, keepdims=True)
+    limbs = (limbs - seen.directions) * np.sqrt(seen.sureness)[:, None] / DIRECTION
+    trunk = joints[:, names.index("Neck")] - joints[:, names.index("Hips")]
+    lean = trunk[:, 2] / np.linalg.norm(trunk, axis=-1) / UPRIGHT
+    legs = joints[:, ends[4:], 2] - joints[:, starts[4:], 2]
+    legs = legs / np.linalg.norm(joints[:, ends[4:]] - joints[:, starts[4:]], axis=-1) / LEVEL
+    ankles = [names.index(f"{side}Foot") for side in ("Left", "Right")]
+    stance = (joints[:, ankles, 2].mean(1) - joints[:, names.index("Hips"), 2]) / BALANCE
+    count = len(parameters)
+    data = [off.reshape(count, -1), limbs.reshape(count, -1)]
+    return np.concatenate([*data, lean[:, None], stance[:, None], legs, _prior(turns), _beyond(turns), shape], axis=1)
+
+
+def _prior(turns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turns in standard deviations; arms rest half lowered, and the hips turn as they like."""
+    usual = np.array([LOOSENESS[_kind(name)] for name in TURNED[1:]])
+    rest = np.zeros_like(usual)
+    for side, sign in (("Left", -1), ("Right", 1)):
+        rest[TURNED.index(f"{side}Arm") - 1, 2] = sign * 0.8
+    return np.asarray(((turns[:, 1:] - rest) / usual).reshape(len(turns), -1))
+
+
+def _beyond(turns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far elbows and knees are bent the wrong way, legs stretched behind, and necks and heads twisted beyond what they can."""
+    at = TURNED.index
+    wrong = [
+        turns[:, at("LeftForeArm"), 1],
+        -turns[:, at("RightForeArm"), 1],
+        -turns[:, at("LeftLeg"), 0],
+        -turns[:, at("RightLeg"), 0],
+        turns[:, at("LeftUpLeg"), 0] - 0.15,
+        turns[:, at("RightUpLeg"), 0] - 0.15,
+        np.abs(turns[:, at("Neck"), 1] + turns[:, at("Head"), 1]) - 1.4,
+        np.abs(turns[:, at("Neck"), 0] + turns[:, at("Head"), 0]) - 1.0,
+    ]
+    return np.asarray(np.maximum(np.stack(wrong, 1), 0) / BEYOND)
+
+
+def _kind(name: str) -> str:
+    return name.removeprefix("Left").removeprefix("Right")
