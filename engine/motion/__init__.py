@@ -1,0 +1,1 @@
+"""How characters move: skeletons and clips, motion capture in, retargeting, feet on the ground, clips of our own."""

@@ -1,0 +1,242 @@
+"""Motion capture in BVH files, from any skeleton.
+
+The hierarchy is read by `bvhio`, from a text whose size and depth were checked first (its parser recurses, and does
+not end where the file does); the numbers of the frames by numpy.
+"""
+
+from __future__ import annotations
+
+import re
+import tempfile
+import warnings
+from pathlib import Path
+
+import bvhio
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.motion import rotation
+from engine.motion.source_motion import (
+    MAX_BYTES,
+    MAX_DEPTH,
+    MAX_FRAMES,
+    MAX_JOINTS,
+    MAX_NUMBERS,
+    Array,
+    SourceMotion,
+    unique_names,
+)
+
+CHANNELS = {f"{axis.upper()}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
+
+UNITS = {"metre": 1.0, "foot": 0.3048, "decimetre": 0.1, "CMU unit": 0.0254 / 0.45, "inch": 0.0254, "centimetre": 0.01}
+UNITS["millimetre"] = 0.001
+
+MAX_HIERARCHY = 1 << 20
+"""Characters: 512 joints need a tenth of it."""
+
+HUGE = 1e7
+"""No number of a BVH file is larger: ten kilometres in millimetres."""
+
+_MOTION = re.compile(r"^[^\S\n]*MOTION\s+Frames:\s*(\S+)\s+Frame Time:\s*(\S+)[^\S\n]*$", re.MULTILINE)
+
+
+def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
+    """Read a BVH file, or its bytes.
+
+    The unit is guessed from the skeleton's size (`guess_unit`); which way is up, BVH does not say.
+
+    Raises
+    ------
+    InputError : `motion_unreadable`, `motion_truncated`, `motion_empty` (no frames), `motion_channels` (channels that
+        BVH does not know), `motion_too_large`, `motion_not_finite`.
+    """
+    text = _read_text(source)
+    found = _MOTION.search(text, 0, MAX_HIERARCHY)
+    if found is None:
+        _refuse_text(text)
+    assert found is not None
+    joints = _read_hierarchy(text[: found.start()])
+    parents = np.array([joint.parent for joint in joints], np.int32)
+    channels = [(index, *CHANNELS[channel]) for index, joint in enumerate(joints) for channel in joint.channels]
+    frames, fps = _frame_header(found.group(1), found.group(2))
+    offsets = np.array([joint.offset for joint in joints], np.float64)
+    ends = np.array([joint.end for joint in joints], np.float64)
+    values = _read_frames(text[found.end() :], frames, len(channels))
+    rotations, translations = _to_local(values, channels, offsets)
+    if not all((np.abs(numbers) < HUGE).all() for numbers in (values, offsets)):  # false for NaN as well
+        raise InputError("motion_not_finite", "The BVH file holds numbers that are not finite: export it again.")
+    unit, metres = guess_unit(parents, offsets, ends)
+    return SourceMotion(
+        name=name or (source.stem if isinstance(source, Path) else "motion"),
+        fps=fps,
+        names=unique_names(joint.name for joint in joints),
+        parents=parents,
+        rest_rotations=rotation.identity(len(joints)),
+        rest_offsets=offsets,
+        ends=ends,
+        rotations=rotations,
+        translations=translations,
+        unit=unit,
+        unit_metres=metres,
+    )
+
+
+def guess_unit(parents: NDArray[np.integer], offsets: Array, ends: Array) -> tuple[str, float]:
+    """The file's unit, and its length in metres.
+
+    From fingertip to toe along the bones a grown-up measures about 1.3 times their height: the unit is the one that
+    makes this height most like 1.7 m. If none makes it lie between 1.2 and 2.2 m, the unit is `unknown`, and such that
+    the person is 1.7 m tall.
+    """
+    height = _longest_way(parents, offsets, ends) / 1.3
+    if height <= 0:
+        return "unknown", float("nan")
+    unit = min(UNITS, key=lambda key: abs(np.log(height * UNITS[key] / 1.7)))
+    if 1.4 <= height * UNITS[unit] <= 2.1:
+        return unit, UNITS[unit]
+    return "unknown", 1.7 / height
+
+
+def _longest_way(parents: NDArray[np.integer], offsets: Array, ends: Array) -> float:
+    """The length of the longest way along bones from one joint to another; bones between the root and the first joint
+    that branches only say where the person stood."""
+    lengths = np.linalg.norm(offsets, axis=1)
+    children = np.bincount(parents[parents >= 0], minlength=len(parents))
+    joint = 0
+    while children[joint] == 1:
+        joint += 1
+        lengths[joint] = 0
+    deepest = np.nan_to_num(np.linalg.norm(ends, axis=1))
+    longest = float(deepest.max(initial=0.0))
+    for joint in range(len(parents) - 1, 0, -1):
+        way, parent = deepest[joint] + lengths[joint], parents[joint]
+        longest = max(longest, float(deepest[parent] + way))
+        deepest[parent] = max(deepest[parent], way)
+    return longest
+
+
+class _Joint:
+    """A joint as the hierarchy lists it."""
+
+    def __init__(self, joint: bvhio.BvhJoint, parent: int):
+        self.name: str = joint.Name
+        self.parent = parent
+        self.offset = tuple(joint.Offset)
+        self.channels: list[str] = joint.Channels
+        # bvhio's own default where a joint has no end site is (0, 1, 0): only leaves carry one
+        self.end = (float("nan"),) * 3 if joint.Children else tuple(joint.EndSite)
+
+
+def _read_text(source: Path | bytes) -> str:
+    size = source.stat().st_size if isinstance(source, Path) else len(source)
+    if size > MAX_BYTES:
+        raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
+    data = source.read_bytes() if isinstance(source, Path) else source
+    if b"\0" in data[:4096] or not re.match(rb"(\xef\xbb\xbf)?\s*HIERARCHY\b", data[:4096]):
+        raise InputError("motion_unreadable", "This is no BVH file: it must begin with the word HIERARCHY.")
+    text = data.decode("utf-8-sig", errors="replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _refuse_text(text: str) -> None:
+    if len(text) > MAX_HIERARCHY and not re.search(r"^[^\S\n]*MOTION\b", text[:MAX_HIERARCHY], re.MULTILINE):
+        raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
+    raise InputError("motion_truncated", "The BVH file ends before its frames begin: export or upload it again.")
+
+
+def _read_hierarchy(text: str) -> list[_Joint]:
+    """The joints, parents before children."""
+    lines = [
+        _joined_name(line) for line in text.replace("{", "\n{\n").replace("}", "\n}\n").split("\n") if line.strip()
+    ]
+    heads = [line.split(maxsplit=1)[0] for line in lines]
+    depths = np.cumsum([(head == "{") - (head == "}") for head in heads])
+    if heads.count("JOINT") >= MAX_JOINTS or depths.max(initial=0) > MAX_DEPTH:
+        raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
+    if heads.count("ROOT") > 1:
+        raise InputError("motion_unreadable", "The BVH file holds several skeletons: export each to a file of its own.")
+    with tempfile.NamedTemporaryFile("w", suffix=".bvh", encoding="utf-8", delete=False) as file:
+        # the parser reads on for ever at the end of a file: these lines end whatever comes before them
+        file.write("\n".join([*lines, "MOTION", "Frames: 0", "Frame Time: 0.1", ""]))
+    try:
+        root = bvhio.readAsBvh(file.name).Root
+    except (SyntaxError, ValueError, IndexError, TypeError, UnicodeError) as error:
+        raise InputError("motion_unreadable", "The BVH file's skeleton cannot be read: export it again.") from error
+    finally:
+        Path(file.name).unlink()
+    joints: list[_Joint] = []
+    _list_joints(root, -1, joints)
+    unknown = sorted({channel for joint in joints for channel in joint.channels} - set(CHANNELS))
+    if unknown:
+        raise InputError(
+            "motion_channels", f"The BVH file has channels that BVH does not know, such as {unknown[0]!r}."
+        )
+    return joints
+
+
+def _joined_name(line: str) -> str:
+    """The line; a joint's name of several words, of which bvhio would keep the first alone, as one."""
+    words = line.split()
+    return f"{words[0]} {'_'.join(words[1:])}" if words[0] in ("ROOT", "JOINT") and len(words) > 2 else line
+
+
+def _list_joints(joint: bvhio.BvhJoint, parent: int, found: list[_Joint]) -> None:
+    found.append(_Joint(joint, parent))
+    index = len(found) - 1
+    for child in joint.Children:
+        _list_joints(child, index, found)
+
+
+def _frame_header(count: str, seconds: str) -> tuple[int, float]:
+    try:
+        frames, step = int(count), float(seconds)
+    except ValueError:
+        raise InputError("motion_unreadable", "The BVH file's count of frames cannot be read.") from None
+    if frames <= 0:
+        raise InputError("motion_empty", "The BVH file has no frames: export the motion, not the skeleton alone.")
+    if frames > MAX_FRAMES:
+        raise InputError("motion_too_large", f"A motion can have {MAX_FRAMES} frames: cut the recording.")
+    if not 1e-3 <= step <= 2:
+        raise InputError("motion_unreadable", "The BVH file's frame time must lie between 0.001 and 2 seconds.")
+    return frames, 1 / step
+
+
+def _read_frames(text: str, frames: int, width: int) -> Array:
+    """(F, width) numbers of the frames; what lies behind the stated count of frames is left aside."""
+    if width == 0:
+        raise InputError("motion_channels", "The BVH file's joints have no channels: nothing in it moves.")
+    if frames * width > MAX_NUMBERS:
+        raise InputError("motion_too_large", "The motion has too many frames for so many joints: cut the recording.")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter(
+                "ignore", DeprecationWarning
+            )  # numpy's word for numbers that end before the text does
+            values = np.fromstring(text, np.float64, sep=" ")[: frames * width]
+    except ValueError as error:
+        raise InputError("motion_truncated", "The BVH file's frames break off: export or upload it again.") from error
+    if len(values) < frames * width:
+        raise InputError(
+            "motion_truncated",
+            f"The BVH file breaks off in frame {len(values) // width + 1} of {frames}: export or upload it again.",
+        )
+    return values.reshape(frames, width)
+
+
+def _to_local(values: Array, channels: list[tuple[int, str, str]], offsets: Array) -> tuple[Array, Array]:
+    """Turns (F, J, 4) and places (F, J, 3) in parents' axes; a joint's position channels replace its offset."""
+    frames, joints = len(values), len(offsets)
+    rotations = rotation.identity(frames, joints)
+    translations = np.broadcast_to(offsets, (frames, joints, 3))
+    if any(kind == "position" for _, kind, _ in channels):
+        translations = translations.copy()
+    radians = np.radians(values)
+    for column, (joint, kind, axis) in enumerate(channels):
+        if kind == "position":
+            translations[:, joint, "xyz".index(axis)] = values[:, column]
+        else:
+            turn = rotation.about(axis, radians[:, column])
+            rotations[:, joint] = rotation.multiply(rotations[:, joint], turn)
+    return rotations, translations

@@ -1,0 +1,56 @@
+"""What can be told of a motion before it moves anybody: its skeleton, and which of its joints move which of ours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from engine.errors import InputError
+from engine.motion.joint_map import REQUIRED, map_joints
+from engine.motion.source_motion import SourceMotion
+
+
+@dataclass(frozen=True)
+class CheckedMotion:
+    """What is in a motion.
+
+    `joints` are the names of its joints and `parents` those of their parents, None for roots; `mapping` is
+    `{our joint: its joint}`, and `missing` our joints that must have one and have none: `refused` says so then, and the
+    motion is of use only with overrides.
+    """
+
+    fps: float
+    frames: int
+    seconds: float
+    joints: tuple[str, ...]
+    parents: tuple[str | None, ...]
+    mapping: Mapping[str, str]
+    missing: tuple[str, ...] = ()
+    refused: InputError | None = None
+
+
+def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | None = None) -> CheckedMotion:
+    """Look at a motion; `overrides` are as for `map_joints`.
+
+    Raises
+    ------
+    InputError : `motion_joint_unknown`.
+    """
+    refused = None
+    try:
+        mapping = map_joints(motion, overrides)
+    except InputError as error:
+        if "mapping" not in error.found:
+            raise
+        mapping, refused = dict(error.found["mapping"]), error
+    frames = len(motion.rotations)
+    return CheckedMotion(
+        fps=motion.fps,
+        frames=frames,
+        seconds=max(frames - 1, 0) / motion.fps,
+        joints=motion.names,
+        parents=tuple(motion.names[parent] if parent >= 0 else None for parent in motion.parents),
+        mapping=mapping,
+        missing=tuple(name for name in REQUIRED if name not in mapping),
+        refused=refused,
+    )

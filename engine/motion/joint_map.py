@@ -1,0 +1,123 @@
+"""Which joint of a motion's skeleton moves which joint of ours: by name, and by shape where names say nothing."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.motion.joint_names import SIDED, TARGET_NAMES, match_names
+from engine.motion.source_motion import SourceMotion
+from engine.motion.tree_shape import children_of, common_ancestor, match_shape, path
+
+REQUIRED = (
+    "Hips",
+    *(f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
+)
+
+CHAINS = tuple(
+    tuple(side + part for part in chain)
+    for side in ("Left", "Right")
+    for chain in (
+        SIDED[:4],
+        SIDED[4:],
+        *((f"Hand{f}{n}" for n in "123") for f in ("Thumb", "Index", "Middle", "Ring", "Pinky")),
+    )
+)
+
+
+def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None = None) -> dict[str, str]:
+    """`{our joint (Mixamo name): the motion's joint}`, in the order of `TARGET_NAMES`; joints without a counterpart
+    are left out, and follow their parents.
+
+    `overrides` says otherwise for some of our joints: the motion's joint, or None to leave it out.
+
+    Raises
+    ------
+    InputError : `motion_joint_unknown`, an override names a joint that is not there; `motion_not_humanoid`, hips, arms
+        or legs were not found (`found["mapping"]` is what was, `found["joints"]` the motion's joints).
+    """
+    overrides = dict(overrides or {})
+    _check(motion, overrides)
+    found = _order_holds(motion.parents, match_names(motion.names))
+    if any(name not in found for name in REQUIRED):
+        found = _by_shape(motion) or found
+    chosen = {name: motion.names.index(joint) for name, joint in overrides.items() if joint is not None}
+    found = {name: index for name, index in found.items() if name not in overrides} | chosen
+    found = _trunk(motion.parents, found)
+    found = {name: index for name, index in found.items() if name not in overrides} | chosen
+    mapping = {name: motion.names[found[name]] for name in TARGET_NAMES if name in found}
+    missing = [name for name in REQUIRED if name not in mapping]
+    if missing:
+        raise InputError(
+            "motion_not_humanoid",
+            f"In the motion's skeleton no joint was found for {', '.join(missing)}: say which they are.",
+            ("motion_joints",),
+            {"mapping": mapping, "joints": list(motion.names)},
+        )
+    return mapping
+
+
+def _check(motion: SourceMotion, overrides: Mapping[str, str | None]) -> None:
+    for name, joint in overrides.items():
+        if name not in TARGET_NAMES or (joint is not None and joint not in motion.names):
+            what = name if name not in TARGET_NAMES else joint
+            raise InputError(
+                "motion_joint_unknown",
+                f"There is no joint {what!r}: choose among those that are listed.",
+                ("motion_joints",),
+                {"joints": list(motion.names), "ours": list(TARGET_NAMES)},
+            )
+
+
+def _order_holds(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
+    """Without the joints that do not hang below the joint that they ought to hang below."""
+    kept = dict(found)
+    for chain in CHAINS:
+        present = [name for name in chain if name in kept]
+        for above, below in itertools.pairwise(present):
+            if above in kept and not path(parents, kept[above], kept[below]):
+                kept.pop(below)
+    return kept
+
+
+def _by_shape(motion: SourceMotion) -> dict[str, int]:
+    """Bone lengths and places come from the frame in the middle: some files' rest pose has none that mean anything."""
+    places = motion.world()[1][len(motion.rotations) // 2]
+    parents = np.maximum(motion.parents, 0)
+    lengths = np.linalg.norm(places - places[parents], axis=1)
+    return match_shape(motion.parents, lengths, places)
+
+
+def _trunk(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
+    """Hips, spine, shoulders and neck, from where the limbs hang."""
+    if any(name not in found for name in REQUIRED[1:]):
+        return found
+    found = dict(found)
+    hips = common_ancestor(parents, found["LeftUpLeg"], found["RightUpLeg"])
+    chest = common_ancestor(parents, found["LeftArm"], found["RightArm"])
+    trunk = common_ancestor(parents, hips, chest)
+    if hips < 0 or chest < 0 or trunk < 0:
+        return found
+    if "Hips" not in found or not path(parents, found["Hips"], found["LeftUpLeg"]):
+        found["Hips"] = hips
+    spine = path(parents, trunk, chest)[1:]
+    if spine:
+        found["Spine2"] = spine[-1]
+    if len(spine) >= 2:
+        found["Spine"] = spine[0]
+    if len(spine) >= 3:
+        found["Spine1"] = spine[len(spine) // 2]
+    for side in ("Left", "Right"):
+        between = path(parents, chest, found[f"{side}Arm"])[1:-1]
+        if f"{side}Shoulder" not in found and between:
+            found[f"{side}Shoulder"] = between[-1]
+    head = found.get("Head", -1)
+    if head >= 0 and (neck := path(parents, chest, head)[1:-1]):
+        found["Neck"] = neck[-1]
+    elif head < 0 and "Neck" in found and (above := children_of(parents)[found["Neck"]]):
+        found["Head"] = above[0]
+    return found

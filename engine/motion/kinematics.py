@@ -1,0 +1,64 @@
+"""Forward kinematics over all frames of a clip at once."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from engine.motion import rotation
+from engine.motion.clip import Clip
+from engine.motion.skeleton import Skeleton
+
+Array = NDArray[np.float64]
+
+
+def world_rotations(parents: NDArray[np.integer], rotations: ArrayLike) -> Array:
+    """(..., J, 4) turns of joints in the world, from their turns in their parents' axes."""
+    local = np.asarray(rotations, np.float64)
+    world = local.copy()
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            world[..., joint, :] = rotation.multiply(world[..., parent, :], local[..., joint, :])
+    return world
+
+
+def local_rotations(parents: NDArray[np.integer], world: ArrayLike) -> Array:
+    """(..., J, 4) turns of joints in their parents' axes, from their turns in the world."""
+    turns = np.asarray(world, np.float64)
+    own = rotation.multiply(rotation.inverse(turns[..., np.maximum(parents, 0), :]), turns)
+    own[..., parents < 0, :] = turns[..., parents < 0, :]
+    return rotation.normalize(own)
+
+
+def place_joints(parents: NDArray[np.integer], offsets: ArrayLike, world: ArrayLike, root: ArrayLike) -> Array:
+    """(..., J, 3) places of joints, from world turns (..., J, 4), offsets in parents' axes (..., J, 3) and the root's
+    place (..., 3)."""
+    turns, steps = np.asarray(world, np.float64), np.asarray(offsets, np.float64)
+    places = np.empty((*turns.shape[:-1], 3))
+    for joint, parent in enumerate(parents):
+        if parent < 0:
+            places[..., joint, :] = root
+        else:
+            places[..., joint, :] = places[..., parent, :] + rotation.rotate(
+                turns[..., parent, :], steps[..., joint, :]
+            )
+    return places
+
+
+def joint_places(skeleton: Skeleton, clip: Clip) -> Array:
+    """(F, J, 3) where the joints are in each frame, metres."""
+    world = world_rotations(skeleton.parents, clip.rotations)
+    return place_joints(skeleton.parents, skeleton.offsets(), world, clip.root)
+
+
+def world_transforms(skeleton: Skeleton, clip: Clip) -> Array:
+    """(F, J, 4, 4) each joint's axes and place in the world: what a joint's own coordinates are multiplied with.
+
+    For skinning, take off the rest pose: the matrix of joint j acts on `vertices - skeleton.heads[j]`.
+    """
+    world = world_rotations(skeleton.parents, clip.rotations)
+    matrices = np.zeros((*world.shape[:-1], 4, 4))
+    matrices[..., :3, :3] = rotation.to_matrix(world)
+    matrices[..., :3, 3] = place_joints(skeleton.parents, skeleton.offsets(), world, clip.root)
+    matrices[..., 3, 3] = 1
+    return matrices

@@ -1,0 +1,150 @@
+"""Motions of other skeletons, carried over to ours.
+
+World turns are carried over, measured from where both skeletons stand in the same T-pose (`reference_pose`); the hips'
+way is scaled by the length of the legs. What differs in proportion is then mended where it shows: at the feet
+(`foot_contact`).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.motion import rotation
+from engine.motion.clip import Clip
+from engine.motion.foot_contact import FeetReport
+from engine.motion.foot_hold import hold_feet
+from engine.motion.glitches import without_flips
+from engine.motion.joint_map import map_joints
+from engine.motion.kinematics import local_rotations
+from engine.motion.reference_pose import t_pose_turns
+from engine.motion.resampling import resample_source
+from engine.motion.skeleton import Skeleton
+from engine.motion.sole import leg_length
+from engine.motion.source_motion import SourceMotion
+
+Array = NDArray[np.float64]
+
+Facing = Literal["start", "main", "keep"]
+
+
+@dataclass(frozen=True)
+class Retargeted:
+    """A motion carried over: the clip, which joint moved which (`{ours: the motion's}`), and how well the feet stand."""
+
+    clip: Clip
+    mapping: dict[str, str]
+    feet: FeetReport
+
+
+def retarget(
+    motion: SourceMotion,
+    skeleton: Skeleton,
+    mapping: Mapping[str, str | None] | None = None,
+    fps: float = 30.0,
+    facing: Facing = "start",
+    feet: bool = True,
+) -> Retargeted:
+    """Carry a motion over to `skeleton`.
+
+    Parameters
+    ----------
+    mapping : overrides of the automatic mapping (`engine.motion.joint_map.map_joints`).
+    fps : frames a second wanted.
+    facing : the character looks along +z in the first second (`start`), most of the time (`main`), or where it looked
+        (`keep`). It begins over the skeleton's own place at rest.
+    feet : hold the feet where they touch the ground.
+
+    Raises
+    ------
+    InputError : see `map_joints`.
+    """
+    joints = map_joints(motion, mapping)
+    source = resample_source(without_flips(motion), fps)
+    turns, places = source.world()
+    upright = world_upright(source, joints, places)
+    turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
+    world = _carry_turns(turns, t_pose_turns(source, joints, skeleton), source.names, joints, skeleton)
+    root = _carry_root(places, source.names, joints, skeleton, world)
+    turn = _facing_turn(world[:, skeleton.index("Hips")], facing, fps)
+    world, root = rotation.multiply(turn, world), rotation.rotate(turn, root)
+    start = skeleton.heads[skeleton.index("Hips")] - root[0]
+    root = root + start * [1, 0, 1]
+    clip = Clip(
+        name=motion.name,
+        fps=float(fps),
+        rotations=local_rotations(skeleton.parents, world).astype(np.float32),
+        root=root.astype(np.float32),
+    )
+    clip, report = hold_feet(skeleton, clip, hold=feet)
+    return Retargeted(clip, joints, report)
+
+
+def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> Array:
+    """(4,) the turn of the motion's world that brings its vertical to y: where heads are, seen from the feet, over all
+    frames; y where that is in doubt, and where the format says so."""
+    if motion.up is not None:
+        return rotation.between(motion.up, (0.0, 1.0, 0.0))
+    at = {
+        name: places[:, motion.names.index(joints[name])] for name in ("LeftFoot", "RightFoot", "LeftArm", "RightArm")
+    }
+    tall = np.mean(at["LeftArm"] + at["RightArm"] - at["LeftFoot"] - at["RightFoot"], axis=0)
+    tall = rotation.normalize(tall)
+    if tall[1] > 0.6:
+        return rotation.identity()
+    axis = np.zeros(3)
+    axis[np.argmax(np.abs(tall))] = np.sign(tall[np.argmax(np.abs(tall))])
+    return rotation.between(axis, (0.0, 1.0, 0.0)) if np.abs(tall).max() > 0.6 else rotation.identity()
+
+
+def _carry_turns(
+    turns: Array, standing: dict[str, Array], names: tuple[str, ...], joints: Mapping[str, str], skeleton: Skeleton
+) -> Array:
+    """(F, J, 4) world turns of our joints; joints without a counterpart stand halfway between those that have one
+    (within the spine) or go with their parents."""
+    world = rotation.identity(len(turns), len(skeleton.names))
+    for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
+        if name in joints:
+            moved = turns[:, names.index(joints[name])]
+            world[:, joint] = rotation.multiply(moved, rotation.inverse(standing[name]))
+        elif parent >= 0:
+            world[:, joint] = world[:, parent]
+    spine = [skeleton.index(name) for name in ("Hips", "Spine", "Spine1", "Spine2") if name in skeleton.names]
+    known = [place for place, joint in enumerate(spine) if skeleton.names[joint] in joints]
+    for before, after in itertools.pairwise(known):
+        for place in range(before + 1, after):
+            share = np.full(len(world), (place - before) / (after - before))
+            world[:, spine[place]] = rotation.slerp(world[:, spine[before]], world[:, spine[after]], share)
+    return world
+
+
+def _carry_root(
+    places: Array, names: tuple[str, ...], joints: Mapping[str, str], skeleton: Skeleton, world: Array
+) -> Array:
+    """(F, 3) the root's way: the middle between the hip joints goes the source's way, scaled by the legs' length."""
+    at = {name: places[:, names.index(source)] for name, source in joints.items()}
+    sides = ("Left", "Right")
+    thighs = [np.linalg.norm(at[f"{side}Leg"] - at[f"{side}UpLeg"], axis=1) for side in sides]
+    shins = [np.linalg.norm(at[f"{side}Foot"] - at[f"{side}Leg"], axis=1) for side in sides]
+    length = float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0)))
+    scale = leg_length(skeleton) / max(length, 1e-9)
+    middle = (at["LeftUpLeg"] + at["RightUpLeg"]) / 2 * scale
+    heads = np.asarray(skeleton.heads, np.float64)
+    hips = skeleton.index("Hips")
+    ours = (heads[skeleton.index("LeftUpLeg")] + heads[skeleton.index("RightUpLeg")]) / 2 - heads[hips]
+    return np.asarray(middle - rotation.rotate(world[:, hips], ours))
+
+
+def _facing_turn(hips: Array, facing: Facing, fps: float) -> Array:
+    """(4,) the turn about the vertical that makes the hips look along +z; hips swing while one walks, so that how one
+    starts is what the first second says."""
+    forward = rotation.normalize(rotation.rotate(hips, (0.0, 0.0, 1.0)) * [1, 0, 1])
+    look = np.mean(forward[: max(round(fps), 1)] if facing == "start" else forward, axis=0)
+    if facing == "keep" or np.linalg.norm(look) < 1e-3:
+        return rotation.identity()
+    return rotation.about("y", -np.arctan2(look[0], look[2]))

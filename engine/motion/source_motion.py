@@ -1,0 +1,77 @@
+"""A motion as its file tells it: the skeleton it was made for, and that skeleton's frames."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.motion import kinematics, rotation
+
+Array = NDArray[np.float64]
+
+MAX_JOINTS = 512
+MAX_DEPTH = 128
+MAX_FRAMES = 72_000
+"""Ten minutes at 120 frames a second."""
+MAX_BYTES = 64 << 20
+MAX_NUMBERS = 8_000_000
+"""Joints' channels times frames: what ten minutes of a skeleton with 37 joints at 120 frames a second need."""
+
+
+@dataclass(frozen=True)
+class SourceMotion:
+    """Frames of a skeleton of any kind, lengths in the file's own unit.
+
+    `parents` (J,) int32, -1 for roots, parents before children. `rest_rotations` (J, 4) and `rest_offsets` (J, 3):
+    the pose that the file calls rest, each joint in its parent's axes; in a BVH file nothing is turned at rest.
+    `ends` (J, 3): where the bone of a joint without children ends, in the joint's axes; NaN where the file is silent.
+    `rotations` (F, J, 4) and `translations` (F, J, 3): the frames, in parents' axes; `fps` frames a second.
+    `up`: the world's axis that points up, or None where the format leaves it open.
+    `unit_metres`: the length of the file's unit, and `unit` its name; a guess for formats that do not tell.
+    """
+
+    name: str
+    fps: float
+    names: tuple[str, ...]
+    parents: NDArray[np.int32]
+    rest_rotations: Array
+    rest_offsets: Array
+    ends: Array
+    rotations: Array
+    translations: Array
+    up: tuple[float, float, float] | None = None
+    unit: str = "unknown"
+    unit_metres: float = float("nan")
+
+    def rest(self) -> tuple[Array, Array]:
+        """World turns (J, 4) and places (J, 3) of the rest pose."""
+        return place(self.parents, self.rest_rotations, self.rest_offsets)
+
+    def world(self) -> tuple[Array, Array]:
+        """World turns (F, J, 4) and places (F, J, 3) of the frames."""
+        return place(self.parents, self.rotations, self.translations)
+
+
+def place(parents: NDArray[np.int32], rotations: Array, offsets: Array) -> tuple[Array, Array]:
+    """World turns and places of joints, given in parents' axes; every root stands at its own offset."""
+    world = kinematics.world_rotations(parents, rotations)
+    places = np.array(offsets, np.float64)
+    for joint, parent in enumerate(parents):
+        if parent >= 0:
+            turned = rotation.rotate(world[..., parent, :], places[..., joint, :])
+            places[..., joint, :] = places[..., parent, :] + turned
+    return world, places
+
+
+def unique_names(names: Iterable[str]) -> tuple[str, ...]:
+    """The names, cut at 128 letters, those that came before with a number behind them; what no text can hold (half a
+    character) is a question mark."""
+    seen: dict[str, int] = {}
+    found = []
+    for name in (name[:128].encode(errors="replace").decode() for name in names):
+        seen[name] = seen.get(name, 0) + 1
+        found.append(name if seen[name] == 1 else f"{name} #{seen[name]}")
+    return tuple(found)

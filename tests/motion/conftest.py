@@ -1,0 +1,13 @@
+"""What the tests of motions share."""
+
+from __future__ import annotations
+
+import pytest
+from humanoids import build_skeleton
+
+from engine.motion.skeleton import Skeleton
+
+
+@pytest.fixture(scope="session")
+def skeleton() -> Skeleton:
+    return build_skeleton()

@@ -1,0 +1,83 @@
+"""A skeleton by hand: the joints of our Mixamo rig, a person of 1.75 m in T-pose; and motions told by other skeletons."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.motion import rotation
+from engine.motion.clip import Clip
+from engine.motion.kinematics import local_rotations, world_rotations
+from engine.motion.skeleton import Skeleton
+from engine.motion.source_motion import SourceMotion
+
+TRUNK = {
+    "Hips": ("", (0.0, 0.97, 0.0)),
+    "Spine": ("Hips", (0.0, 1.08, -0.005)),
+    "Spine1": ("Spine", (0.0, 1.19, -0.01)),
+    "Spine2": ("Spine1", (0.0, 1.31, -0.02)),
+    "Neck": ("Spine2", (0.0, 1.46, -0.02)),
+    "Head": ("Neck", (0.0, 1.55, 0.0)),
+}
+LEFT = {
+    "UpLeg": ("Hips", (0.09, 0.92, 0.0)),
+    "Leg": ("UpLeg", (0.09, 0.5, 0.01)),
+    "Foot": ("Leg", (0.09, 0.08, -0.02)),
+    "ToeBase": ("Foot", (0.1, 0.02, 0.11)),
+    "Shoulder": ("Spine2", (0.05, 1.42, -0.01)),
+    "Arm": ("Shoulder", (0.17, 1.42, -0.02)),
+    "ForeArm": ("Arm", (0.44, 1.42, -0.02)),
+    "Hand": ("ForeArm", (0.68, 1.42, -0.02)),
+}
+FINGERS = {"Thumb": 0.04, "Index": 0.025, "Middle": 0.0, "Ring": -0.02, "Pinky": -0.04}
+
+
+def build_skeleton(fingers: bool = True, toes: bool = True, scale: float = 1.0) -> Skeleton:
+    """The skeleton, with or without fingers and toes, of any height."""
+    joints = dict(TRUNK)
+    for side, sign in (("Left", 1), ("Right", -1)):
+        for part, (parent, (x, y, z)) in LEFT.items():
+            if toes or part != "ToeBase":
+                above = parent if parent in TRUNK else side + parent
+                joints[side + part] = (above, (sign * x, y, z))
+        for finger, z in FINGERS.items() if fingers else ():
+            for n in (1, 2, 3):
+                above = f"{side}Hand" if n == 1 else f"{side}Hand{finger}{n - 1}"
+                reach = 0.68 + (0.03 if finger == "Thumb" else 0.09) + 0.03 * (n - 1)
+                joints[f"{side}Hand{finger}{n}"] = (above, (sign * reach, 1.42, z - 0.02))
+    names = tuple(joints)
+    return Skeleton(
+        names=names,
+        parents=np.array([names.index(parent) if parent else -1 for parent, _ in joints.values()], np.int32),
+        heads=np.array([place for _, place in joints.values()], np.float32) * np.float32(scale),
+    )
+
+
+def told_by(
+    skeleton: Skeleton,
+    clip: Clip,
+    turns: np.ndarray,
+    world: np.ndarray,
+    unit: float,
+    rest: np.ndarray | None = None,
+    prefix: str = "mixamorig:",
+) -> SourceMotion:
+    """The clip as another file would tell it: joints with axes of their own (`turns`, (J, 4) from ours), a world turned
+    by `world` (4,), lengths in `unit` metres, and a pose at rest (J, 4: turns in the world from the T-pose)."""
+    own = rotation.multiply(world, rotation.multiply(world_rotations(skeleton.parents, clip.rotations), turns))
+    at_rest = rotation.identity(len(skeleton.names)) if rest is None else rest
+    offsets = skeleton.offsets().astype(np.float64) / unit
+    above = np.maximum(skeleton.parents, 0)
+    offsets = rotation.rotate(rotation.inverse(turns[above]), offsets)
+    translations = np.tile(offsets, (len(own), 1, 1))
+    translations[:, 0] = rotation.rotate(world, clip.root / unit)
+    return SourceMotion(
+        name=clip.name,
+        fps=clip.fps,
+        names=tuple(prefix + name for name in skeleton.names),
+        parents=skeleton.parents,
+        rest_rotations=local_rotations(skeleton.parents, rotation.multiply(at_rest, turns)),
+        rest_offsets=offsets,
+        ends=np.full(offsets.shape, np.nan),
+        rotations=local_rotations(skeleton.parents, own),
+        translations=translations,
+    )
