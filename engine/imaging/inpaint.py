@@ -130,7 +130,7 @@ def _effort(steps: int, level: _Level) -> _Effort:
     rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
     if level.number > 0:
         return _Effort(rounds, 2, tries)
-    return _Effort(min(rounds, 2), 2, tries) if level.hole.size < 1_000_000 else _Effort(1, 1, 1)
+    return _Effort(1, 2, 2) if level.hole.size < 1_000_000 else _Effort(1, 1, 1)
 
 
 def _refine(

@@ -114,3 +114,10 @@ def inverse_map(
         nearest,
     )
     return field
+
+
+def delaunay(points: NDArray[np.floating]) -> NDArray[np.int32]:
+    """(T, 3) the Delaunay triangles over points (V, 2)."""
+    from scipy.spatial import Delaunay  # slow to import, and not needed where the triangles were kept
+
+    return np.asarray(Delaunay(points).simplices, np.int32)

@@ -20,6 +20,9 @@ VIDEO_TYPES = frozenset(
 )
 """The media types that `engine.media.video.read_video` takes."""
 
+MOTION_TYPES = frozenset({"text/x-bvh", "model/gltf-binary"})
+"""The media types that `engine.motion` reads motions from."""
+
 
 def sniff(path: Path) -> str | None:
     """The media type of a file (`image/jpeg`, `video/mp4`, ...) by its magic bytes; None where it is none we know.
@@ -47,6 +50,10 @@ def sniff_bytes(head: bytes) -> str | None:
         return "image/apng" if b"acTL" in head.split(b"IDAT")[0] else "image/png"
     if head[:6] in (b"GIF87a", b"GIF89a"):
         return "image/gif"
+    if head[:4] == b"glTF":
+        return "model/gltf-binary"
+    if head.removeprefix(b"\xef\xbb\xbf").lstrip()[:9] == b"HIERARCHY":
+        return "text/x-bvh"
     if head[:4] == b"RIFF":
         return {b"WEBP": "image/webp", b"AVI ": "video/x-msvideo", b"WAVE": "audio/wav"}.get(head[8:12])
     if head.startswith(b"\x1a\x45\xdf\xa3"):

@@ -15,6 +15,9 @@ _USUAL_RATES = (5, 6, 8, 10, 12, 15, 20, 24, 25, 30, 48, 50, 60)
 _JITTER = 0.35
 """Of a frame: timestamps this near to an even grid are a constant rate. Files round them to milliseconds (Matroska) or
 hundredths (GIF), phones let them tremble a little; at half a frame the place on the grid would be ambiguous."""
+_SHORTEST_STEP = 1e-9
+"""Seconds: timestamps that lie closer, or of which rounding leaves no order, are of no clock."""
+
 _LOWEST = 1.0
 """Frames a second: a slower clip is a row of stills, whose rate is made up."""
 
@@ -42,7 +45,7 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
         the straight line through them.
     """
     count = len(times)
-    slope = float(np.polyfit(np.arange(count), times, 1)[0])
+    slope = max(float(np.polyfit(np.arange(count), times, 1)[0]), _SHORTEST_STEP)
     whole = [float(round(1 / slope))] if abs(round(1 / slope) * slope - 1) < 5e-4 else []  # rounded timestamps
     for fps in (*stated, *whole, 1 / slope):
         if fps < _LOWEST:

@@ -40,6 +40,7 @@ def person_mask(
     seed: Mask | None = None,
     alpha: NDArray[np.uint8] | Mask | None = None,
     model: MattingModel | None = None,
+    others: NDArray[np.bool_] | None = None,
 ) -> Mask:
     """Soft mask (H, W) in [0, 1] of the people in a picture; all zero where nobody is seen.
 
@@ -52,13 +53,16 @@ def person_mask(
         out it is taken as the truth; a channel that is opaque throughout says nothing.
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
         follows but the last step, the guided upsampling.
+    others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
+        people, colours say whose it is.
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
         if np.mean(channel < 0.5) > 0.01:
             return channel
     if model is not None:
-        return upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
+        whole = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
+        return whole if others is None else np.where(others, 0, whole).astype(np.float32)
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small)
     figure = figure_on_plain_ground(small, belief)
@@ -66,6 +70,9 @@ def person_mask(
         belief = figure
     if seed is not None:
         belief = np.maximum(belief, resized(seed.astype(np.float32), (small.shape[1], small.shape[0])))
+    if others is not None:
+        apart = resized(others.astype(np.float32), (small.shape[1], small.shape[0]))
+        belief = np.asarray(belief * (1 - apart), np.float32)
     if figure is None:
         belief = settle_by_colour(small, belief)
     trimap = outline_trimap(small, belief)

@@ -7,6 +7,8 @@ import sys
 from types import ModuleType
 from typing import Any
 
+from google.protobuf import message_factory
+
 
 def solution(name: str) -> ModuleType:
     """The module `mediapipe.python.solutions.NAME`.
@@ -15,6 +17,7 @@ def solution(name: str) -> ModuleType:
     place is held while MediaPipe is imported, and it is loaded when somebody does draw.
     """
     full = f"mediapipe.python.solutions.{name}"
+    _know_old_ways()
     if "mediapipe" in sys.modules or "matplotlib" in sys.modules:
         return importlib.import_module(full)
     held = _Later("matplotlib"), _Later("matplotlib.pyplot")
@@ -26,6 +29,14 @@ def solution(name: str) -> ModuleType:
     finally:
         for place in held:
             del sys.modules[place.__name__]
+
+
+def _know_old_ways() -> None:
+    """Give Protocol Buffers back the method by which MediaPipe's native part looks up messages (gone since release 5):
+    without it each process prints an error, and goes on."""
+    factory: Any = message_factory.MessageFactory
+    if not hasattr(factory, "GetPrototype"):
+        factory.GetPrototype = lambda self, descriptor: message_factory.GetMessageClass(descriptor)
 
 
 class _Later(ModuleType):

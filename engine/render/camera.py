@@ -1,22 +1,28 @@
-"""A pinhole camera that looks along -z, as a photographer stands before a sitter who faces +z."""
+"""A pinhole camera: by itself it looks along -z, as a photographer stands before a sitter who faces +z."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+Axes = tuple[tuple[float, ...], ...]
+
+UPRIGHT: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True)
 class Camera:
-    """`eye` (3,) metres, looking along -z with y up; `focal` pixels; `centre` (x, y) the principal point in
-    pixels; `size` (height, width) of the picture."""
+    """`eye` (3,) metres; `focal` pixels; `centre` (x, y) the principal point in pixels; `size` (height, width) of the
+    picture. `axes` are three unit vectors of the world: the camera's right, its up, and backwards, away from what it
+    looks at."""
 
     eye: tuple[float, float, float]
     focal: float
     centre: tuple[float, float]
     size: tuple[int, int]
+    axes: Axes = UPRIGHT
 
     def project(self, points: NDArray[np.floating]) -> NDArray[np.float32]:
         """(V, 3) points in metres to (V, 3) float32: x and y in pixels and the distance along the view axis.
@@ -24,14 +30,32 @@ class Camera:
         Points behind the eye have a distance <= 0 and no meaningful pixel; the rasteriser leaves them out.
         """
         seen = np.asarray(points, np.float64) - self.eye
+        if self.axes != UPRIGHT:
+            seen = seen @ np.transpose(self.axes)
         distance = -seen[:, 2]
         with np.errstate(divide="ignore", invalid="ignore"):
             x = self.focal * seen[:, 0] / distance + self.centre[0]
             y = -self.focal * seen[:, 1] / distance + self.centre[1]
         return np.stack([x, y, distance], 1).astype(np.float32)
 
+    def rays(self, pixels: NDArray[np.floating]) -> NDArray[np.float64]:
+        """(N, 2) pixels to (N, 3) the directions in which they look, in the world, one metre along the view axis."""
+        x, y = (np.asarray(pixels, np.float64) - self.centre).T / self.focal
+        return np.stack([x, -y, -np.ones_like(x)], 1) @ np.array(self.axes)
+
     def enlarged(self, factor: int) -> Camera:
         """The same view with `factor` by `factor` pixels in the place of each: for supersampling."""
         shift = (factor - 1) / 2
         centre = (self.centre[0] * factor + shift, self.centre[1] * factor + shift)
-        return Camera(self.eye, self.focal * factor, centre, (self.size[0] * factor, self.size[1] * factor))
+        size = (self.size[0] * factor, self.size[1] * factor)
+        return replace(self, focal=self.focal * factor, centre=centre, size=size)
+
+    def aimed(self, eye: ArrayLike, target: ArrayLike) -> Camera:
+        """The same lens, level, at `eye` and looking at `target` (3,). The target may not be right above the eye."""
+        back = np.asarray(eye, np.float64) - np.asarray(target, np.float64)
+        back = back / np.linalg.norm(back)
+        right = np.cross([0.0, 1.0, 0.0], back)
+        right = right / np.linalg.norm(right)
+        axes = np.stack([right, np.cross(back, right), back]).tolist()
+        x, y, z = np.asarray(eye, np.float64).tolist()
+        return replace(self, eye=(x, y, z), axes=tuple(map(tuple, axes)))

@@ -107,17 +107,16 @@ def _seen_by(vertices: np.ndarray, view: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True, inline="always")
-def lit(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias: float) -> float:
+def lit(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias: float) -> np.float32:
     """The share of light [0, 1] that reaches a point: four texels compared, blended bilinearly."""
     u = view[0, 0] * x + view[0, 1] * y + view[0, 2] * z + view[3, 0]
     v = view[1, 0] * x + view[1, 1] * y + view[1, 2] * z + view[3, 1]
     w = view[2, 0] * x + view[2, 1] * y + view[2, 2] * z + view[3, 2] - bias
     left, top = int(np.floor(u)), int(np.floor(v))
     if left < 0 or top < 0 or left + 1 >= depth.shape[1] or top + 1 >= depth.shape[0]:
-        return 1.0
+        return np.float32(1)
     fu, fv = np.float32(u - left), np.float32(v - top)
-    upper = (1 - fu if depth[top, left] >= w else np.float32(0)) + (fu if depth[top, left + 1] >= w else np.float32(0))
-    lower = (1 - fu if depth[top + 1, left] >= w else np.float32(0)) + (
-        fu if depth[top + 1, left + 1] >= w else np.float32(0)
-    )
-    return float(upper * (1 - fv) + lower * fv)
+    one, nought = np.float32(1), np.float32(0)
+    upper = (one - fu if depth[top, left] >= w else nought) + (fu if depth[top, left + 1] >= w else nought)
+    lower = (one - fu if depth[top + 1, left] >= w else nought) + (fu if depth[top + 1, left + 1] >= w else nought)
+    return upper * (one - fv) + lower * fv

@@ -14,7 +14,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit, prange
+from numba import get_num_threads, njit, prange
 from numpy.typing import NDArray
 
 SHIFT = 8
@@ -62,7 +62,7 @@ def rasterise(
     """
     points = np.ascontiguousarray(vertices, dtype=np.float32)
     faces = np.ascontiguousarray(triangles, dtype=np.int32)
-    triangle, depth = _nearest(points, faces, size[0], size[1], perspective, cull)
+    triangle, depth = _nearest(points, faces, size[0], size[1], perspective, cull, get_num_threads())
     return Raster(triangle, _barycentrics(points, faces, triangle, perspective), depth)
 
 
@@ -72,7 +72,17 @@ def depth_map(
     """Depth alone, (H, W) float32, +inf where nothing is: the map from which a light casts its shadows."""
     points = np.ascontiguousarray(vertices, dtype=np.float32)
     faces = np.ascontiguousarray(triangles, dtype=np.int32)
-    return _nearest(points, faces, size[0], size[1], False, False)[1]
+    return _nearest(points, faces, size[0], size[1], False, False, get_num_threads())[1]
+
+
+@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+def draw_into(
+    points: np.ndarray, faces: np.ndarray, perspective: bool, cull: bool, ids: np.ndarray, depths: np.ndarray
+) -> None:
+    """Draw triangles into what is already there, in the calling thread alone: for callers that draw several pictures
+    side by side. Arrays are as in `rasterise` and `Raster`: float32 (V, 3), int32 (T, 3), int32 and float32 (H, W)."""
+    for t in range(faces.shape[0]):
+        _draw(points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
 
 
 @njit(cache=True, inline="always")
@@ -91,12 +101,11 @@ def _bias(dx: int, dy: int) -> int:
 
 @njit(cache=True, parallel=True, boundscheck=False, error_model="numpy")
 def _nearest(
-    points: np.ndarray, faces: np.ndarray, height: int, width: int, perspective: bool, cull: bool
+    points: np.ndarray, faces: np.ndarray, height: int, width: int, perspective: bool, cull: bool, bands: int
 ) -> tuple[np.ndarray, np.ndarray]:
     ids = np.full((height, width), -1, np.int32)
     depths = np.full((height, width), np.inf, np.float32)
-    bands = 2  # each band of rows walks all triangles in their order: the result does not depend on threads
-    for band in prange(bands):
+    for band in prange(bands):  # each band of rows walks all triangles in their order: bands do not change the result
         first, last = height * band // bands, height * (band + 1) // bands - 1
         for t in range(faces.shape[0]):
             _draw(points, faces, t, first, last, perspective, cull, ids, depths)

@@ -1,6 +1,6 @@
 """How surfaces answer to a lamp: Lambert's law for what enters the skin, a microfacet lobe for what glances off.
 
-Works on the visible points of a picture, (N, ...), one lamp after the other, adding up.
+Works on the visible points of a picture, (N, ...), some lamps at a time, adding up.
 
 Source of the lobe: B. Walter et al., Microfacet Models for Refraction through Rough Surfaces, EGSR 2007 (GGX),
 with Schlick's Fresnel term. Skin gets two lobes, as measured by T. Weyrich et al., SIGGRAPH 2006.
@@ -45,6 +45,10 @@ class Lighting:
     mirrored: NDArray[np.float32]
 
 
+AT_ONCE = 32
+"""Lamps whose shadows are held at a time: each takes a megabyte or two."""
+
+
 def illuminate(
     surface: Surface,
     lamps: Lamps,
@@ -56,10 +60,10 @@ def illuminate(
 ) -> Lighting:
     """Light a surface by every lamp, with shadows cast by the mesh `casters` (vertices, triangles) inside the
     ball of `radius` metres around `centre`. `bias` (metres) keeps a surface from shading itself."""
-    irradiance = np.zeros_like(surface.position)
-    mirrored = np.zeros_like(surface.position)
-    for direction, colour in zip(lamps.directions, lamps.irradiance, strict=True):
-        shadow = cast_shadow(*casters, direction, centre, radius, map_size)
+    irradiance, mirrored = np.zeros_like(surface.position), np.zeros_like(surface.position)
+    for first in range(0, len(lamps.directions), AT_ONCE):
+        directions = lamps.directions[first : first + AT_ONCE]
+        shadows = [cast_shadow(*casters, direction, centre, radius, map_size) for direction in directions]
         _add(  # in the order in which they are written: numba knows no keywords
             surface.position,
             surface.normal,
@@ -68,11 +72,11 @@ def illuminate(
             surface.roughness,
             surface.reflectance,
             surface.softness,
-            direction,
-            colour,
-            shadow.depth,
-            shadow.view,
-            bias,
+            directions,
+            lamps.irradiance[first : first + AT_ONCE],
+            np.stack([shadow.depth for shadow in shadows]),
+            np.stack([shadow.view for shadow in shadows]),
+            np.array([bias], np.float32),
             irradiance,
             mirrored,
         )
@@ -82,12 +86,16 @@ def illuminate(
 @njit(cache=True, inline="always")
 def _lobe(nl: float, nv: float, nh: float, vh: float, roughness: float, reflectance: float) -> float:
     """GGX times the cosine towards the lamp: the mirrored share of the irradiance of a lamp."""
-    a2 = roughness**4
-    d = nh * nh * (a2 - 1) + 1
-    distribution = a2 / (np.pi * d * d)
+    one = np.float32(1)
+    a2 = roughness * roughness * roughness * roughness
+    d = nh * nh * (a2 - one) + one
+    distribution = a2 / (np.float32(np.pi) * d * d)
     # height-correlated Smith term, already divided by 4 (n.l) (n.v)
-    masking = 0.5 / (nl * np.sqrt(nv * nv * (1 - a2) + a2) + nv * np.sqrt(nl * nl * (1 - a2) + a2) + 1e-6)
-    fresnel = reflectance + (1 - reflectance) * (1 - vh) ** 5
+    masking = np.float32(0.5) / (
+        nl * np.sqrt(nv * nv * (one - a2) + a2) + nv * np.sqrt(nl * nl * (one - a2) + a2) + np.float32(1e-6)
+    )
+    missed = one - vh
+    fresnel = reflectance + (one - reflectance) * missed * missed * missed * missed * missed
     return distribution * masking * fresnel * nl
 
 
@@ -100,44 +108,46 @@ def _add(
     roughness: np.ndarray,
     reflectance: np.ndarray,
     softness: np.ndarray,
-    lamp: np.ndarray,
-    colour: np.ndarray,
-    depth: np.ndarray,
-    light_view: np.ndarray,
-    bias: float,
+    lamps: np.ndarray,
+    colours: np.ndarray,
+    depths: np.ndarray,
+    light_views: np.ndarray,
+    biases: np.ndarray,
     irradiance: np.ndarray,
     mirrored: np.ndarray,
 ) -> None:
+    one, nought, bias = np.float32(1), np.float32(0), biases[0]
     for i in prange(len(position)):
-        smooth = normal[i, 0] * lamp[0] + normal[i, 1] * lamp[1] + normal[i, 2] * lamp[2]
-        fine = bumped[i, 0] * lamp[0] + bumped[i, 1] * lamp[1] + bumped[i, 2] * lamp[2]
-        if smooth <= 0 and fine <= 0:
-            continue
-        # a surface seen at a grazing angle by the lamp needs a larger lift
-        lift = bias * (1 + 2 * (1 - min(max(smooth, 0.0), 1.0)))
-        share = lit(
-            depth,
-            light_view,
-            position[i, 0] + lift * normal[i, 0],
-            position[i, 1] + lift * normal[i, 1],
-            position[i, 2] + lift * normal[i, 2],
-            bias,
-        )
-        if share <= 0:
-            continue
-        for c in range(3):
-            cosine = fine + softness[i, c] * (smooth - fine)
-            if cosine > 0:
-                irradiance[i, c] += colour[c] * share * cosine
-        if fine > 0 and smooth > 0 and reflectance[i] > 0:
-            hx, hy, hz = lamp[0] + view[i, 0], lamp[1] + view[i, 1], lamp[2] + view[i, 2]
-            scale = 1 / np.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
-            nh = min(max((bumped[i, 0] * hx + bumped[i, 1] * hy + bumped[i, 2] * hz) * scale, 0.0), 1.0)
-            nv = max(bumped[i, 0] * view[i, 0] + bumped[i, 1] * view[i, 1] + bumped[i, 2] * view[i, 2], 0.02)
-            vh = min(max((view[i, 0] * hx + view[i, 1] * hy + view[i, 2] * hz) * scale, 0.0), 1.0)
-            tight = _lobe(fine, nv, nh, vh, roughness[i] * 0.6, reflectance[i])
-            wide = _lobe(fine, nv, nh, vh, roughness[i], reflectance[i])
-            # bumps must not catch light that grazes the surface they lie on
-            gloss = share * min(1.0, 5 * smooth) * (0.25 * tight + 0.75 * wide)
+        px, py, pz = position[i, 0], position[i, 1], position[i, 2]
+        ax, ay, az = normal[i, 0], normal[i, 1], normal[i, 2]
+        bx, by, bz = bumped[i, 0], bumped[i, 1], bumped[i, 2]
+        vx, vy, vz = view[i, 0], view[i, 1], view[i, 2]
+        nv = max(bx * vx + by * vy + bz * vz, np.float32(0.02))
+        wide, gloss = roughness[i], reflectance[i]
+        tight = wide * np.float32(0.6)
+        for k in range(len(lamps)):
+            lx, ly, lz = lamps[k, 0], lamps[k, 1], lamps[k, 2]
+            smooth = ax * lx + ay * ly + az * lz
+            fine = bx * lx + by * ly + bz * lz
+            if smooth <= 0 and fine <= 0:
+                continue
+            # a surface seen at a grazing angle by the lamp needs a larger lift
+            lift = bias * (one + np.float32(2) * (one - min(max(smooth, nought), one)))
+            share = lit(depths[k], light_views[k], px + lift * ax, py + lift * ay, pz + lift * az, bias)
+            if share <= 0:
+                continue
             for c in range(3):
-                mirrored[i, c] += colour[c] * gloss
+                cosine = fine + softness[i, c] * (smooth - fine)
+                if cosine > 0:
+                    irradiance[i, c] += colours[k, c] * share * cosine
+            if fine > 0 and smooth > 0 and gloss > 0:
+                hx, hy, hz = lx + vx, ly + vy, lz + vz
+                scale = one / np.sqrt(hx * hx + hy * hy + hz * hz + np.float32(1e-12))
+                nh = min(max((bx * hx + by * hy + bz * hz) * scale, nought), one)
+                vh = min(max((vx * hx + vy * hy + vz * hz) * scale, nought), one)
+                lobes = np.float32(0.25) * _lobe(fine, nv, nh, vh, tight, gloss)
+                lobes += np.float32(0.75) * _lobe(fine, nv, nh, vh, wide, gloss)
+                # bumps must not catch light that grazes the surface they lie on
+                lobes *= share * min(one, np.float32(5) * smooth)
+                for c in range(3):
+                    mirrored[i, c] += colours[k, c] * lobes

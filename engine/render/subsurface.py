@@ -62,6 +62,7 @@ def diffuse(
 
 @njit(cache=True, parallel=True, fastmath=True)
 def _blur_rows(image: np.ndarray, weight: np.ndarray, depth: np.ndarray, sigma: float, reach: float) -> np.ndarray:
+    most = np.float32(reach)
     height, width = weight.shape
     radius = int(np.ceil(2.6 * sigma))
     kernel = np.exp(-0.5 * (np.arange(-radius, radius + 1) / sigma) ** 2).astype(np.float32)
@@ -71,11 +72,19 @@ def _blur_rows(image: np.ndarray, weight: np.ndarray, depth: np.ndarray, sigma: 
             if weight[y, x] <= 0:
                 continue
             light, total = np.float32(0), np.float32(0)
-            for k in range(max(-radius, -x), min(radius, width - 1 - x) + 1):
-                w = kernel[k + radius] * weight[y, x + k]
-                if w > 0 and abs(depth[y, x + k] - depth[y, x]) <= reach:
-                    light += w * image[y, x + k]
-                    total += w
+            here = depth[y, x]
+            first, last = max(x - radius, 0), min(x + radius, width - 1)
+            weights, values, depths = (
+                weight[y, first : last + 1],
+                image[y, first : last + 1],
+                depth[y, first : last + 1],
+            )
+            bell = kernel[first - x + radius : last - x + radius + 1]
+            for k in range(len(bell)):  # without branches: it runs in vectors
+                near = np.float32(abs(depths[k] - here) <= most)
+                w = near * bell[k] * weights[k]
+                light += w * values[k]
+                total += w
             if total > 0:
                 out[y, x] = light / total
     return out

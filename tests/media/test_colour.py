@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import av
@@ -119,6 +120,15 @@ def pq(linear: np.ndarray) -> np.ndarray:
     return pq_code(linear * 203)
 
 
+@pytest.fixture
+def usual_scheduling() -> Iterator[None]:
+    """The AV1 encoder leaves the thread that opened it, if it is root's, at real-time priority: everything that the tests
+    started from then on would keep the machine's cores from all others."""
+    yield
+    os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
+@pytest.mark.usefixtures("usual_scheduling")
 @pytest.mark.parametrize(
     ("name", "codec", "ending"),
     [

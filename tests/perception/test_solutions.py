@@ -19,3 +19,15 @@ assert isinstance(figure, matplotlib.figure.Figure)
 
 def test_matplotlib_is_imported_by_who_draws_and_nobody_else() -> None:
     subprocess.run([sys.executable, "-c", STEPS], check=True, env={"MPLBACKEND": "agg"}, timeout=60)
+
+
+FIND = """
+import numpy as np
+from engine.perception.faces import find_faces
+find_faces(np.zeros((64, 64, 3), np.uint8))
+"""
+
+
+def test_nothing_is_said_of_old_ways() -> None:
+    done = subprocess.run([sys.executable, "-c", FIND], check=True, capture_output=True, text=True, timeout=60)
+    assert "AttributeError" not in done.stderr
