@@ -18,9 +18,10 @@ from typing import Any, Literal, Protocol, cast
 import av
 import cv2
 import numpy as np
-from av.video.frame import VideoFrame
+from av.video.frame import PictureType, VideoFrame
 from av.video.stream import VideoStream
 
+from engine.export import synthetic
 from engine.export.sound import SoundTrack, open_sound
 from engine.media.timing import exact_rate
 from engine.media.ycbcr import BT709, LIMITED, frame_from_rgb
@@ -40,6 +41,8 @@ class Target:
     sound: Path | None
     sound_trim: tuple[float, float] | None
     loop: bool
+    entries: frozenset[int] | None
+    synthetic: bool
 
 
 class Encoder(Protocol):
@@ -83,21 +86,37 @@ _CODINGS = {
 }
 
 
+ENTERED = {
+    "crf": "20",
+    "preset": "veryfast",
+    "forced-idr": "1",
+    # No frame is coded out of order: the first after a jump is shown without waiting for others.
+    "x264-params": "keyint=infinite:scenecut=0:bframes=0:mbtree=0:qcomp=1:ipratio=1:aq-mode=0",
+}
+"""H.264 for a video with entries. All of it is coded equally fine, whole pictures and what changes, flat and textured
+parts, so that the grain of one video goes on in the next: at a jump to a frame that shows nearly the same (0.95 grey
+levels in the mean) 0.98 were seen, with the usual settings 1.8; and no frame is sharper than the one before."""
+
+
 class StreamEncoder:
     """MP4 (H.264), WebM (VP9) and animated WebP, by FFmpeg."""
 
     def __init__(self, target: Target, transparent: bool):
         coding = _CODINGS[target.format]
         options = coding.container | ({"loop": "0" if target.loop else "1"} if target.format == "webp" else {})
+        self._target = target
         self._webp = target.format == "webp"
         self._transparent = transparent
         self._rate = exact_rate(target.fps)
+        self._entries = target.entries or frozenset()
         self._count = 0
         self._container = av.open(str(target.path), "w", format=target.format, options=options)
+        if target.synthetic:
+            self._container.metadata.update(synthetic.TAGS)
         self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
         self._stream.width, self._stream.height = target.size
         crf = {} if target.crf is None or self._webp else {"crf": str(target.crf)}
-        self._stream.options = {**coding.options, **crf}
+        self._stream.options = {**coding.options, **(ENTERED if target.entries else {}), **crf}
         self._stream.codec_context.thread_count = coding.threads
         if self._webp:
             self._stream.pix_fmt = "bgra"
@@ -121,6 +140,8 @@ class StreamEncoder:
     def add(self, prepared: VideoFrame) -> None:
         """Code a frame, and the sound up to it."""
         prepared.pts, prepared.time_base = self._count, 1 / self._rate
+        if self._count in self._entries:
+            prepared.pict_type = PictureType.I
         self._count += 1
         self._container.mux(self._stream.encode(prepared))
         if self.sound is not None:
@@ -131,6 +152,10 @@ class StreamEncoder:
         self._container.mux(self._stream.encode(None))
         self._container.close()
         self._close_sound()
+        if self._target.synthetic and self._target.format == "mp4":
+            synthetic.append_to_mp4(self._target.path)
+        elif self._target.synthetic and self._webp:
+            synthetic.append_to_webp(self._target.path, self._target.size)
 
     def abandon(self) -> None:
         """Close the file, whatever state it is in."""
@@ -147,6 +172,7 @@ class PngEncoder:
     """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate."""
 
     def __init__(self, target: Target):
+        self._synthetic = target.synthetic
         self._archive = zipfile.ZipFile(target.path, "w", zipfile.ZIP_STORED)
         self._archive.comment = f"{float(Fraction(exact_rate(target.fps))):g} frames per second".encode()
         self._count = 0
@@ -157,7 +183,8 @@ class PngEncoder:
 
     def add(self, prepared: np.ndarray) -> None:
         """Code a picture."""
-        self._archive.writestr(f"{self._count:06d}.png", cv2.imencode(".png", prepared)[1].tobytes())
+        png = cv2.imencode(".png", prepared)[1].tobytes()
+        self._archive.writestr(f"{self._count:06d}.png", synthetic.marked_png(png) if self._synthetic else png)
         self._count += 1
 
     def finish(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
@@ -43,6 +43,9 @@ class VideoWriter:
     sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
     sound_trim : (start, end) seconds of that file's video that the frames stand for.
     loop : whether an animated WebP repeats for ever (of the others, the player decides).
+    entries : "mp4" alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from
+        other videos of the same picture without a jump in its grain; between the entries it is slow to search.
+    synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes.
     warn : called with (code, message): `no_sound` where there is none to carry, or the format holds none.
 
     Raises `ValueError` for frames that do not fit and for a video of none, `OSError` where the disk is full.
@@ -58,11 +61,16 @@ class VideoWriter:
         sound: Path | None = None,
         sound_trim: tuple[float, float] | None = None,
         loop: bool = False,
+        entries: Iterable[int] | None = None,
+        synthetic: bool = True,
         warn: Warn | None = None,
     ):
         if format in ("mp4", "webm") and (size[0] % 2 or size[1] % 2):
             raise ValueError(f"the size of a video must be even, not {size}")
-        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop)
+        if entries is not None and format != "mp4":
+            raise ValueError("only an MP4 has entries")
+        whole = None if entries is None else frozenset(entries)
+        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, whole, synthetic)
         self._draft = path.with_name(f".{path.name}.draft")
         self._warn = warn or (lambda code, message: None)
         self._encoder: Encoder | None = None

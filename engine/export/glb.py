@@ -1,0 +1,222 @@
+"""Characters out as GLB (glTF 2.0): one skinned mesh, one material, the clips as animations.
+
+The skeleton binds in T-pose and its nodes carry the Mixamo names, so that Unity, Unreal, Godot, Blender, three.js and
+model-viewer can play its clips and give it others. Specification: Khronos, glTF 2.0 (ISO/IEC 12113), section numbers
+in the comments.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pygltflib as gl
+from numpy.typing import NDArray
+from PIL import Image
+
+from engine.export.animation_tracks import tracks
+from engine.export.gltf_buffer import Buffer
+from engine.export.influences import quantise_influences
+from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.welding import seamless_normals
+from engine.motion.clip import Clip
+from engine.motion.skeleton import Skeleton
+
+COVERAGE = 0.5
+"""Each level of detail takes over where the character fills this share less of the screen than the one before."""
+
+
+def write_glb(
+    path: Path,
+    mesh: SkinnedMesh,
+    clips: Sequence[Clip] = (),
+    *,
+    name: str = "character",
+    quality: int = 90,
+    unlit: bool = True,
+    levels: Sequence[SkinnedMesh] = (),
+    synthetic: bool = True,
+) -> None:
+    """Write a character; the file appears under its name when it is whole.
+
+    Parameters
+    ----------
+    clips : become animations of the same names. Joints that never leave the T-pose are left out of an animation; one
+        that loops says so in its `extras` (`{"loops": true}`) and ends on its first frame again (moved on, where it
+        travels); a clip of one frame is held for a second.
+    quality : of the texture, a JPEG (1 to 100).
+    unlit : the texture shows the light of its picture: ask viewers to add none (`KHR_materials_unlit`, not required).
+    levels : coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail
+        show `mesh`. Their textures are not used.
+    synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
+
+    Raises ValueError where clips or levels do not fit the skeleton, or two clips have one name.
+    """
+    gltf = build_glb(mesh, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
+    save_glb(path, gltf)
+
+
+def save_glb(path: Path, gltf: gl.GLTF2) -> None:
+    """Write what `build_glb` made; the file appears under its name when it is whole."""
+    draft = path.with_name(f".{path.name}.draft")
+    try:
+        draft.write_bytes(b"".join(gltf.save_to_bytes()))
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def build_glb(
+    mesh: SkinnedMesh,
+    clips: Sequence[Clip] = (),
+    *,
+    name: str = "character",
+    quality: int = 90,
+    unlit: bool = True,
+    levels: Sequence[SkinnedMesh] = (),
+    synthetic: bool = True,
+) -> gl.GLTF2:
+    """The same as an object, for formats that are GLB with additions (`engine.export.vrm`).
+
+    Node `j` is joint `j` of the skeleton; then come the root of all joints and the meshes.
+    """
+    if len({clip.name for clip in clips}) < len(clips):
+        raise ValueError("two clips have the same name")
+    skeleton = mesh.skeleton
+    gltf = gl.GLTF2(asset=gl.Asset(version="2.0", generator="Galatea"))
+    if synthetic:
+        gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
+    buffer = Buffer(gltf)
+    _add_skeleton(gltf, buffer, skeleton)
+    _add_material(gltf, buffer, mesh.texture, quality, unlit, synthetic)
+    shown = [_add_mesh(gltf, buffer, each, name, level) for level, each in enumerate((mesh, *levels))]
+    if levels:
+        _add_levels(gltf, shown)
+    for clip in clips:
+        _add_animation(gltf, buffer, clip, skeleton)
+    # a skinned mesh is a root: its node's place does not count (3.7.3.3), and some engines warn about parents
+    gltf.scenes = [gl.Scene(name=name, nodes=[len(skeleton.names), shown[0]])]
+    gltf.scene = 0
+    buffer.finish()
+    return gltf
+
+
+def _add_skeleton(gltf: gl.GLTF2, buffer: Buffer, skeleton: Skeleton) -> None:
+    children: list[list[int]] = [[] for _ in skeleton.names]
+    for joint, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            children[parent].append(joint)
+    for joint, offset in enumerate(skeleton.offsets()):
+        gltf.nodes.append(gl.Node(name=skeleton.names[joint], translation=offset.tolist(), children=children[joint]))
+    gltf.nodes.append(gl.Node(name="Armature", children=np.flatnonzero(skeleton.parents < 0).tolist()))
+    inverse_bind = np.tile(np.eye(4, dtype=np.float32), (len(skeleton.names), 1, 1))
+    inverse_bind[:, :3, 3] = -skeleton.heads
+    gltf.skins = [
+        gl.Skin(
+            name="skeleton",
+            joints=list(range(len(skeleton.names))),
+            skeleton=len(skeleton.names),
+            inverseBindMatrices=buffer.add(inverse_bind),
+        )
+    ]
+
+
+def _add_material(
+    gltf: gl.GLTF2, buffer: Buffer, texture: NDArray[np.uint8], quality: int, unlit: bool, synthetic: bool
+) -> None:
+    gltf.images = [
+        gl.Image(
+            name="texture",
+            mimeType="image/jpeg",
+            bufferView=buffer.add_file(jpeg(texture, quality, synthetic)),
+        )
+    ]
+    gltf.samplers = [
+        gl.Sampler(
+            magFilter=gl.LINEAR, minFilter=gl.LINEAR_MIPMAP_LINEAR, wrapS=gl.CLAMP_TO_EDGE, wrapT=gl.CLAMP_TO_EDGE
+        )
+    ]
+    gltf.textures = [gl.Texture(source=0, sampler=0)]
+    material = gl.Material(
+        name="skin",
+        pbrMetallicRoughness=gl.PbrMetallicRoughness(
+            baseColorTexture=gl.TextureInfo(index=0), metallicFactor=0.0, roughnessFactor=0.9
+        ),
+        emissiveFactor=None,
+    )
+    if unlit:
+        material.extensions = {"KHR_materials_unlit": {}}
+        gltf.extensionsUsed = [*(gltf.extensionsUsed or []), "KHR_materials_unlit"]
+    gltf.materials = [material]
+
+
+def jpeg(texture: NDArray[np.uint8], quality: int, synthetic: bool) -> bytes:
+    """A texture as JPEG, its colours at full resolution: neighbours in an atlas must not bleed into each other."""
+    packed = io.BytesIO()
+    Image.fromarray(texture).save(packed, "JPEG", quality=quality, subsampling=0, optimize=True)
+    return marked_jpeg(packed.getvalue()) if synthetic else packed.getvalue()
+
+
+def _add_mesh(gltf: gl.GLTF2, buffer: Buffer, mesh: SkinnedMesh, name: str, level: int) -> int:
+    """The index of the node that shows the mesh."""
+    if mesh.skeleton.names != joint_names(gltf):
+        raise ValueError("a level of detail has another skeleton")
+    joints, weights = quantise_influences(mesh.bones, mesh.weights)
+    # the largest number of a type restarts a strip (3.7.2.1)
+    narrow = len(mesh.vertices) < np.iinfo(np.uint16).max
+    attributes = gl.Attributes(
+        POSITION=buffer.add(mesh.vertices.astype(np.float32), gl.ARRAY_BUFFER, bounds=True),
+        NORMAL=buffer.add(seamless_normals(mesh), gl.ARRAY_BUFFER),
+        TEXCOORD_0=buffer.add(mesh.uv.astype(np.float32), gl.ARRAY_BUFFER),
+        JOINTS_0=buffer.add(joints, gl.ARRAY_BUFFER),
+        WEIGHTS_0=buffer.add(weights, gl.ARRAY_BUFFER, normalised=True),
+    )
+    indices = mesh.triangles.astype(np.uint16 if narrow else np.uint32).ravel()
+    label = f"{name}_lod{level}" if level else name
+    primitive = gl.Primitive(
+        attributes=attributes, indices=buffer.add(indices, gl.ELEMENT_ARRAY_BUFFER), material=0, mode=gl.TRIANGLES
+    )
+    gltf.meshes.append(gl.Mesh(name=label, primitives=[primitive]))
+    gltf.nodes.append(gl.Node(name=label, mesh=len(gltf.meshes) - 1, skin=0))
+    return len(gltf.nodes) - 1
+
+
+def joint_names(gltf: gl.GLTF2) -> tuple[str, ...]:
+    """The names of the joints of the first skin."""
+    return tuple(gltf.nodes[node].name for node in gltf.skins[0].joints)
+
+
+def _add_levels(gltf: gl.GLTF2, shown: Sequence[int]) -> None:
+    gltf.nodes[shown[0]].extensions = {"MSFT_lod": {"ids": list(shown[1:])}}
+    gltf.nodes[shown[0]].extras = {"MSFT_screencoverage": [COVERAGE ** (k + 1) for k in range(len(shown) - 1)] + [0.0]}
+    gltf.extensionsUsed = [*(gltf.extensionsUsed or []), "MSFT_lod"]
+
+
+def _add_animation(gltf: gl.GLTF2, buffer: Buffer, clip: Clip, skeleton: Skeleton) -> None:
+    keys = tracks(clip, skeleton)
+    shared = f"animation {clip.name}"
+    animation = gl.Animation(name=clip.name, extras={"loops": True} if clip.loops else None)
+    times = buffer.add(keys.times, bounds=True, shared=f"{shared} times")
+
+    def track(node: int, path: str, clock: int, values: NDArray[np.float32]) -> None:
+        animation.samplers.append(
+            gl.AnimationSampler(
+                input=clock, output=buffer.add(values, shared=f"{shared} {values.shape[1]}"), interpolation="LINEAR"
+            )
+        )
+        target = gl.AnimationChannelTarget(node=node, path=path)
+        animation.channels.append(gl.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))
+
+    track(int(np.flatnonzero(skeleton.parents < 0)[0]), "translation", times, keys.root)
+    held = None
+    for joint in np.flatnonzero(keys.turning):
+        if keys.moving[joint]:
+            track(int(joint), "rotation", times, np.ascontiguousarray(keys.rotations[:, joint]))
+        else:  # turned once and for all: one key says it
+            if held is None:
+                held = buffer.add(keys.times[:1], bounds=True, shared=f"{shared} times")
+            track(int(joint), "rotation", held, np.ascontiguousarray(keys.rotations[:1, joint]))
+    gltf.animations.append(animation)

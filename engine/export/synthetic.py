@@ -1,0 +1,96 @@
+"""The mark that a picture or video is synthetic, as machines read it.
+
+XMP with the IPTC's digital source type `compositeSynthetic`: "mix or composite of several elements, at least one of
+which is synthetic". The portrait's pixels were captured, their motion was made by a program. The neighbouring terms do
+not fit: `trainedAlgorithmicMedia` is for what a model made that was trained on media, and nothing here was;
+`algorithmicMedia` is for what mathematics alone made.
+
+The mark lies where each format keeps XMP (XMP Specification part 3): in MP4 in a `uuid` box of its own, in JPEG in an
+APP1 segment, in PNG in an `iTXt` chunk, in WebP in an `XMP ` chunk; WebM has tags alone. No pixel is changed by it.
+"""
+
+from __future__ import annotations
+
+import zlib
+from pathlib import Path
+
+SOURCE_TYPE = "http://cv.iptc.org/newscodes/digitalsourcetype/compositeSynthetic"
+STATEMENT = "Synthetic: made from a still picture by Galatea."
+TAGS = {"comment": STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
+"""The same as tags of a video file."""
+
+XMP = (
+    '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
+    '<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">'
+    '<rdf:Description rdf:about="" xmlns:Iptc4xmpExt="http://iptc.org/std/Iptc4xmpExt/2008-02-29/" '
+    'xmlns:xmp="http://ns.adobe.com/xap/1.0/" xmlns:dc="http://purl.org/dc/elements/1.1/">'
+    f"<Iptc4xmpExt:DigitalSourceType>{SOURCE_TYPE}</Iptc4xmpExt:DigitalSourceType>"
+    "<xmp:CreatorTool>Galatea</xmp:CreatorTool>"
+    f'<dc:description><rdf:Alt><rdf:li xml:lang="x-default">{STATEMENT}</rdf:li></rdf:Alt></dc:description>'
+    '</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end="r"?>'
+).encode()
+
+UUID = bytes.fromhex("BE7ACFCB97A942E89C71999491E3AFAC")
+"""Names the box of an MP4 file that holds XMP."""
+
+_JPEG_NAME = b"http://ns.adobe.com/xap/1.0/\0"
+_PNG_KEYWORD = b"XML:com.adobe.xmp"
+_PNG_SIGNATURE = 8
+_IHDR = 25
+_VP8X_XMP, _VP8X_ALPHA = 0x04, 0x10
+
+
+def mark_image(path: Path) -> None:
+    """Mark a picture (`.jpg` or `.png`) that has just been written."""
+    data = path.read_bytes()
+    path.write_bytes(marked_png(data) if path.suffix == ".png" else marked_jpeg(data))
+
+
+def append_to_mp4(path: Path) -> None:
+    """Add the mark as the last box, so that nothing before it moves (`faststart` included)."""
+    box = UUID + XMP
+    with path.open("ab") as file:
+        file.write((8 + len(box)).to_bytes(4, "big") + b"uuid" + box)
+
+
+def append_to_webp(path: Path, size: tuple[int, int]) -> None:
+    """Add the mark as the last chunk of a WebP of this (width, height), and say in its extended header that it is
+    there. An animation whose frames are all alike is written as a plain picture, which has no such header yet."""
+    data = path.read_bytes() if _plain(path) else b""
+    with path.open("r+b") as file:
+        if data:
+            alpha = _VP8X_ALPHA if data[12:16] == b"VP8L" and data[24] & 0x10 else 0
+            sides = b"".join((side - 1).to_bytes(3, "little") for side in size)
+            file.seek(12)
+            file.write(b"VP8X" + (10).to_bytes(4, "little") + bytes([alpha, 0, 0, 0]) + sides + data[12:])
+        file.seek(0, 2)
+        file.write(b"XMP " + len(XMP).to_bytes(4, "little") + XMP + bytes(len(XMP) % 2))
+        riff = file.tell() - 8
+        file.seek(4)
+        file.write(riff.to_bytes(4, "little"))
+        file.seek(20)
+        flags = file.read(1)[0]
+        file.seek(20)
+        file.write(bytes([flags | _VP8X_XMP]))
+
+
+def _plain(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(16)[12:] in (b"VP8 ", b"VP8L")
+
+
+def marked_png(png: bytes) -> bytes:
+    """A PNG with the mark behind its header."""
+    end = _PNG_SIGNATURE + _IHDR
+    body = b"iTXt" + _PNG_KEYWORD + bytes(5) + XMP
+    chunk = (len(body) - 4).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
+    return png[:end] + chunk + png[end:]
+
+
+def marked_jpeg(jpeg: bytes) -> bytes:
+    """A JPEG with the mark behind its first segments (`JFIF`, which has to come first, and `Exif`)."""
+    at = 2
+    while jpeg[at : at + 2] in (b"\xff\xe0", b"\xff\xe1"):
+        at += 2 + int.from_bytes(jpeg[at + 2 : at + 4], "big")
+    body = _JPEG_NAME + XMP
+    return jpeg[:at] + b"\xff\xe1" + (2 + len(body)).to_bytes(2, "big") + body + jpeg[at:]
