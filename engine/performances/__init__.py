@@ -2,9 +2,10 @@
 
 The actor is made from the CC0 human template (`engine.body`) with a skin, eyes, teeth, hair and light of the
 project's own, so that nobody's likeness is shipped. Reading order for how: `score` (what he does and when),
-`figure` (his body in a pose), `actor` (skin, eyes, teeth, hair, shirt put together), `studio` (camera and light).
+`figure` (his body in a pose), `actor` (skin, eyes, teeth, hair, shirt put together), `studio` (camera and light),
+`filming` (frame after frame).
 """
 
-from engine.performances.catalogue import Performance, catalogue, names, performance, video
+from engine.performances.catalogue import STATES, Performance, State, catalogue, names, performance, poster, video
 
-__all__ = ["Performance", "catalogue", "names", "performance", "video"]
+__all__ = ["STATES", "Performance", "State", "catalogue", "names", "performance", "poster", "video"]

@@ -127,8 +127,8 @@ def build_actor(lamps: Lamps) -> Actor:
     )
 
 
-def stage(actor: Actor, pose: Pose) -> Scene:
-    """Set the actor into a pose."""
+def stage(actor: Actor, pose: Pose, lit: bool = True) -> Scene:
+    """Set the actor into a pose. A scene that will not be `lit` needs nothing that casts shadows."""
     posed = pose_figure(actor.figure, pose)
     tongue = (actor.tongue.points @ posed.cage).astype(np.float32)
     tongue_part = (tongue, triangulate(actor.tongue.quads), Part.TONGUE)
@@ -140,15 +140,20 @@ def stage(actor: Actor, pose: Pose) -> Scene:
     crop = _move(posed.head, actor.crop.points.reshape(-1, 3)).reshape(actor.crop.points.shape)
     centres = np.stack([m[:3, :3] @ e.centre + m[:3, 3] for m, e in zip(posed.eyes, actor.figure.eyes, strict=True)])
     rooted = [plant(hairs, posed.skin, normals, centres) for hairs in actor.rooted]
-    light = _join(
-        [
-            (posed.coarse_skin, triangulate(actor.figure.coarse_quads), Part.SKIN),
-            *_rigid_parts(actor, posed, *actor.casting),
-            tongue_part,
-            (cloth, actor.shirt.light_triangles, Part.CLOTH),
-            (*_ribbons(crop), Part.CLOTH),
-        ]
+    casters: list[Piece] = (
+        []
+        if not lit
+        else (
+            [
+                (posed.coarse_skin, triangulate(actor.figure.coarse_quads), Part.SKIN),
+                *_rigid_parts(actor, posed, *actor.casting),
+                tongue_part,
+                (cloth, actor.shirt.light_triangles, Part.CLOTH),
+                (*_ribbons(crop), Part.CLOTH),
+            ]
+        )
     )
+    light = _join(casters or [rest[0]])
     return Scene(
         vertices=fine[0],
         normals=vertex_normals(fine[0], fine[1]),

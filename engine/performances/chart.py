@@ -45,6 +45,12 @@ def grid() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     return np.broadcast_to(u, SHAPE), np.broadcast_to(v[:, None], SHAPE)
 
 
+def slopes(height: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """How a relief (H, W), metres, rises along u and along v, (H, W) each."""
+    down, across = np.gradient(height, 1 / TEXELS)
+    return np.asarray(across, np.float32), np.asarray(-down, np.float32)
+
+
 def blob(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
     """A Gaussian of height one: `spread` are its standard deviations along its axes, `turn` radians."""
     u, v = grid()

@@ -51,11 +51,12 @@ def lamps(detail: float = 1.0) -> Lamps:
 def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.float32]:
     """Irradiance (N, 3) by light that surfaces pass on to each other: between the walls of the mouth, fading towards
     the throat, and from the white of the eye onto the `wet` (N,) rims of the lids."""
-    inside = np.isin(seen.part, (Part.TEETH, Part.TONGUE))
+    inside = (seen.part == Part.TEETH) | (seen.part == Part.TONGUE)
     head = scene.posed.head
-    depth = 0.146 - ((seen.position - head[:3, 3]) @ head[:3, :3])[:, 2]
-    in_mouth = (inside * np.exp(-np.clip(depth, 0, None) / 0.013)).astype(np.float32)
-    return in_mouth[:, None] * BOUNCE + wet[:, None] * EYE_BOUNCE
+    depth = 0.146 - (seen.position[inside] - head[:3, 3]) @ head[:3, 2]
+    bounced = wet[:, None] * EYE_BOUNCE
+    bounced[inside] += np.exp(-np.clip(depth, 0, None) / 0.013)[:, None].astype(np.float32) * BOUNCE
+    return bounced
 
 
 def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:

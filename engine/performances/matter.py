@@ -64,35 +64,28 @@ def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     by_vertex[:count] = np.concatenate([actor.chart, tangents, masks], 1)
     at = interpolate(by_vertex, scene.triangles, seen.raster)
     place = chart.texture_coordinates(at[..., :2])
-    height = actor.skin.height + scene.wrinkles
-    slope_v, slope_u = np.gradient(height, 1 / chart.TEXELS)
-    # grooves are darker: less light finds in, and blood shows where the skin is pressed
-    groove = np.clip(-scene.wrinkles / 5e-4, 0, 1)[..., None] * np.array([0.16, 0.26, 0.28], np.float32)
-    maps = np.concatenate(
-        [
-            actor.skin.albedo * (1 - groove),
-            actor.skin.roughness[..., None],
-            slope_u[..., None],
-            -slope_v[..., None],
-            actor.skin.lips[..., None],
-        ],
-        2,
-    )
     on_skin = np.zeros(seen.covered.shape, bool)
     on_skin[seen.covered] = of_skin
-    found = sample_texture(maps, place, on_skin)[on_skin]
+    found = sample_texture(actor.skin.maps, place, on_skin)[on_skin]
+    folds = np.dstack([scene.wrinkles, *chart.slopes(scene.wrinkles)])
+    fold = sample_texture(folds, place, on_skin)[on_skin]
+    # grooves are darker: less light finds in, and blood shows where the skin is pressed
+    groove = np.clip(-fold[:, :1] / 5e-4, 0, 1) * np.array([0.16, 0.26, 0.28], np.float32)
     values = at[on_skin]
     inner, margin = values[:, 8:9], values[:, 9:10]
     mucosa = np.array([0.36, 0.13, 0.11], np.float32)
     rim = np.array([0.46, 0.235, 0.20], np.float32)
-    albedo = found[:, :3] + margin * 0.35 * (rim - found[:, :3])
+    albedo = found[:, :3] * (1 - groove)
+    albedo += margin * 0.35 * (rim - albedo)
     albedo = albedo * (1 - 0.8 * values[:, 10:11])
     matter.albedo[of_skin] = albedo + inner * (mucosa - albedo)
     rough = found[:, 3] + margin[:, 0] * (0.38 - found[:, 3])
     matter.roughness[of_skin] = rough + inner[:, 0] * (0.33 - rough)
     # relief finer than a pixel would sparkle where the skin turns away
     facing = chart.step((seen.normal[of_skin] * seen.view[of_skin]).sum(1), 0.1, 0.55)[:, None]
-    matter.bumped[of_skin] = bump(matter.coarse[of_skin], values[:, 2:8], found[:, 4:6] * (1 - inner) * facing)
+    matter.bumped[of_skin] = bump(
+        matter.coarse[of_skin], values[:, 2:8], (found[:, 4:6] + fold[:, 1:]) * (1 - inner) * facing
+    )
     matter.reflectance[of_skin] *= 1 - values[:, 11]
     matter.softness[of_skin] = [0.55, 0.30, 0.15]
     matter.translucency[of_skin] = 1

@@ -61,9 +61,10 @@ def sew_shirt(figure: Figure, seed: int = 31) -> Shirt:
         run = np.concatenate([[0], np.cumsum(np.hypot(np.diff(column), 1 / scale))])
         rows[i] = np.searchsorted(run, run[first] + away).clip(0, len(column) - 1)
     found = raster.triangle[rows, columns]
-    # a pixel that no triangle covers takes its neighbour's
-    for gap in np.flatnonzero((found < 0).any(1)):
-        found[gap], rows[gap], columns[gap] = found[gap - 1], rows[gap - 1], columns[gap - 1]
+    # a run with a pixel that no triangle covers takes the one before it that has none
+    whole_runs = np.flatnonzero((found >= 0).all(1))
+    source = whole_runs[np.searchsorted(whole_runs, np.arange(len(turns)), side="right") - 1]
+    found, rows, columns = found[source], rows[source], columns[source]
     share = raster.barycentrics[rows, columns]
     weave = np.stack(np.broadcast_arrays(turns[:, None] * 0.068, away[None]), 2)
     lift = _thickness(away)[None] + _folds(np.random.default_rng(seed), turns, away)

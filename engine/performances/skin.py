@@ -13,7 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.performances.brows import BROW
-from engine.performances.chart import LEFT, SHAPE, TEXELS, TOP, along, blob, both, grid, noise, smooth_curve, step
+from engine.performances.chart import (
+    LEFT,
+    SHAPE,
+    TEXELS,
+    TOP,
+    along,
+    blob,
+    both,
+    grid,
+    noise,
+    slopes,
+    smooth_curve,
+    step,
+)
 
 GROUND = np.array([0.72, 0.52, 0.42], np.float32)
 """Diffuse reflectance (linear RGB) of the skin with hardly any pigment."""
@@ -31,12 +44,13 @@ LOWER_LIP = [(-0.0236, 0.7213), (-0.0185, 0.7158), (-0.0115, 0.7116), (-0.0055, 
 @dataclass(frozen=True)
 class Skin:
     """Maps over the chart: `albedo` (H, W, 3) linear, `height` (H, W) metres of fine relief, `roughness` (H, W),
-    `lips` (H, W) [0, 1]."""
+    `lips` (H, W) [0, 1]. `maps` (H, W, 6): albedo, roughness, and the relief's slopes along u and v, as one texture."""
 
     albedo: NDArray[np.float32]
     height: NDArray[np.float32]
     roughness: NDArray[np.float32]
     lips: NDArray[np.float32]
+    maps: NDArray[np.float32]
 
 
 def paint_skin(seed: int = 7) -> Skin:
@@ -53,7 +67,9 @@ def paint_skin(seed: int = 7) -> Skin:
     pores = _pores(rng)
     relief = 2.6e-5 * pores * (1 - lips) + 1.2e-5 * noise(rng, 0.0011)
     relief = relief + lips * _lip_lines(rng)
-    return Skin(albedo.astype(np.float32), relief.astype(np.float32), _roughness(rng, lips, beard), lips)
+    albedo, relief = albedo.astype(np.float32), relief.astype(np.float32)
+    roughness = _roughness(rng, lips, beard)
+    return Skin(albedo, relief, roughness, lips, np.dstack([albedo, roughness, *slopes(relief)]))
 
 
 def _lips(rng: np.random.Generator) -> NDArray[np.float32]:

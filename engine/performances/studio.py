@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,7 @@ from engine.performances.sight import look, unit
 from engine.render.camera import Camera
 from engine.render.film import develop, shrink
 from engine.render.light import Lamps
+from engine.render.rasteriser import Raster
 from engine.render.shading import Surface, illuminate
 from engine.render.strands import draw_strands, shade_strands
 from engine.render.subsurface import diffuse
@@ -32,9 +35,27 @@ HAIR_LAMPS = 0.3
 HAIR = np.array([0.046, 0.027, 0.0165], np.float32)
 
 
+@dataclass(frozen=True)
+class Exposure:
+    """A scene as light, before the hair is drawn, supersampled: `raster` and `parts` (H, W), int8 and -1 where nothing
+    is, say what the camera sees of the `scene`; `radiance` (H, W, 3) linear; `hair` (S, K, 3) the radiance of its
+    hairs."""
+
+    scene: Scene
+    raster: Raster
+    parts: NDArray[np.int8]
+    radiance: NDArray[np.float32]
+    hair: tuple[NDArray[np.float32], ...]
+
+
 def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1.0) -> NDArray[np.uint8]:
     """A picture (SIZE, SIZE, 3) uint8 of a scene: some seconds. For a quick proof take one sample a pixel and less
     `detail` of the lamps."""
+    return finish(expose(actor, scene, samples, detail), actor, samples)
+
+
+def expose(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1.0) -> Exposure:
+    """Light a scene."""
     camera = CAMERA.enlarged(samples)
     seen = look(scene, camera)
     matter = materials(actor, scene, seen)
@@ -50,48 +71,53 @@ def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float
     wandered = diffuse(irradiance, translucency, seen.raster.depth, scale)[seen.covered]
     picture = backdrop(camera.size)
     picture[seen.covered] = matter.albedo / np.pi * wandered + mirrored
-    _hair(actor, scene, camera, picture, seen.raster.depth, irradiance)
+    light = irradiance.mean(2)
+    return Exposure(
+        scene, seen.raster, parts_seen(scene, seen.raster), picture, shine_of_hair(actor, scene, light, camera)
+    )
+
+
+def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES) -> NDArray[np.uint8]:
+    """Draw the hair over an exposure and develop it: (SIZE, SIZE, 3) uint8."""
+    camera = CAMERA.enlarged(samples)
+    picture = exposure.radiance.copy()
+    widths = (actor.crop.widths, *(rooted.widths for rooted in actor.rooted))
+    for width, hairs, shine in zip(widths, exposure.scene.hairs, exposure.hair, strict=True):
+        pixels = camera.project(hairs.reshape(-1, 3)).reshape(hairs.shape)
+        draw_strands(picture, exposure.raster.depth, pixels, shine, width * camera.focal / pixels[..., 2])
     return develop(shrink(picture, samples), EXPOSURE)
 
 
-def _hair(
-    actor: Actor,
-    scene: Scene,
-    camera: Camera,
-    picture: NDArray[np.float32],
-    depth: NDArray[np.float32],
-    irradiance: NDArray[np.float32],
-) -> None:
-    """Draw the crop, lit through the hair itself, then brows and lashes, lit as the skin around them."""
+def parts_seen(scene: Scene, raster: Raster) -> NDArray[np.int8]:
+    """What each pixel (H, W) belongs to, -1 where nothing is."""
+    return np.where(raster.triangle >= 0, scene.part[raster.triangle].astype(np.int8), np.int8(-1))
+
+
+def shine_of_hair(
+    actor: Actor, scene: Scene, irradiance: NDArray[np.float32], camera: Camera
+) -> tuple[NDArray[np.float32], ...]:
+    """Radiance (S, K, 3) of all hairs: the crop is lit through the hair itself, brows and lashes as the skin around
+    them."""
     few = lamps(HAIR_LAMPS)
-    crop = scene.hairs[0]
-    _strands(actor.crop.widths, crop, actor.crop.tone, actor.passed, few, camera, picture, depth)
-    for rooted, hairs, tone in zip(actor.rooted, scene.hairs[1:], (0.62, 0.16), strict=True):
+    shine = [_shine(scene.hairs[0], actor.crop.tone, actor.passed, few)]
+    for hairs, tone in zip(scene.hairs[1:], (0.62, 0.16), strict=True):
         pixels = camera.project(hairs[:, 0])
         x = np.clip(np.rint(pixels[:, 0]).astype(int), 0, camera.size[1] - 1)
         y = np.clip(np.rint(pixels[:, 1]).astype(int), 0, camera.size[0] - 1)
-        near = irradiance[y, x].mean(1) / lamps().irradiance.sum(0).mean()
+        near = irradiance[y, x] / lamps().irradiance.sum(0).mean()
         passed = np.broadcast_to(np.clip(1.6 * near, 0.05, 1)[:, None, None], (*hairs.shape[:2], len(few.directions)))
-        _strands(rooted.widths, hairs, np.full(len(hairs), tone), passed, few, camera, picture, depth)
+        shine.append(_shine(hairs, np.full(len(hairs), tone), passed, few))
+    return tuple(shine)
 
 
-def _strands(
-    widths: NDArray[np.float32],
-    hairs: NDArray[np.float32],
-    tone: NDArray[np.floating],
-    passed: NDArray[np.floating],
-    few: Lamps,
-    camera: Camera,
-    picture: NDArray[np.float32],
-    depth: NDArray[np.float32],
-) -> None:
+def _shine(
+    hairs: NDArray[np.float32], tone: NDArray[np.floating], passed: NDArray[np.floating], few: Lamps
+) -> NDArray[np.float32]:
     count, pieces = hairs.shape[:2]
     tangents = unit(np.gradient(hairs, axis=1).reshape(-1, 3))
-    view = unit(np.asarray(camera.eye, np.float32) - hairs.reshape(-1, 3))
+    view = unit(np.asarray(CAMERA.eye, np.float32) - hairs.reshape(-1, 3))
     colour = np.repeat(tone.astype(np.float32), pieces)[:, None] * HAIR
-    radiance = shade_strands(tangents, view, passed.reshape(count * pieces, -1), few, colour, 1.0)
-    pixels = camera.project(hairs.reshape(-1, 3)).reshape(count, pieces, 3)
-    draw_strands(picture, depth, pixels, radiance.reshape(hairs.shape), widths * camera.focal / pixels[..., 2])
+    return shade_strands(tangents, view, passed.reshape(count * pieces, -1), few, colour, 1.0).reshape(hairs.shape)
 
 
 def backdrop(size: tuple[int, int]) -> NDArray[np.float32]:

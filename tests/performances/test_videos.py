@@ -7,28 +7,36 @@ distance between the eyes.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 
+import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from engine.media.image import read_image
 from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
-from engine.performances import catalogue, names, video
+from engine.perception.head_pose import head_pose
+from engine.performances import catalogue, names, performance, poster, video
 from engine.performances.actor import Actor, build_actor, stage
-from engine.performances.catalogue import FPS
+from engine.performances.catalogue import FPS, POSTER_SIDE
 from engine.performances.figure import Pose
+from engine.performances.filming import CHANGES, FURTHEST_APART, carry, key_frames
 from engine.performances.lighting import lamps
-from engine.performances.studio import HAIR_LAMPS, photograph
+from engine.performances.score import SCORES
+from engine.performances.studio import HAIR_LAMPS, expose, finish, photograph
 
 MEBIBYTE = 2**20
 
 
 @dataclass(frozen=True)
 class Watched:
-    """A performance's frames (T, 512, 512, 3) and the mesh found on each (T, 478, 3)."""
+    """The mesh found on each frame of a performance (T, 478, 3), and those of the frames (512, 512, 3) that are looked
+    at again."""
 
-    frames: NDArray[np.uint8]
+    name: str
+    frames: list[NDArray[np.uint8]]
     mesh: NDArray[np.float32]
 
     def between(self, a: int, b: int) -> NDArray[np.float32]:
@@ -52,6 +60,28 @@ class Watched:
         return (self.between(105, 133) + self.between(334, 362)) / 2 / self.eye_distance
 
     @property
+    def inner_brow_height(self) -> NDArray[np.float32]:
+        lids = (self.mesh[:, 133, 1] + self.mesh[:, 362, 1]) / 2
+        return (lids - (self.mesh[:, 107, 1] + self.mesh[:, 336, 1]) / 2) / self.eye_distance
+
+    @property
+    def corners_up(self) -> NDArray[np.float32]:
+        """How far the corners of the mouth lie above its middle."""
+        middle = (self.mesh[:, 13, 1] + self.mesh[:, 14, 1]) / 2
+        return (middle - (self.mesh[:, 61, 1] + self.mesh[:, 291, 1]) / 2) / self.eye_distance
+
+    @property
+    def turned(self) -> NDArray[np.float32]:
+        """(T, 2) degrees to the picture's right and downwards."""
+        poses = [head_pose(mesh, (512, 512)) for mesh in self.mesh]
+        return np.degrees([[pose.yaw, pose.pitch] for pose in poses])
+
+    def at_height(self, values: NDArray[np.float32]) -> float:
+        """The median over a third of a second around the poster's frame, against that of the first frame."""
+        middle = performance(self.name).poster_frame
+        return float(np.median(values[middle - 5 : middle + 6]) - values[0])
+
+    @property
     def eye_openings(self) -> NDArray[np.float32]:
         """(T, 2): lid distance over the eye's width."""
         left = (self.between(386, 374) + self.between(385, 380)) / 2 / self.between(362, 263)
@@ -59,15 +89,22 @@ class Watched:
         return np.stack([left, right], 1)
 
 
+KEPT = ("idle", "idle-strong", "happy", "surprise")
+"""Of these every frame is kept; all would fill the memory."""
+
+
 @pytest.fixture(scope="module")
 def watched() -> dict[str, Watched]:
     found = {}
     for name in names():
-        frames = np.stack([frame.rgb.copy() for frame in read_video(video(name))])
+        meshes, frames = [], []
         with FaceTracker() as tracker:
-            meshes = [tracker(frame) for frame in frames]
+            for frame in read_video(video(name)):
+                meshes.append(tracker(frame.rgb))
+                if name in KEPT:
+                    frames.append(frame.rgb.copy())
         assert all(len(mesh) == 1 for mesh in meshes), f"{name}: the face was lost or doubled"
-        found[name] = Watched(frames, np.stack([mesh[0] for mesh in meshes]))
+        found[name] = Watched(name, frames, np.stack([mesh[0] for mesh in meshes]))
     return found
 
 
@@ -77,7 +114,18 @@ def test_the_videos_are_what_the_catalogue_says() -> None:
         assert (info.width, info.height, info.fps) == (512, 512, FPS)
         assert info.frames == round(entry.seconds * FPS)
         assert not info.has_sound
-    assert sum(video(name).stat().st_size for name in names()) < 3 * MEBIBYTE
+    sizes = [video(name).stat().st_size for name in names()]
+    assert max(sizes) < MEBIBYTE and sum(sizes) < 8 * MEBIBYTE
+
+
+@pytest.mark.parametrize("name", names())
+def test_the_poster_is_a_frame_of_the_video(name: str) -> None:
+    frame = next(islice(read_video(video(name)), performance(name).poster_frame, None)).rgb
+    small = cv2.resize(frame, (POSTER_SIDE, POSTER_SIDE), interpolation=cv2.INTER_AREA)
+    picture = read_image(poster(name)).rgb
+    assert picture.shape == (POSTER_SIDE, POSTER_SIDE, 3)
+    assert np.abs(picture.astype(float) - small).mean() < 2.5  # JPEG
+    assert poster(name).stat().st_size < 30_000
 
 
 def test_unknown_performances_are_refused() -> None:
@@ -91,7 +139,7 @@ def test_the_face_is_large_and_frontal(watched: dict[str, Watched], name: str) -
     width = np.ptp(mesh[0, :, 0])
     assert 210 < width < 280
     depth = np.abs(mesh[:, 234, 2] - mesh[:, 454, 2]) / width
-    assert depth.max() < 0.25  # turned by less than some ten degrees
+    assert depth.max() < (0.36 if performance(name).state == "shake" else 0.25)  # turned by less than ten degrees
     assert mesh[..., :2].min() > 5 and mesh[..., :2].max() < 507
 
 
@@ -107,19 +155,91 @@ def test_all_start_and_end_in_the_same_neutral_face(watched: dict[str, Watched],
 
 @pytest.mark.parametrize("name", names())
 def test_blinks_shut_both_eyes(watched: dict[str, Watched], name: str) -> None:
+    """Wherever the score shuts both lids the eyes are seen shut, and in every performance they are, but not for long."""
     openings = watched[name].eye_openings
-    assert openings.min(0).max() < 0.09
+    lids = [SCORES[name](index / FPS).units for index in range(len(openings))]
+    scored = np.array([min(units.get("eyeBlinkLeft", 0), units.get("eyeBlinkRight", 0)) > 0.98 for units in lids])
+    assert scored.any() and openings[scored].max() < 0.13
     shut = (openings < 0.12).all(1)
-    blinks = np.flatnonzero(np.diff(shut.astype(int)) == 1)
-    assert len(blinks) == {"idle": 2, "happy": 2, "surprise": 1}[name]
-    assert shut.sum() / len(blinks) < 0.3 * FPS
+    assert shut.sum() < 0.3 * FPS * (np.diff(scored.astype(int)) == 1).sum() + 0.1 * FPS
 
 
 @pytest.mark.parametrize("name", names())
 def test_the_mouth_moves_smoothly(watched: dict[str, Watched], name: str) -> None:
-    """The man who grins in a real driver opens his mouth by 0.10 from one frame (of 25) to the next at most."""
-    assert np.abs(np.diff(watched[name].mouth_opening)).max() < 0.10
-    assert np.abs(np.diff(watched[name].mouth_width)).max() < 0.08
+    """The man who grins in a real driver opens his mouth by 0.10 from one frame (of 25) to the next at most; speech
+    and astonishment are quicker."""
+    quick = performance(name).state in ("talk", "surprise")
+    assert np.abs(np.diff(watched[name].mouth_opening)).max() < (0.15 if quick else 0.10)
+    assert np.abs(np.diff(watched[name].mouth_width)).max() < 0.10
+
+
+@pytest.mark.parametrize("name", ["anger", "anger-strong"])
+def test_anger_lowers_the_brows_and_turns_down_the_mouth(watched: dict[str, Watched], name: str) -> None:
+    one = watched[name]
+    assert one.at_height(one.brow_height) < -0.03
+    assert one.at_height(one.inner_brow_height) < -0.03
+    assert one.at_height(one.corners_up) < -0.01
+
+
+@pytest.mark.parametrize("name", ["fear", "fear-strong"])
+def test_fear_raises_the_inner_brows_and_opens_the_eyes(watched: dict[str, Watched], name: str) -> None:
+    one = watched[name]
+    assert one.at_height(one.inner_brow_height) > 0.03
+    assert one.at_height(one.eye_openings.mean(1)) > 0.03
+    assert one.at_height(one.mouth_opening) > 0.01
+
+
+@pytest.mark.parametrize("name", ["sadness", "sadness-strong"])
+def test_sadness_raises_the_inner_brows_and_lowers_the_corners(watched: dict[str, Watched], name: str) -> None:
+    one = watched[name]
+    assert one.at_height(one.inner_brow_height) > 0.015
+    assert one.at_height(one.corners_up) < -0.02
+    assert one.at_height(one.turned[:, 1]) > 2
+
+
+@pytest.mark.parametrize(("name", "axis"), [("shake", 0), ("shake-strong", 0), ("nod", 1), ("nod-strong", 1)])
+def test_heads_shake_sideways_and_nod_up_and_down(watched: dict[str, Watched], name: str, axis: int) -> None:
+    turned = watched[name].turned - watched[name].turned[0]
+    spans = np.ptp(turned, axis=0)
+    assert spans[axis] > 5 and spans[axis] > 2 * spans[1 - axis]
+    way = turned[:, axis] - (0 if axis == 0 else spans[1] / 3)
+    assert (np.diff(np.sign(way[np.abs(way) > 0.15 * spans[axis]])) != 0).sum() >= 2
+
+
+@pytest.mark.parametrize("name", ["wink", "wink-strong"])
+def test_a_wink_is_seen_in_one_eye(watched: dict[str, Watched], name: str) -> None:
+    left, right = watched[name].eye_openings.T
+    winking = slice(round(0.52 * FPS), round(0.72 * FPS))
+    assert left[winking].max() < 0.13 and right[winking].min() > 0.2
+
+
+@pytest.mark.parametrize("name", [name for name in ("talk", "talk-strong") if name in names()])
+def test_talk_opens_and_shuts_the_mouth_at_uneven_times(watched: dict[str, Watched], name: str) -> None:
+    opening = watched[name].mouth_opening
+    tops = [
+        i for i in range(1, len(opening) - 1) if opening[i - 1] < opening[i] >= opening[i + 1] and opening[i] > 0.04
+    ]
+    assert 5 <= len(tops) <= 22 and np.std(np.diff(tops)) > 1
+    assert np.ptp(watched[name].mouth_width) > 0.1
+
+
+@pytest.mark.parametrize(
+    ("state", "measure"),
+    [
+        ("happy", "mouth_opening"),
+        ("surprise", "mouth_opening"),
+        ("fear", "mouth_opening"),
+        ("anger", "inner_brow_height"),
+        ("sadness", "corners_up"),
+        ("nod", "turned"),
+        ("shake", "turned"),
+        ("talk", "brow_height"),
+        ("talk", "turned"),
+    ],
+)
+def test_strong_is_stronger(watched: dict[str, Watched], state: str, measure: str) -> None:
+    spans = [np.ptp(getattr(watched[name], measure), axis=0).max() for name in (state, f"{state}-strong")]
+    assert spans[1] > 1.15 * spans[0]
 
 
 def test_happy_is_as_broad_as_a_real_grin(watched: dict[str, Watched]) -> None:
@@ -157,15 +277,16 @@ def test_furrows_come_with_the_brows(watched: dict[str, Watched]) -> None:
     def rows(index: int) -> float:
         left, right = surprise.mesh[index, 105, :2], surprise.mesh[index, 334, :2]
         top = surprise.mesh[index, 10, 1]
-        patch = surprise.frames[index, int(top) : int(min(left[1], right[1])) - 6, int(left[0]) : int(right[0])]
+        patch = surprise.frames[index][int(top) : int(min(left[1], right[1])) - 6, int(left[0]) : int(right[0])]
         profile = patch.astype(float).mean((1, 2))
         return float(np.abs(np.diff(profile, 2)).mean())
 
     assert rows(round(1.1 * FPS)) > 1.5 * rows(0)
 
 
-def test_idle_has_no_seam(watched: dict[str, Watched]) -> None:
-    frames = watched["idle"].frames.astype(np.float32)
+@pytest.mark.parametrize("name", ["idle", "idle-strong"])
+def test_idle_has_no_seam(watched: dict[str, Watched], name: str) -> None:
+    frames = np.stack(watched[name].frames).astype(np.float32)
     steps = np.abs(np.diff(frames, axis=0)).mean((1, 2, 3))
     assert np.abs(frames[0] - frames[-1]).mean() <= 1.15 * steps.max()  # the first frame is coded on its own
     assert np.abs(frames[0] - frames[-1]).mean() < 3 * np.median(steps)
@@ -178,7 +299,7 @@ def test_idle_is_never_quite_still(watched: dict[str, Watched]) -> None:
 
 
 def test_the_background_holds_still(watched: dict[str, Watched]) -> None:
-    corner = watched["surprise"].frames[:, :40, :40].astype(float)
+    corner = np.stack(watched["surprise"].frames)[:, :40, :40].astype(float)
     assert corner.std(0).max() < 1.5
 
 
@@ -193,9 +314,31 @@ def test_the_shipped_videos_are_what_the_studio_makes(watched: dict[str, Watched
     assert np.abs(fresh - watched["surprise"].frames[0]).mean() < 1.5
 
 
+def test_frames_between_key_frames_look_as_if_lit_in_full(actor: Actor) -> None:
+    """Three moments of a smile: the middle one carries the light of the others, and is what the studio would make."""
+    poses = [SCORES["happy"](t) for t in (0.60, 0.68, 0.76)]
+    between = carry(*(expose(actor, stage(actor, poses[i]), detail=0.3) for i in (0, 2)), 0.5, stage(actor, poses[1]))
+    assert between is not None
+    made = finish(between, actor).astype(float)
+    full = photograph(actor, stage(actor, poses[1]), detail=0.3).astype(float)
+    away = np.abs(made - full)
+    assert away.mean() < 0.8 and np.quantile(away, 0.99) < 12
+    ends = photograph(actor, stage(actor, poses[0]), detail=0.3).astype(float)
+    assert away.mean() < 0.3 * np.abs(ends - full).mean()
+
+
+def test_key_frames_stand_where_much_changes() -> None:
+    still = [Pose() for _ in range(20)]
+    assert key_frames(still) == [0, FURTHEST_APART, 19]
+    turning = [Pose(head=(0.0, 2.0 * i, 0.0)) for i in range(20)]
+    keys = key_frames(turning)
+    assert keys[0] == 0 and keys[-1] == 19
+    assert max(np.diff(keys)) * 2.0 <= CHANGES["head"] + 2.0
+
+
 def test_skin_is_lit_from_the_sitters_right(watched: dict[str, Watched]) -> None:
     """The key stands at the left of the picture: that cheek is the brighter one."""
     happy = watched["happy"]
     cheeks = happy.mesh[0, [117, 346], :2].astype(int)
-    bright, dark = (happy.frames[0, y - 6 : y + 7, x - 6 : x + 7].mean() for x, y in cheeks)
+    bright, dark = (happy.frames[0][y - 6 : y + 7, x - 6 : x + 7].mean() for x, y in cheeks)
     assert bright > 1.08 * dark
