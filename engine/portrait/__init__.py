@@ -8,25 +8,44 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from pydantic import BaseModel
 
-from engine.kind import Input, Kind
+from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.portrait.options import PortraitOptions
 from engine.run import Progress, Run
 from engine.store import StageStore
 
 
-def _work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, run: Run) -> None:
-    from engine.portrait.pipeline import animate_portrait  # the service reads KIND alone: it stays light
-
+def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     assert isinstance(options, PortraitOptions)
-    animate_portrait(inputs, options, out, run)
+    if options.reactive:
+        from engine.portrait.reactive.pipeline import make_profile  # the service reads KIND alone: it stays light
+
+        make_profile(inputs, options, out, run)
+    else:
+        from engine.portrait.pipeline import animate_portrait
+
+        animate_portrait(inputs, options, out, run)
 
 
 def _prepare() -> None:
     from engine.portrait import pipeline  # noqa: F401 - importing it is the preparation
+
+
+def _rehearse(folder: Path) -> None:
+    from engine.media.image import write_image
+    from engine.media.video import read_video
+    from engine.performances import video
+
+    (folder / "out").mkdir()
+    for name in ("happy", "surprise"):
+        frame = next(iter(read_video(video(name))))
+        write_image(folder / f"{name}.png", frame.rgb)
+        options = PortraitOptions.model_validate({"trim": (0.0, 0.5)})
+        _work({"image": folder / f"{name}.png", "driver": video("idle")}, options, folder / "out", Run())
 
 
 KIND = Kind(
@@ -34,45 +53,70 @@ KIND = Kind(
     summary="A portrait acts out a driving video.",
     inputs=(
         Input("image", "image", "The portrait: photo, painting or drawing of a face from the front."),
-        Input("driver", "video", "A video of a face whose performance is carried over.", library="performances"),
+        Input(
+            "driver",
+            "video",
+            "A video of a face whose performance is carried over.",
+            serves_many=True,
+            library="performances",
+            trimmed_by="trim",
+            spared_by="reactive",
+        ),
     ),
     options=PortraitOptions,
     work=_work,
+    correctable=("landmarks", "neutral_frame", "face_index", "crop", "size"),
     prepare=_prepare,
+    rehearse=_rehearse,
 )
 
 
 def animate(
     image: str | Path,
-    driver: str | Path,
+    driver: str | Path | None,
     out: str | Path,
     progress: Callable[[Progress], None] | None = None,
     cache: str | Path | None = None,
+    mark_synthetic: bool = True,
     **options: Any,
 ) -> Path:
     """Animate a portrait; returns the path of the animation.
 
     Parameters
     ----------
-    image : the portrait's file. driver : a video's file, or the name of a built-in performance.
+    image : the portrait's file. driver : a video's file, the name of a built-in performance, or `auto`:
+    the performance that fits the picture best (`report.json` says why); None is enough for a reactive profile.
     out : folder for the artifacts, made if it is not there.
     progress : called with `Progress(stage, fraction, message)`.
     cache : folder in which analyses are kept, so that the same driver or portrait is quicker next time.
+    mark_synthetic : whether the results say of themselves, for machines to read, that they are synthetic.
     options : those of `PortraitOptions`, such as `strength=0.8` or `sound=True`.
 
     Raises
     ------
     engine.errors.InputError : the picture, the video or an option cannot be used; says what to do.
     """
-    from engine.performances import names, video
-
     chosen = PortraitOptions(**options)
     folder = Path(out)
     folder.mkdir(parents=True, exist_ok=True)
-    file = video(str(driver)) if str(driver) in names() else Path(driver)
-    store = StageStore(Path(cache)) if cache is not None else None
-    _work({"image": Path(image), "driver": file}, chosen, folder, Run(store=store, on_progress=progress))
+    inputs: dict[str, Given] = {"image": Path(image)}
+    if driver is not None:
+        inputs["driver"] = _driver(str(driver))
+    elif not chosen.reactive:
+        raise TypeError("a driver is needed: a video's file, the name of a built-in performance, or auto")
+    with TemporaryDirectory(prefix="galatea-") as passing:
+        run = Run(store=StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic)
+        _work(inputs, chosen, folder, run)
     return next(folder.glob("animation.*"))
+
+
+def _driver(given: str) -> Given:
+    """What a driver's name or path stands for."""
+    from engine.performances import names, video
+
+    if given == AUTO:
+        return Candidates({name: video(name) for name in names()})
+    return video(given) if given in names() else Path(given)
 
 
 __all__ = ["KIND", "PortraitOptions", "animate"]

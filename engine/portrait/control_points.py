@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
 
+from engine.imaging.mesh_warp import delaunay
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 from engine.portrait.alignment import Similarity
@@ -84,7 +84,7 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
     """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `GRAZING`."""
-    triangles = Delaunay(canonical_face()[:468, :2]).simplices
+    triangles = delaunay(canonical_face()[:468, :2])
     corners = mesh[triangles].astype(float)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     rest = canonical_face()[triangles].astype(float)

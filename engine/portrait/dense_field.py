@@ -9,16 +9,14 @@ costs one small product and one rasterisation of that mesh, which is the inverse
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 import scipy.sparse as sparse
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, cKDTree
 
-from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL
+from engine.portrait.warp_mesh import WarpMesh
 
 DISKS = 10
 """Section 4: "10 different blurring kernels"."""
@@ -28,36 +26,6 @@ FALLOFF = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
 CELLS = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
-
-
-@dataclass(frozen=True)
-class WarpMesh:
-    """The mesh that carries an image and how it follows the control points.
-
-    vertices : (V, 2) rest positions, pixels; the first ones are the face's usable control points.
-    triangles : (T, 3).
-    operator : (V, C) float32, sparse: vertex offsets = operator @ control offsets.
-    shape : (height, width).
-    """
-
-    vertices: NDArray[np.float32]
-    triangles: NDArray[np.int32]
-    operator: sparse.csr_matrix
-    shape: tuple[int, int]
-
-    def offsets(self, control_offsets: NDArray[np.floating]) -> NDArray[np.float32]:
-        """(C, D) offsets of control points to (V, D) offsets of vertices."""
-        return np.asarray(self.operator @ control_offsets.astype(np.float32))
-
-    def inverse_map(
-        self, offsets: NDArray[np.float32], depth: NDArray[np.float32] | None = None, scale: int = 1
-    ) -> NDArray[np.float32]:
-        """(H, W, 2): for each pixel of the output its origin in the image, for vertex offsets (V, 2).
-
-        `scale` gives the origin in pixels of the image enlarged by that factor.
-        """
-        source = scale * (self.vertices + np.float32(0.5)) - np.float32(0.5)
-        return inverse_map(self.vertices + offsets, source, self.triangles, self.shape, depth)
 
 
 def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
@@ -142,8 +110,9 @@ def build_warp_mesh(
         smooth = _disk_average(vertices, radii, samples, spacing) @ field
         operator = keep @ operator + (sparse.eye(len(vertices)) - keep) @ smooth
     triangles = Delaunay(vertices).simplices
+    matrix = sparse.csr_matrix(operator).astype(np.float32)
     return WarpMesh(
-        vertices.astype(np.float32), triangles.astype(np.int32), sparse.csr_matrix(operator).astype(np.float32), shape
+        vertices.astype(np.float32), triangles.astype(np.int32), matrix.indptr, matrix.indices, matrix.data, shape
     )
 
 
@@ -162,8 +131,6 @@ def _disk_average(
     vertices: NDArray[np.float64], radii: NDArray[np.float64], samples: NDArray[np.float64], spacing: float
 ) -> sparse.csr_matrix:
     """(V, S): each vertex's mean over the samples within its disk; samples beyond the image count as the border's."""
-    from scipy.spatial import cKDTree
-
     neighbours = cKDTree(samples).query_ball_point(vertices, np.maximum(radii, 0.75 * spacing))
     rows = np.repeat(np.arange(len(vertices)), [len(n) for n in neighbours])
     columns = np.concatenate([np.asarray(n, int) for n in neighbours])

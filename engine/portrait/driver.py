@@ -6,8 +6,6 @@ no decoding and no tracking. Memory stays flat: appearance goes to a file as it 
 
 from __future__ import annotations
 
-import tempfile
-from collections import OrderedDict
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -24,6 +22,7 @@ from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
 from engine.perception.temporal_filter import steady
 from engine.portrait.alignment import fit_similarity
+from engine.portrait.film_strip import FilmStrip, FilmStripWriter
 from engine.portrait.periphery import PeripheryTracker
 
 LONGEST_SIDE = 1280
@@ -44,8 +43,8 @@ class DriverTrack:
     meshes : (N, 478, 3) float32 face meshes, steadied, pixels; held where no face was found.
     found : (N,) bool. periphery : (N, K, 2) float32 points tracked around head and shoulders, pixels.
     tracked : (N, K) bool: the forward-backward check passed.
-    crops : file of JPEG pictures of the face, `crop_ends` (N,) the end of each; `crop_places` (N, 2, 3)
-    carries pixels of the frame to pixels of the crop.
+    crops : the face's appearance, frame by frame; `crop_places` (N, 2, 3) carries pixels of the frame to
+    pixels of the crop.
     """
 
     size: tuple[int, int]
@@ -55,8 +54,7 @@ class DriverTrack:
     found: NDArray[np.bool_]
     periphery: NDArray[np.float32]
     tracked: NDArray[np.bool_]
-    crops: Path
-    crop_ends: NDArray[np.int64]
+    crops: FilmStrip
     crop_places: NDArray[np.float64]
 
     def __len__(self) -> int:
@@ -64,11 +62,7 @@ class DriverTrack:
 
     def crop(self, frame: int) -> NDArray[np.uint8]:
         """The face's appearance in one frame: uint8 (*CROP, 3)."""
-        start = int(self.crop_ends[frame - 1]) if frame else 0
-        with self.crops.open("rb") as file:
-            file.seek(start)
-            data = np.frombuffer(file.read(int(self.crop_ends[frame]) - start), np.uint8)
-        return np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR_RGB), np.uint8)
+        return self.crops.picture(frame)
 
     def in_crop(self, frame: int) -> NDArray[np.float32]:
         """The frame's mesh in its crop's pixels, (478, 2)."""
@@ -95,11 +89,9 @@ def track_driver(
     meshes: list[NDArray[np.float32]] = []
     found: list[bool] = []
     places: list[NDArray[np.float64]] = []
-    ends = [0]
     size = (info.width, info.height)
     periphery = PeripheryTracker()
-    crops = Path(tempfile.mkdtemp(prefix="galatea-crops-")) / "crops.jpegs"
-    with FaceTracker() as tracker, crops.open("wb") as file, ThreadPoolExecutor(1) as beside:
+    with FaceTracker() as tracker, FilmStripWriter() as crops, ThreadPoolExecutor(1) as beside:
         around: Future[None] = beside.submit(lambda: None)  # the points around follow a frame behind, on another core
         for index, frame in enumerate(
             read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
@@ -114,17 +106,17 @@ def track_driver(
             crop = cv2.warpAffine(
                 frame.rgb, places[-1], CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
             )
-            file.write(_jpeg(np.asarray(crop, np.uint8)))
-            ends.append(file.tell())
+            crops.write(np.asarray(crop, np.uint8))
             around.result()
             around = beside.submit(periphery.follow, frame.rgb, mesh if found[-1] else None)
         around.result()
-    if not any(found):
-        raise InputError(
-            "no_face_in_driver",
-            "No face was found in the driving video: use one that shows a face from the front.",
-            ("driver",),
-        )
+        if not any(found):
+            raise InputError(
+                "no_face_in_driver",
+                "No face was found in the driving video: use one that shows a face from the front.",
+                ("driver",),
+            )
+        strip = crops.strip()
     held = np.array(meshes, np.float32)
     meshes.clear()
     _hold(held, np.array(found))
@@ -143,8 +135,7 @@ def track_driver(
         found=np.array(found),
         periphery=steady(points),
         tracked=tracked,
-        crops=crops,
-        crop_ends=np.array(ends[1:], np.int64),
+        crops=strip,
         crop_places=np.array(places),
     )
 
@@ -152,12 +143,6 @@ def track_driver(
 def _crop_place(mesh: NDArray[np.float32]) -> NDArray[np.float64]:
     eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])
     return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
-
-
-def _jpeg(rgb: NDArray[np.uint8]) -> bytes:
-    done, data = cv2.imencode(".jpg", rgb[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 92])
-    assert done
-    return data.tobytes()
 
 
 def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> None:
@@ -171,20 +156,3 @@ def _hold(meshes: NDArray[np.float32], found: NDArray[np.bool_]) -> None:
         if back is not None and i < back + EASE_BACK:
             t = (i - back + 1) / (EASE_BACK + 1)
             meshes[i] = held + (t * t * (3 - 2 * t)) * (meshes[i] - held)
-
-
-class CropReader:
-    """The crops of a track, each decoded once while the frames around it are worked on."""
-
-    def __init__(self, track: DriverTrack, keep: int = 32):
-        self._track = track
-        self._kept: OrderedDict[int, NDArray[np.uint8]] = OrderedDict()
-        self._keep = keep
-
-    def __call__(self, frame: int) -> NDArray[np.uint8]:
-        """(*CROP, 3) uint8."""
-        if frame not in self._kept:
-            self._kept[frame] = self._track.crop(frame)
-            if len(self._kept) > self._keep:
-                self._kept.popitem(last=False)
-        return self._kept[frame]

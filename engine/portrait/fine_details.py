@@ -6,20 +6,22 @@ over time, and one fixed map carries the ratios on to the still target; from the
 
 from __future__ import annotations
 
+import os
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import cv2
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
 
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.mesh_warp import delaunay, inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
-from engine.portrait.driver import CROP, CROP_EYES, CropReader, DriverTrack
+from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.film_strip import FilmStrip, FilmStripWriter
 from engine.portrait.head_motion import turns
 from engine.portrait.outliers import Outliers, find_outliers
 
@@ -37,6 +39,10 @@ TRUSTED, LOST = 8.0, 20.0
 """Degrees of turn up to which a ratio is a crease's, and from which it is the nose's shadow and no crease's."""
 DARKEST = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
+STEP = (1 - DARKEST) / 192
+"""How finely ratios are kept: a step is a third of a grey level on bright skin, and one itself is met exactly."""
+RATIO_QUALITY = 95
+"""Of JPEG: less would flicker by half a level."""
 FLOOR = 12.0
 """Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
 BLUR = 1.2
@@ -51,16 +57,22 @@ UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 
 
 @dataclass(frozen=True)
-class DetailMap:
-    """Where ratios land on the target.
+class DetailRegion:
+    """Where a target takes ratios.
 
-    box : x0, y0, x1, y1 of the face in the target. origin : (h, w, 2) the place on the driver's neutral crop
-    for each of its pixels. weight : (h, w) [0, 1], the face's region without eyes and mouth, feathered.
+    box : x0, y0, x1, y1 of the face in the target. corners : (468, 2) the mesh in it, and its triangles (T, 3).
+    weight : (h, w) [0, 1], the face's region without eyes and mouth, feathered.
     """
 
     box: tuple[int, int, int, int]
-    origin: NDArray[np.float32]
+    corners: NDArray[np.float32]
+    triangles: NDArray[np.int32]
     weight: NDArray[np.float32]
+
+    def origin(self, neutral_mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+        """(h, w, 2): for each of its pixels the place on the driver's neutral crop, with its face at (478, 2)."""
+        mesh = neutral_mesh[:468, :2].astype(np.float32)
+        return inverse_map(self.corners, mesh, self.triangles, (self.weight.shape[0], self.weight.shape[1]))
 
 
 def luminance(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
@@ -100,17 +112,15 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     return region
 
 
-def build_detail_map(
-    rgb: NDArray[np.uint8], mesh: NDArray[np.floating], neutral_mesh: NDArray[np.floating]
-) -> DetailMap:
-    """Where the driver's neutral crop, with its face at `neutral_mesh` (478, 2), lands on the target."""
+def detail_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> DetailRegion:
+    """The part of the target (H, W, 3), with its face at `mesh` (478, 3), that creases."""
     plane = mesh[:468, :2].astype(np.float32)
     x0, y0 = np.maximum(np.floor(plane.min(axis=0)), 0).astype(int)
     x1, y1 = np.minimum(np.ceil(plane.max(axis=0)) + 1, rgb.shape[1::-1]).astype(int)
     corner = np.array([x0, y0], np.float32)
-    triangles = Delaunay(plane).simplices.astype(np.int32)
-    origin = inverse_map(plane - corner, neutral_mesh[:468].astype(np.float32), triangles, (y1 - y0, x1 - x0))
-    weight = face_region(rgb, mesh)[y0:y1, x0:x1] * (origin[..., 0] > -1000)
+    triangles = delaunay(plane)
+    weight = face_region(rgb, mesh)[y0:y1, x0:x1]
+    weight *= inverse_map(plane - corner, plane, triangles, (y1 - y0, x1 - x0))[..., 0] > -1000
     weight *= 1 - _openings(plane - corner, weight.shape, 0.06 * float(eye_distance(mesh[:, :2])))
     unit = float(eye_distance(mesh[:, :2]))
     nose = np.zeros(weight.shape, np.float32)
@@ -119,7 +129,8 @@ def build_detail_map(
     oval = np.zeros((weight.shape[0] + 2, weight.shape[1] + 2), np.uint8)  # the driver's rim borders on its background
     cv2.fillPoly(oval, [(plane[list(FACE_OVAL)] - corner + 1).round().astype(np.int32)], 1)
     ramp = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM * unit) - 0.25, 0, 1)
-    return DetailMap((int(x0), int(y0), int(x1), int(y1)), origin, (weight * ramp).astype(np.float32))
+    box = (int(x0), int(y0), int(x1), int(y1))
+    return DetailRegion(box, plane - corner, triangles, (weight * ramp).astype(np.float32))
 
 
 def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -> NDArray[np.float32]:
@@ -132,17 +143,42 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
     return np.asarray(cv2.GaussianBlur(grown, (0, 0), max(grow / 2, 0.8)), np.float32)
 
 
-class RatioImages:
-    """The refined ratio images of a driver, in order, on its neutral crop."""
+@dataclass(frozen=True)
+class RatioStrip:
+    """A driver's ratio images, kept: grey pictures whose level 0 stands for `DARKEST`, each further one for `STEP`."""
 
-    def __init__(
-        self, track: DriverTrack, neutral: int, crops: CropReader, outliers: bool = True, refined: bool = True
-    ):
+    images: FilmStrip
+
+    def __iter__(self) -> Iterator[NDArray[np.float32]]:
+        """One (*CROP,) float32 for each frame."""
+        for frame in range(len(self.images)):
+            yield self.ratio(frame)
+
+    def ratio(self, frame: int) -> NDArray[np.float32]:
+        """One frame's, (*CROP,) float32."""
+        return np.float32(DARKEST) + np.float32(STEP) * self.images.picture(frame)
+
+
+def keep_ratio_images(
+    track: DriverTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
+) -> RatioStrip:
+    """The refined ratio images of a driver on its neutral frame: the same for every target."""
+    with FilmStripWriter(RATIO_QUALITY) as writer:
+        for frame, ratio in enumerate(RatioImages(track, neutral)):
+            level = (ratio - np.float32(DARKEST)) / np.float32(STEP) + np.float32(0.5)
+            writer.write(np.clip(level, 0, 255).astype(np.uint8))
+            tick((frame + 1) / len(track))
+        return RatioStrip(writer.strip())
+
+
+class RatioImages:
+    """The ratio images of a driver, in order, on its neutral crop."""
+
+    def __init__(self, track: DriverTrack, neutral: int, outliers: bool = True, refined: bool = True):
         self._track = track
-        self._crops = crops
         self._rest = track.in_crop(neutral)[:468]
-        self._triangles = Delaunay(self._rest).simplices.astype(np.int32)
-        self._neutral = luminance(crops(neutral))
+        self._triangles = delaunay(self._rest)
+        self._neutral = luminance(track.crop(neutral))
         self._refined = refined
         turn = np.rad2deg(turns(track.meshes, track.meshes[neutral]))
         self._frontal = SHADING * np.clip(1 - turn / TURNED, 0, 1).astype(np.float32)
@@ -157,16 +193,26 @@ class RatioImages:
         """One (*CROP,) float32 for each frame: 1 changes nothing."""
         half = WINDOW // 2
         kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / (half / 3)) ** 2).astype(np.float32)
-        window: deque[NDArray[np.float32]] = deque(maxlen=WINDOW)
-        count = len(self._track)
-        for index in range(-half, count):
-            ahead = index + half
-            if ahead == 0:
-                window.extend([self.single(0)] * (half + 1))
-            elif ahead > 0:
-                window.append(self.single(ahead) if ahead < count else window[-1])
-            if index >= 0:
+        singles = self._singles()
+        last = next(singles)
+        window = deque([last] * (half + 1), maxlen=WINDOW)
+        for ahead in range(1, len(self._track) + half):
+            last = next(singles, last)
+            window.append(last)
+            if ahead >= half:
                 yield _weighted_sum(tuple(window), kernel / kernel.sum())
+
+    def _singles(self) -> Iterator[NDArray[np.float32]]:
+        """All frames without the temporal filter, in order, made on all cores a little ahead."""
+        threads = os.cpu_count() or 1
+        waiting: deque[Future[NDArray[np.float32]]] = deque()
+        with ThreadPoolExecutor(threads, thread_name_prefix="ratios") as pool:
+            for frame in range(len(self._track)):
+                waiting.append(pool.submit(self.single, frame))
+                if len(waiting) > 2 * threads:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
 
     def single(self, frame: int) -> NDArray[np.float32]:
         """One frame's ratio image without the temporal filter."""
@@ -188,7 +234,7 @@ class RatioImages:
         """Equation 2 on the neutral crop, and where each of its pixels lies in the frame's crop."""
         mesh = self._track.in_crop(frame)[:468]
         origin = inverse_map(self._rest, mesh, self._triangles, CROP)
-        light = luminance(self._crops(frame))
+        light = luminance(self._track.crop(frame))
         aligned = cv2.remap(light, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         ratio = (aligned + FLOOR) / (self._neutral + FLOOR)
         return np.where(origin[..., 0] > -1000, ratio, 1).astype(np.float32), origin
@@ -205,18 +251,28 @@ def most_expressive(track: DriverTrack, neutral: int) -> int:
 
 
 def shade(
-    frame: NDArray[np.uint8], details: DetailMap, ratio: NDArray[np.float32], origin: NDArray[np.float32], scale: float
+    frame: NDArray[np.uint8],
+    region: DetailRegion,
+    landing: NDArray[np.float32],
+    ratio: NDArray[np.float32],
+    origin: NDArray[np.float32],
+    scale: float,
+    within: NDArray[np.floating] | None = None,
 ) -> None:
     """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows.
 
-    `origin` (H, W, 2) is the frame's inverse map, in pixels of the target enlarged by `scale`.
+    `landing` is the region's origin on the driver's neutral crop; `origin` (H, W, 2) the frame's inverse map, in
+    pixels of the target enlarged by `scale`; `within`: points (V, 2) of the frame around which its face ends, if known.
     """
-    x0, y0 = details.box[:2]
-    landed = cv2.remap(
-        ratio, details.origin[..., 0], details.origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
-    )
-    factor = 1 + details.weight * (landed - 1)
-    _multiply(frame, factor, origin, np.float32(x0), np.float32(y0), np.float32(1 / scale))
+    x0, y0 = region.box[:2]
+    landed = cv2.remap(ratio, landing, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    factor = 1 + region.weight * (landed - 1)
+    left, top, right, bottom = 0, 0, frame.shape[1], frame.shape[0]
+    if within is not None:
+        left, top = np.clip(np.floor(within.min(axis=0)).astype(int) - 1, 0, (right, bottom)).tolist()
+        right, bottom = np.clip(np.ceil(within.max(axis=0)).astype(int) + 2, 0, (right, bottom)).tolist()
+    there = (slice(top, bottom), slice(left, right))
+    _multiply(frame[there], factor, origin[there], np.float32(x0), np.float32(y0), np.float32(1 / scale))
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)

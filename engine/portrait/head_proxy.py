@@ -15,8 +15,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID, eye_distance
-from engine.portrait.head_motion import SOFT_WEIGHT, HeadMotion, fit_rigid
+from engine.portrait.head_motion import SOFT_WEIGHT, HeadMotion, fit_rigid, turns
 
 LARGEST_TURN = np.deg2rad(25.0)
 """Turns beyond are held back to this."""
@@ -24,6 +25,11 @@ NECK = (0.9, 2.0)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
 JOINED = 0.07
 """Within this distance of the contour, in eye distances, the face's depth passes over into the contour's."""
+STEEPEST = 2.0
+"""In a face that the picture shows turned, its depth departs from the contour's by no more than this times the
+distance: the far cheek, of which little is seen, would part into flaps where the driver turns it to the front."""
+SLANTED = (14.0, 18.0)
+"""Degrees of turn, in the picture, from which and to which that bound takes hold."""
 BACK_OF_HAIR = 0.35
 """Outside the face the surface falls back to the ears' depth within this share of the face's width."""
 
@@ -60,8 +66,12 @@ def _joined_rim(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     apart = np.linalg.norm(mesh[:, None, :2] - nearest[..., :2], axis=2)
     closest = apart.argmin(axis=1)
     rim = np.take_along_axis(nearest[..., 2], closest[:, None], axis=1)[:, 0]
-    t = np.clip(apart.min(axis=1) / (JOINED * float(eye_distance(mesh[:, :2]))), 0, 1)
-    return np.asarray(rim + t * t * (3 - 2 * t) * (mesh[:, 2] - rim), float)
+    inside = apart.min(axis=1)
+    t = np.clip(inside / (JOINED * float(eye_distance(mesh[:, :2]))), 0, 1)
+    rise = t * t * (3 - 2 * t) * (mesh[:, 2] - rim)
+    slant = np.rad2deg(turns(mesh[None], canonical_face())[0])
+    bound = np.clip((slant - SLANTED[0]) / (SLANTED[1] - SLANTED[0]), 0, 1)
+    return np.asarray(rim + rise + bound * (np.clip(rise, -STEEPEST * inside, STEEPEST * inside) - rise), float)
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -16,11 +16,18 @@ from engine.portrait.control_points import ControlPoints, carry_fiducials, carry
 from engine.portrait.driver import DriverTrack
 from engine.portrait.expression_transfer import carry_expression, local_maps
 from engine.portrait.eyes import gaze
-from engine.portrait.head_motion import HeadMotion, split_motion
+from engine.portrait.head_motion import HeadMotion, split_motion, turns
 from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
 from engine.portrait.options import Part, PortraitOptions
 
+PLANE_SHARE = 0.65
+"""Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
+its depth is hardly seen there, and errs ..."""
+SLANTED = (3.0, 10.0)
+"""... from the first of these turns, in degrees, fully from the second ..."""
+INSIDE_FROM = 0.12
+"""... and this far inside the contour, in eye distances."""
 CORRECTED_FROM = 0.3
 """Eye distances from the face's rim at which tracked points correct the proxy fully."""
 TURN_TRUSTED, TURN_LOST = 15.0, 30.0
@@ -83,7 +90,7 @@ def carry_motion(
         if proxy is None:
             frames = _in_plane(phi, motion, expression, around, target, control, head)
         else:
-            frames = _in_space(motion, expression, around, target, control, proxy, head)
+            frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
         for k, (offsets, depth) in enumerate(frames):
             yield ControlMotion(start + k, offsets, depth, look[k].astype(np.float32))
 
@@ -93,16 +100,22 @@ def _in_plane(
     target: NDArray, control: ControlPoints, head: float,
 ) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
     """The paper's own form: the rigid part is carried as offsets in the plane, like everything else."""
-    scaled = scale_motion(motion, head)
-    rigid = (
-        scaled.scale[:, None, None] * np.einsum("nij,vj->nvi", scaled.rotation, motion.neutral) + scaled.shift[:, None]
-    )
-    face = carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2]
+    face = _face_in_plane(phi, motion, expression, target, head)
     for k in range(len(around)):
         offsets = np.zeros((len(control.points), 2), np.float32)
-        offsets[:MESH_SIZE] = face[k] + expression[k, :, :2]
+        offsets[:MESH_SIZE] = face[k]
         offsets[control.periphery] = around[k]
         yield offsets, np.zeros(len(offsets), np.float32)
+
+
+def _face_in_plane(
+    phi: Similarity, motion: HeadMotion, expression: NDArray, target: NDArray, head: float
+) -> NDArray[np.float64]:
+    """Equation 1 for the rigid motion, and the expression: (N, 478, 2) offsets."""
+    scaled = scale_motion(motion, head)
+    turned = np.einsum("nij,vj->nvi", scaled.rotation, motion.neutral)
+    rigid = scaled.scale[:, None, None] * turned + scaled.shift[:, None]
+    return carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2] + expression[..., :2]
 
 
 def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -135,22 +148,33 @@ def correction(
 
 
 def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(P,) how far points lie outside the face's contour, pixels."""
+    """(P,) how far points lie outside the face's contour, pixels; negative inside."""
     oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
-    return np.array([max(0.0, -cv2.pointPolygonTest(oval, (float(x), float(y)), True)) for x, y in points])
+    return np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
 
 
 def _in_space(
-    motion: HeadMotion, expression: NDArray, around: NDArray,
+    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
     target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
 ) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
+    """The head turned in space; the features of a target that is turned itself, partly as equation 1 has them."""
     moved = move_head(proxy, scale_motion(motion, head), target, expression)
     share = proxy.share[:, None].astype(np.float32)
+    face = _face_in_plane(phi, motion, expression, target, head)
+    plane = plane_share(target)
     for k in range(len(around)):
         offsets = share * (moved[k, :, :2] - proxy.points[:, :2])
+        offsets[:MESH_SIZE] += plane[:, None] * (face[k] - offsets[:MESH_SIZE])
         offsets[control.periphery] += around[k]
         offsets[control.border] = 0.0
         yield offsets.astype(np.float32), moved[k, :, 2]
+
+
+def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(478,) how much equation 1 in the plane counts beside the head turned in space, for a target's mesh."""
+    slant = float(np.rad2deg(turns(target[None], canonical_face())[0]))
+    inside = -rim_distance(target, target[:, :2]) / float(eye_distance(target[:, :2]))
+    return PLANE_SHARE * np.clip((slant - SLANTED[0]) / (SLANTED[1] - SLANTED[0]), 0, 1) * _step(inside, 0, INSIDE_FROM)
 
 
 def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:

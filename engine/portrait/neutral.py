@@ -9,9 +9,16 @@ from engine.errors import InputError
 from engine.perception.landmarks import RIGID, eye_opening, fiducials, mouth_opening
 from engine.portrait.driver import DriverTrack
 from engine.portrait.head_motion import fit_rigid, turns
+from engine.portrait.looks import EXPRESSION, expression
 
-MOUTH, EYES, TURN, MEAN = 4.0, 2.0, 1.5, 3.0
-"""What counts how much: mouth opening, closing of the eyes, radians of turn, and distance from the mean."""
+MOUTH, SHUT, CORNERS, WIDE, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 2.0, 1.5, 3.0
+"""What counts how much: a mouth that is further open, or less open, than the target's, how far its corners lie higher or
+lower, by how much it is wider (eye distances), closing of the eyes, radians of turn, and distance from the mean. A mouth
+that stays a little open does less harm than one that is pressed together, because the frame with the right opening
+smiles and the target does not."""
+
+USUAL = 0.05
+"""Eye distances by which mouths differ between people who do nothing."""
 
 
 def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> int:
@@ -48,8 +55,14 @@ def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> N
     unit = float(np.linalg.norm(middle[33] - middle[263]))
     far = np.linalg.norm(at_rest - np.median(at_rest, axis=0), axis=-1).mean(axis=-1) / unit
     angle = turns(meshes, target)
-    opening = np.abs(mouth_opening(meshes) - float(mouth_opening(target)))
+    opening = mouth_opening(meshes) - float(mouth_opening(target))
+    mouth = np.maximum(MOUTH * opening, -SHUT * opening)
+    corners, wide = (EXPRESSION.index(name) for name in ("corners_up", "mouth_wide"))
+    shown, wanted = expression(meshes), expression(np.asarray(target)[None])[0]
+    smile = np.maximum(np.abs(shown[:, corners] - wanted[corners]) - USUAL, 0)
+    at_most = max(float(wanted[wide]), float(np.quantile(shown[:, wide], 0.2)))
+    grin = np.maximum(shown[:, wide] - at_most - USUAL, 0)
     eyes = eye_opening(meshes)
     usual = np.quantile(eyes, 0.8, axis=0)
     closing = np.clip(1 - eyes / np.maximum(usual, 1e-3), 0, 1).max(axis=1)
-    return np.asarray(MOUTH * opening + EYES * closing + TURN * angle + MEAN * far, float)
+    return np.asarray(mouth + CORNERS * smile + WIDE * grin + EYES * closing + TURN * angle + MEAN * far, float)

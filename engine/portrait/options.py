@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from engine.performances import names
 
 Part = Literal["eyes", "mouth", "brows", "head"]
 PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
@@ -58,7 +60,27 @@ class PortraitOptions(BaseModel):
         description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.",
     )
 
+    reactive: bool | tuple[str, ...] = Field(
+        False,
+        description="Make a reactive profile, which plays emotions on demand: true, or the built-in performances that are to be its states. A driver is not needed then; one that is given becomes a state of its own.",
+    )
+
+    @field_validator("reactive")
+    @classmethod
+    def _known_states(cls, reactive: bool | tuple[str, ...]) -> bool | tuple[str, ...]:
+        if isinstance(reactive, tuple) and (unknown := [name for name in reactive if name not in names()]):
+            raise ValueError(f"there is no performance {unknown[0][:80]}: choose of {', '.join(names())}")
+        if reactive == ():
+            raise ValueError("the list of states is empty: name some, or say true")
+        return reactive
+
+    @model_validator(mode="after")
+    def _reactive_is_mp4(self) -> Self:
+        if self.reactive and self.format != "mp4":
+            raise ValueError("a reactive profile is made of MP4 clips: leave the format out")
+        return self
+
     def framing(self) -> PortraitOptions:
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
-        kept = ("size", "crop", "face_index", "landmarks")
-        return PortraitOptions.model_validate({name: getattr(self, name) for name in kept})
+        kept = {name: getattr(self, name) for name in ("size", "crop", "face_index", "landmarks")}
+        return PortraitOptions.model_validate({**kept, "reactive": bool(self.reactive)})

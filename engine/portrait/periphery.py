@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.person import person_mask
+from engine.perception.person import believed_person
 
 MOST_POINTS = 160
 WORKING_HEIGHT = 360
@@ -16,6 +16,8 @@ FORWARD_BACKWARD = 1.0
 ANCHOR = 3.0
 """How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
 WINDOW = (21, 21)
+COARSE, NEAR = 2, 1
+"""Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
 
 
 class PeripheryTracker:
@@ -68,22 +70,28 @@ class PeripheryTracker:
     def _step(self, grey: NDArray[np.uint8]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
         assert self._last is not None and self._first is not None
         last = self._points[-1]
-        moved, good = _lucas_kanade(self._last, grey, last, last)
+        moved, good = _lucas_kanade(self._last, grey, last, last, COARSE)
         moved = np.where(good[:, None], moved, last).astype(np.float32)
         # against the first frame, from where the track is now: takes the drift out
-        anchored, sound = _lucas_kanade(self._first, grey, self._start, moved)
+        anchored, sound = _lucas_kanade(self._first, grey, self._start, moved, NEAR)
         sound &= np.linalg.norm(anchored - moved, axis=1) < ANCHOR
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
 
 
 def _lucas_kanade(
-    a: NDArray[np.uint8], b: NDArray[np.uint8], points: NDArray[np.float32], guess: NDArray[np.float32]
+    a: NDArray[np.uint8], b: NDArray[np.uint8], points: NDArray[np.float32], guess: NDArray[np.float32], levels: int
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     there, ok, _ = cv2.calcOpticalFlowPyrLK(
-        a, b, points[:, None], guess[:, None].copy(), winSize=WINDOW, maxLevel=3, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
+        a,
+        b,
+        points[:, None],
+        guess[:, None].copy(),
+        winSize=WINDOW,
+        maxLevel=levels,
+        flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
     )
     back, ok_back, _ = cv2.calcOpticalFlowPyrLK(
-        b, a, there, points[:, None].copy(), winSize=WINDOW, maxLevel=3, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
+        b, a, there, points[:, None].copy(), winSize=WINDOW, maxLevel=levels, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
     )
     near = np.linalg.norm(back[:, 0] - points, axis=1) < FORWARD_BACKWARD
     good = near & (ok[:, 0] == 1) & (ok_back[:, 0] == 1)
@@ -92,11 +100,10 @@ def _lucas_kanade(
 
 def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> NDArray[np.float32]:
     """Good features on the person, outside the face, at working scale (K, 2)."""
-    person = (person_mask(rgb) > 0.8).astype(np.uint8)
-    cv2.fillConvexPoly(person, cv2.convexHull(mesh[:, :2].round().astype(np.int32)), 0)
-    small = cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) if scale < 1 else rgb
-    mask = cv2.resize(person, small.shape[1::-1], interpolation=cv2.INTER_NEAREST)
-    mask = cv2.erode(mask, np.ones((5, 5), np.uint8))
+    small = np.asarray(cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) if scale < 1 else rgb)
+    mask = (believed_person(np.asarray(small, np.uint8)) > 0.8).astype(np.uint8)
+    cv2.fillConvexPoly(mask, cv2.convexHull((mesh[:, :2] * scale).round().astype(np.int32)), 0)
+    mask = np.asarray(cv2.erode(mask, np.ones((5, 5), np.uint8)), np.uint8)
     grey = cv2.cvtColor(small, cv2.COLOR_RGB2GRAY)
     found = cv2.goodFeaturesToTrack(grey, MOST_POINTS, 0.01, 0.02 * np.hypot(*grey.shape), mask=mask)
     return np.zeros((0, 2), np.float32) if found is None else found[:, 0].astype(np.float32)

@@ -4,56 +4,68 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from engine.export.still import write_still
 from engine.export.video import VideoWriter
-from engine.media.image import write_image
+from engine.kind import Candidates, Given
 from engine.perception.landmarks import fiducials
 from engine.perception.models import matting_model
+from engine.portrait.choice import choose_driver
 from engine.portrait.driver import DriverTrack, track_driver
+from engine.portrait.fine_details import RatioStrip, keep_ratio_images
 from engine.portrait.loop import close_loop
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import render
-from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
-from engine.run import Run, write_report
+from engine.portrait.rig import Rig, rig_target
+from engine.portrait.target import Layers, TargetFace, find_target_face, in_pixels, separate_layers
+from engine.run import Beside, Run, write_report
 
-STAGES = {"find_face": 1.0, "track_driver": 12.0, "register_driver": 4.0, "separate_layers": 1.0, "animate": 15.0}
+STAGES = {
+    "find_face": 1.0,
+    "track_driver": 12.0,
+    "register_driver": 3.0,
+    "ratio_images": 3.0,
+    "separate_layers": 1.0,
+    "rig_target": 0.5,
+    "animate": 12.0,
+}
 """The stages and their usual share of the time."""
 
 
-def animate_portrait(
-    inputs: Mapping[str, Path | tuple[Path, ...]], options: PortraitOptions, out: Path, run: Run
-) -> None:
+def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out: Path, run: Run) -> None:
     """Animate `inputs["image"]` by `inputs["driver"]`; leaves the artifacts of the contract in `out`."""
     image, driver = inputs["image"], inputs["driver"]
-    assert isinstance(image, Path) and isinstance(driver, Path)
-    limits = run.limits
+    assert isinstance(image, Path) and isinstance(driver, Path | Candidates)
     run.plan(STAGES)
-    framing = options.framing()
-    target = run.stage("find_face", find_target_face, image, framing, limits, run.warn)
-    write_image(out / "preview.jpg", target.rgb)
-    run.publish(out / "preview.jpg")
-    model = matting_model(os.environ)
-    layers_beside = run.beside("separate_layers", separate_layers, target, model, model and model.file.sha256)
-    track = run.stage(
-        "track_driver", track_driver, driver, options.fps, options.trim, limits, run.tick, run.warn, shared=True
+    prepared = prepare_target(image, options, out, run)
+    target = prepared.face
+    choice: dict[str, object] = {}
+    if isinstance(driver, Candidates):
+        chosen = choose_driver(target, driver, run)
+        driver, choice = chosen.path, {"driver_chosen": chosen.name, "driver_scores": chosen.scores}
+    performed = analyse_driver(
+        driver,
+        options.fps,
+        options.trim,
+        lambda track: choose_neutral_frame(track, target.mesh, options.neutral_frame),
+        run,
+        loop=options.loop,
     )
-    neutral = choose_neutral_frame(track, target.mesh, options.neutral_frame)
-    registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
-    track = replace(track, meshes=registration.meshes)
-    layers = layers_beside()
-    if options.loop:
-        track = close_loop(track)
-    with run.timed("animate"):
-        name = _write_animation(track, neutral, target, layers, options, driver, out, run)
-    _write_landmarks(out / "landmarks.json", target, track, neutral)
+    track, neutral = performed.track, performed.neutral
+    layers, rig = prepared.layers(), prepared.rig()
     height, width = target.rgb.shape[:2]
+    with run.timed("animate"):
+        frames = render(track, neutral, performed.ratios, target, layers, rig, options)
+        name = _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
+    write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(
         out / "report.json",
         "portrait",
@@ -62,36 +74,91 @@ def animate_portrait(
             "size": [width, height],
             "fps": track.fps,
             "frames": len(track),
-            "faces": [[round(float(v), 1) for v in box] for box in target.faces],
+            "faces": in_pixels(target.faces),
             "neutral_frame": neutral,
             "driver_size": list(track.size),
             "animation": name,
+            **choice,
         },
         quality={"driver_face_share": float(track.found.mean())},
     )
 
 
+@dataclass(frozen=True)
+class PreparedTarget:
+    """A target's `face`, and what is made of it on another core meanwhile: its `layers` and its `rig`."""
+
+    face: TargetFace
+    layers: Beside[Layers]
+    rig: Beside[Rig]
+
+
+def prepare_target(image: Path, options: PortraitOptions, out: Path, run: Run) -> PreparedTarget:
+    """Everything that depends on the picture alone; leaves `preview.jpg`."""
+    face = run.stage("find_face", find_target_face, image, options.framing(), run.limits, run.warn)
+    write_still(out / "preview.jpg", face.rgb, run.mark_synthetic)
+    run.publish(out / "preview.jpg")
+    model = matting_model(os.environ)
+    layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)
+    return PreparedTarget(face, layers, run.beside("rig_target", rig_target, face, layers))
+
+
+@dataclass(frozen=True)
+class Performed:
+    """A driver's performance: its `track` on the skin, its `neutral` frame, its `ratios`."""
+
+    track: DriverTrack
+    neutral: int
+    ratios: RatioStrip
+
+
+def analyse_driver(
+    driver: Path,
+    fps: float | None,
+    trim: tuple[float, float] | None,
+    neutral_of: Callable[[DriverTrack], int],
+    run: Run,
+    loop: bool = False,
+) -> Performed:
+    """Everything that depends on the driver alone, but for the choice of its neutral frame."""
+    track = run.stage("track_driver", track_driver, driver, fps, trim, run.limits, run.tick, run.warn, shared=True)
+    neutral = neutral_of(track)
+    registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
+    track = replace(track, meshes=registration.meshes)
+    if loop:
+        track = close_loop(track)
+    return Performed(
+        track, neutral, run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
+    )
+
+
 def _write_animation(
-    track: DriverTrack, neutral: int, target: TargetFace, layers: Layers,
+    frames: Iterator[NDArray[np.uint8]], size: tuple[int, int], track: DriverTrack, neutral: int,
     options: PortraitOptions, driver: Path, out: Path, run: Run,
 ) -> str:  # fmt: skip
-    height, width = target.rgb.shape[:2]
     name = "animation." + {"png": "zip"}.get(options.format, options.format)
     sound = driver if options.sound and track.has_sound else None
     if options.sound and sound is None:
         run.warn("driver_has_no_sound", "The driver has no sound to keep.")
     with VideoWriter(
-        out / name, (width, height), track.fps, options.format, sound=sound, sound_trim=options.trim, loop=options.loop
+        out / name,
+        size,
+        track.fps,
+        options.format,
+        sound=sound,
+        sound_trim=options.trim,
+        loop=options.loop,
+        synthetic=run.mark_synthetic,
     ) as writer:
-        for index, frame in enumerate(render(track, neutral, target, layers, options)):
+        for index, frame in enumerate(frames):
             writer.write(frame[..., :3], frame[..., 3] / np.float32(255) if frame.shape[2] == 4 else None)
             if index == neutral:
-                write_image(out / "poster.jpg", frame[..., :3])
+                write_still(out / "poster.jpg", frame[..., :3], run.mark_synthetic)
             run.tick((index + 1) / len(track))
     return name
 
 
-def _write_landmarks(path: Path, target: TargetFace, track: DriverTrack, neutral: int) -> None:
+def write_landmarks(path: Path, target: TargetFace, track: DriverTrack, neutral: int) -> None:
     """The target's 68 points in the pixels of the original picture, for correction by hand."""
     scale = target.place[0, 0]
     points = (fiducials(target.mesh[:, :2]) + 0.5 - target.place[:, 2]) / scale - 0.5

@@ -16,9 +16,8 @@ from threading import local
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay
 
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.mesh_warp import delaunay, inverse_map
 from engine.perception.landmarks import (
     FACE_OVAL,
     LEFT_EYE,
@@ -57,7 +56,7 @@ def register_track(
 ) -> Registration:
     """Correct a track's meshes by the flow that is left against its neutral frame."""
     rest = track.in_crop(neutral)[:468]
-    triangles = Delaunay(rest).simplices.astype(np.int32)
+    triangles = delaunay(rest)
     reference = _grey(track.crop(neutral))
     light = _wide(reference)
     weight = _trust(rest)

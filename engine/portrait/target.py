@@ -25,6 +25,8 @@ from engine.portrait.options import PortraitOptions
 
 LONGEST_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
+LONGEST_SIDE_REACTIVE = 640
+"""Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
 LEAST_EYE_DISTANCE = 16.0
 """Pixels; a smaller face has nothing to animate."""
 MOST_TURNED = (35.0, 30.0)
@@ -83,27 +85,30 @@ def find_target_face(
                 "No face was found in the picture: use one that shows a face from the front, or place the landmarks by hand.",
                 ("landmarks",),
             )
+    boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
+    found = {"faces": in_pixels(boxes)}
     if options.face_index >= len(meshes):
         raise InputError(
             "face_index_out_of_range",
             f"The picture shows {len(meshes)} face(s): face_index counts from 0.",
             ("face_index",),
+            found,
         )
     mesh = meshes[options.face_index if options.landmarks is None else 0]
     place, size = _placement(mesh, (width, height), options)
-    _check_face(mesh, (width, height), options, warn)
+    _check_face(mesh, (width, height), options, warn, found)
     rgb = _warp(picture.rgb, place, size)
     alpha = None if picture.alpha is None else _warp(picture.alpha, place, size)
     moved = mesh.copy()
     scale = float(place[0, 0])
-    moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5 + 0
+    moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5
     moved[:, 2] *= scale
-    boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
     if float(eye_distance(moved[:, :2])) < LEAST_EYE_DISTANCE:
         raise InputError(
             "face_too_small",
             f"The face is too small: its eyes must be at least {LEAST_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
-            ("crop", "size"),
+            ("crop", "size", "face_index"),
+            found,
         )
     return TargetFace(rgb, alpha, moved, boxes, (width, height), place)
 
@@ -125,8 +130,17 @@ def separate_layers(target: TargetFace, model: MattingModel | None = None, model
     return Layers(np.dstack([colours + 0.5, alpha * 255 + 0.5]).astype(np.uint8), plate)
 
 
+def in_pixels(boxes: NDArray[np.float32]) -> list[list[float]]:
+    """Boxes (F, 4) as JSON, in tenths of a pixel."""
+    return [[round(float(value), 1) for value in box] for box in boxes]
+
+
 def _check_face(
-    mesh: NDArray[np.float32], size: tuple[int, int], options: PortraitOptions, warn: Callable[[str, str], None]
+    mesh: NDArray[np.float32],
+    size: tuple[int, int],
+    options: PortraitOptions,
+    warn: Callable[[str, str], None],
+    found: dict[str, list[list[float]]],
 ) -> None:
     if options.landmarks is not None:
         return
@@ -137,6 +151,7 @@ def _check_face(
             "face_too_turned",
             f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MOST_TURNED[0]:.0f} and {MOST_TURNED[1]:.0f} can be animated. Use a more frontal picture.",
             ("landmarks", "face_index"),
+            found,
         )
     if yaw > NEUTRAL[0] or pitch > NEUTRAL[1] or float(mouth_opening(mesh)) > NEUTRAL[2]:
         warn(
@@ -153,7 +168,8 @@ def _placement(
     if options.size is not None:
         scale = min(options.size[0] / box[2], options.size[1] / box[3])
     else:
-        scale = min(1.0, LONGEST_SIDE / max(box[2], box[3]))
+        longest = LONGEST_SIDE_REACTIVE if options.reactive else LONGEST_SIDE
+        scale = min(1.0, longest / max(box[2], box[3]))
     out = even_size(box[2] * scale, box[3] * scale)
     return np.array([[scale, 0, -box[0] * scale], [0, scale, -box[1] * scale]]), out
 

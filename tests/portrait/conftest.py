@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,8 +19,6 @@ from engine.portrait import PortraitOptions
 from engine.portrait.pipeline import animate_portrait
 from engine.run import Run
 from engine.store import StageStore
-
-sys.path.insert(0, str(Path(__file__).parents[2]))  # the benchmarks' renders of the scanned head serve as pictures
 
 Media = Callable[[str], Path]
 

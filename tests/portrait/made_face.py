@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -13,6 +15,7 @@ from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS
 from engine.portrait.alignment import fit_similarity
 from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.film_strip import FilmStripWriter
 
 SKIN, LIP, DARK, WHITE, BROWN = (205, 165, 140), (170, 90, 85), (70, 20, 20), (235, 232, 228), (60, 40, 25)
 
@@ -120,15 +123,12 @@ def driver(
     ]
     plain = np.empty((*CROP, 3), np.uint8)
     plain[:] = SKIN
-    data, ends = b"", []
-    for picture in pictures if pictures is not None else [plain] * len(meshes):
-        done, jpeg = cv2.imencode(".jpg", picture[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 98])
-        assert done
-        data += jpeg.tobytes()
-        ends.append(len(data))
+    with FilmStripWriter(quality=98) as crops:
+        for picture in pictures if pictures is not None else [plain] * len(meshes):
+            crops.write(picture)
+        strip = crops.strip()
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "crops.jpegs"
-    file.write_bytes(data)
+    strip = replace(strip, file=Path(shutil.move(strip.file, folder / "crops.jpegs")))
     points = np.zeros((len(meshes), 0, 2), np.float32) if periphery is None else periphery
     stack = np.array(meshes, np.float32)
     return DriverTrack(
@@ -139,7 +139,6 @@ def driver(
         found=np.ones(len(meshes), bool),
         periphery=points,
         tracked=np.ones(points.shape[:2], bool),
-        crops=file,
-        crop_ends=np.array(ends, np.int64),
+        crops=strip,
         crop_places=np.array(places),
     )

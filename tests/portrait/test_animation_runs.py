@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from tempfile import gettempdir
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens,
     assert set(again.run.reused) >= {"find_face", "separate_layers", "track_driver"}
     assert len(again.run.reused) == len(again.run.seconds) - 1  # all but the streamed one
     apart = np.abs(np.array(opens.frames, int) - np.array(again.frames, int))
-    assert apart.mean() < 0.1  # filters that threads share round differently now and then: one level before encoding
+    assert apart.mean() < 0.5  # filters that threads share round differently now and then: one level before encoding
 
 
 @pytest.mark.parametrize(
@@ -32,8 +33,8 @@ def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens,
         ({"strength": 0.5}, set()),
         ({"head_3d": False}, set()),
         ({"format": "png"}, set()),
-        ({"crop": "face"}, {"find_face", "separate_layers"}),
-        ({"trim": (1.9, 2.3)}, {"track_driver", "register_driver"}),
+        ({"crop": "face"}, {"find_face", "separate_layers", "rig_target"}),
+        ({"trim": (1.9, 2.3)}, {"track_driver", "register_driver", "ratio_images"}),
     ],
     ids=["strength", "head_3d", "format", "crop", "trim"],
 )
@@ -45,7 +46,9 @@ def test_a_revision_redoes_only_what_follows(animation, opens, woman, driver, ch
 
 def test_three_lines_of_python(woman, driver, tmp_path: Path) -> None:
     seen: list[Progress] = []
+    before = set(Path(gettempdir()).glob("galatea-*"))
     path = animate(woman, str(driver), tmp_path / "out", progress=seen.append, trim=(1.9, 2.1), strength=0.8)
+    assert set(Path(gettempdir()).glob("galatea-*")) <= before, "nothing is left behind"
     assert path == tmp_path / "out" / "animation.mp4"
     assert len(read_frames(path)) == 6
     fractions = [p.fraction for p in seen]

@@ -16,11 +16,11 @@ from engine.portrait.dense_field import (
     DISKS,
     FALLOFF,
     LARGEST_DISK,
-    WarpMesh,
     build_warp_mesh,
     disk_radii,
     interpolation_matrix,
 )
+from engine.portrait.warp_mesh import WarpMesh
 
 SHAPE = (260, 220)
 UNIT, CENTRE = 40.0, (110.0, 100.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -16,6 +17,8 @@ from engine.media.video import read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.portrait.driver import CROP, CROP_EYES, EASE_BACK, DriverTrack, track_driver
+from engine.portrait.fine_details import keep_ratio_images
+from engine.portrait.registration import register_track
 from engine.run import Run
 from engine.store import StageStore
 
@@ -69,10 +72,10 @@ def test_crops_show_the_face_in_its_place_and_are_small(track: DriverTrack, fram
         again = cv2.warpAffine(frames[index], track.crop_places[index], CROP[::-1], borderMode=cv2.BORDER_REPLICATE)
         inner = (slice(60, 260), slice(60, 230))
         assert np.abs(again[inner].astype(int) - crop[inner]).mean() < 5
-    assert track.crops.stat().st_size / len(track) < 50_000
+    assert track.crops.file.stat().st_size / len(track) < 50_000
 
 
-def test_an_analysis_takes_at_most_50_kilobytes_a_frame_and_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
+def test_an_analysis_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
     stored = []
     for _ in range(2):
         run = Run(store=StageStore(tmp_path))
@@ -80,12 +83,22 @@ def test_an_analysis_takes_at_most_50_kilobytes_a_frame_and_is_kept_as_it_is(who
     fresh = track_driver(whole, None, None, LIMITS)
     assert run.reused == ["track_driver"]
     kept = stored[1]
-    for name in ("meshes", "found", "periphery", "tracked", "crop_ends", "crop_places"):
+    for name in ("meshes", "found", "periphery", "tracked", "crop_places"):
         np.testing.assert_array_equal(getattr(kept, name), getattr(fresh, name), err_msg=name)
+    np.testing.assert_array_equal(kept.crops.ends, fresh.crops.ends)
     assert (kept.size, kept.fps, kept.has_sound) == (fresh.size, fresh.fps, fresh.has_sound)
-    assert kept.crops.read_bytes() == fresh.crops.read_bytes()
+    assert kept.crops.file.read_bytes() == fresh.crops.file.read_bytes()
+
+
+def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, tmp_path: Path) -> None:
+    """The clip of the sharpest face: its track, its registration and its ratio images together."""
+    run = Run(store=StageStore(tmp_path))
+    clip = media("driving/woman_talk_aoc.mp4")
+    track = run.stage("track", track_driver, clip, None, (0.0, 1.5), LIMITS, run.tick, run.warn)
+    registration = run.stage("register", register_track, track, 0, run.tick)
+    run.stage("ratios", keep_ratio_images, replace(track, meshes=registration.meshes), 0, run.tick)
     size = sum(p.stat().st_size for p in tmp_path.rglob("*") if p.is_file())
-    assert size / len(fresh) < 50_000
+    assert size / len(track) < 50_000
 
 
 @pytest.fixture(scope="module")

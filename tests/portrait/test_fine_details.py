@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,15 +13,18 @@ from made_face import SKIN, driver, in_crop, painted, placed, smiling
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
-from engine.portrait.driver import CROP, CropReader, DriverTrack
+from engine.portrait.driver import CROP, DriverTrack
 from engine.portrait.fine_details import (
     BRIGHTENING,
     DARKEST,
     FLOOR,
+    STEP,
     WINDOW,
+    DetailRegion,
     RatioImages,
-    build_detail_map,
+    detail_region,
     face_region,
+    keep_ratio_images,
     luminance,
     most_expressive,
     shade,
@@ -48,7 +52,7 @@ def track_of(folder: Path, pictures: list[NDArray[np.uint8]], meshes: list[NDArr
 
 
 def ratios(track: DriverTrack, outliers: bool = False, refined: bool = True) -> RatioImages:
-    return RatioImages(track, 0, CropReader(track), outliers, refined)
+    return RatioImages(track, 0, outliers, refined)
 
 
 def inside() -> NDArray[np.bool_]:
@@ -168,6 +172,18 @@ def test_there_is_a_ratio_for_every_frame_and_a_lasting_crease_is_whole(tmp_path
             assert given[20] == pytest.approx(images.single(20)[170, 80], abs=0.01)
 
 
+def test_kept_ratio_images_are_those_that_were_made(tmp_path: Path) -> None:
+    """To a few steps of what is kept; where nothing changes they stay one exactly, and no file is left behind."""
+    track = track_of(tmp_path, [plain(LEVEL)] + [with_crease(0.8), with_crease(0.9)] * 3)
+    before = set(Path(tempfile.gettempdir()).iterdir())
+    kept = keep_ratio_images(track, 0)
+    assert set(Path(tempfile.gettempdir()).iterdir()) - before == {kept.images.file}
+    for image, expected in zip(kept, RatioImages(track, 0), strict=True):
+        np.testing.assert_allclose(image, expected, atol=5 * STEP)
+        assert (image[CHEEK[0], 120:150] == 1).all()
+    kept.images.file.unlink()
+
+
 def test_the_most_expressive_frame_is_furthest_from_neutral_after_a_similarity(tmp_path: Path) -> None:
     """However far the head went: that is no expression."""
     far = (1.4 * FACE + (50, 30, 0)).astype(np.float32)
@@ -227,17 +243,22 @@ def identity(scale: float = 1.0) -> NDArray[np.float32]:
     return np.stack([xs, ys], axis=-1) * np.float32(scale) + np.float32(0.5 * scale - 0.5)
 
 
+def shade_from(frame: NDArray, region: DetailRegion, ratio: NDArray, origin: NDArray[np.float32], scale: float) -> None:
+    """Shade by a ratio image of the driver whose neutral crop is that of `FACE`."""
+    shade(frame, region, region.origin(in_crop(FACE)), ratio, origin, scale)
+
+
 def test_ratio_one_changes_nothing(picture: NDArray) -> None:
     frame = picture.copy()
-    shade(frame, build_detail_map(picture, TARGET, in_crop(FACE)), np.ones(CROP, np.float32), identity(), 1)
+    shade_from(frame, detail_region(picture, TARGET), np.ones(CROP, np.float32), identity(), 1)
     np.testing.assert_array_equal(frame, picture)
 
 
 def test_a_ratio_multiplies_the_skin_and_spares_eyes_mouth_and_background(picture: NDArray) -> None:
     """Equation 3."""
     frame = picture.copy()
-    details = build_detail_map(picture, TARGET, in_crop(FACE))
-    shade(frame, details, np.full(CROP, 0.5, np.float32), identity(), 1)
+    details = detail_region(picture, TARGET)
+    shade_from(frame, details, np.full(CROP, 0.5, np.float32), identity(), 1)
     factor = frame.astype(float).sum(axis=2) / picture.astype(float).sum(axis=2)
     x, y = TARGET[50, :2].round().astype(int)
     x0, y0 = details.box[:2]
@@ -258,12 +279,12 @@ def test_a_ratio_multiplies_the_skin_and_spares_eyes_mouth_and_background(pictur
 def test_ratios_land_on_the_same_part_of_the_face(picture: NDArray) -> None:
     """A dark spot at a vertex of the driver's face darkens the target there."""
     crop = in_crop(FACE)
-    details = build_detail_map(picture, TARGET, crop)
+    details = detail_region(picture, TARGET)
     for vertex in (50, 280, 151):
         spot = np.ones(CROP, np.float32)
         cv2.circle(spot, crop[vertex, :2].round().astype(int).tolist(), 4, 0.5, -1)
         frame = picture.copy()
-        shade(frame, details, spot, identity(), 1)
+        shade_from(frame, details, spot, identity(), 1)
         drop = np.clip(picture.astype(float).sum(axis=2) - frame.astype(float).sum(axis=2), 0, None)
         ys, xs = np.mgrid[: SIZE[1], : SIZE[0]]
         centre = np.array([(xs * drop).sum(), (ys * drop).sum()]) / drop.sum()
@@ -272,14 +293,14 @@ def test_ratios_land_on_the_same_part_of_the_face(picture: NDArray) -> None:
 
 def test_ratios_move_with_the_warp(picture: NDArray) -> None:
     """Through an inverse map that shifts, in pixels of the picture or of one twice as large."""
-    details = build_detail_map(picture, TARGET, in_crop(FACE))
+    details = detail_region(picture, TARGET)
     ratio = np.ones(CROP, np.float32)
     cv2.circle(ratio, in_crop(FACE)[50, :2].round().astype(int).tolist(), 6, 0.6, -1)
     still = np.full_like(picture, 200)
-    shade(still, details, ratio, identity(), 1)
+    shade_from(still, details, ratio, identity(), 1)
     for scale in (1, 2):
         moved = np.full_like(picture, 200)
-        shade(moved, details, ratio, identity(scale) - scale * np.array([7, -5], np.float32), scale)
+        shade_from(moved, details, ratio, identity(scale) - scale * np.array([7, -5], np.float32), scale)
         np.testing.assert_allclose(
             np.roll(still, (-5, 7), axis=(0, 1))[20:-20, 20:-20].astype(int), moved[20:-20, 20:-20].astype(int), atol=1
         )
@@ -288,7 +309,7 @@ def test_ratios_move_with_the_warp(picture: NDArray) -> None:
 def test_colours_keep_their_hue(picture: NDArray) -> None:
     flat = np.empty_like(picture)
     flat[:] = SKIN
-    shade(flat, build_detail_map(picture, TARGET, in_crop(FACE)), np.full(CROP, 0.6, np.float32), identity(), 1)
+    shade_from(flat, detail_region(picture, TARGET), np.full(CROP, 0.6, np.float32), identity(), 1)
     x, y = TARGET[50, :2].round().astype(int)
     factor = flat[y, x] / np.array(SKIN)
     assert factor.max() < 0.9

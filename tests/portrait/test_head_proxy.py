@@ -13,6 +13,7 @@ from engine.portrait.head_motion import HeadMotion, split_motion
 from engine.portrait.head_proxy import (
     JOINED,
     LARGEST_TURN,
+    STEEPEST,
     build_head_proxy,
     head_share,
     limit_rotation,
@@ -53,6 +54,20 @@ def test_what_the_picture_shows_on_the_contour_moves_with_it(mesh: NDArray) -> N
     bulged[177, :2], bulged[177, 2] = jaw[:2], jaw[2] - 0.4 * UNIT
     proxy = build_head_proxy(bulged[:, :2].astype(float), bulged)
     assert proxy.points[177, 2] == pytest.approx(jaw[2], abs=0.02 * UNIT)
+
+
+@pytest.mark.parametrize("yaw", [20, 30])
+def test_in_a_turned_face_depth_leaves_the_contour_s_at_a_bounded_slope(yaw: float) -> None:
+    """Where a turned cheek goes out of sight its depth runs away; a turn would tear it into flaps."""
+    turned = placed(UNIT, CENTRE, yaw=yaw)
+    proxy = build_head_proxy(turned[:, :2].astype(float), turned)
+    ring = turned[list(FACE_OVAL)].astype(float)
+    t = np.linspace(0, 1, 50, endpoint=False)[:, None, None]
+    contour = (ring + t * (np.roll(ring, -1, axis=0) - ring)).reshape(-1, 3)
+    apart = np.linalg.norm(turned[:, None, :2] - contour[None, :, :2], axis=2)
+    nearest = apart.argmin(axis=1)
+    rise = np.abs(proxy.points[:MESH_SIZE, 2] - contour[nearest, 2])
+    assert (rise <= STEEPEST * apart.min(axis=1) + 0.05 * UNIT).all()
 
 
 def test_depth_beside_the_face_falls_back_to_the_ears(mesh: NDArray) -> None:

@@ -94,3 +94,13 @@ def test_costs_are_least_for_a_match_and_finite(track: DriverTrack, rest: NDArra
 
 def test_one_frame_is_enough(tmp_path: Path, rest: NDArray) -> None:
     assert choose_neutral_frame(driver(tmp_path, [opened(rest, 0.1)]), rest, None) == 0
+
+
+def test_an_open_mouth_that_does_not_smile_is_no_grin(tmp_path: Path, rest: NDArray) -> None:
+    """The frames whose opening is right grin: a mouth that is at rest stands for the target's all the same."""
+    frames = [rest, *(opened(smiling(rest, 0.12 * i), 0.03 * i) for i in range(1, 6)), rest]
+    speaking = opened(rest, 0.12)
+    chosen = choose_neutral_frame(driver(tmp_path, frames), speaking, None)
+    assert chosen in (0, 1, len(frames) - 1)
+    grinning = opened(smiling(rest, 0.48), 0.12)
+    assert choose_neutral_frame(driver(tmp_path, frames), grinning, None) in (3, 4, 5)

@@ -10,7 +10,7 @@ import pytest
 from made_face import SKIN, driver, in_crop, placed, smiling
 from numpy.typing import NDArray
 
-from engine.portrait.driver import CROP, CropReader, DriverTrack
+from engine.portrait.driver import CROP, DriverTrack
 from engine.portrait.fine_details import DARKEST, RatioImages
 from engine.portrait.outliers import SEARCH, SIGNIFICANT, match_differences
 
@@ -56,9 +56,8 @@ def at(image: NDArray, place: tuple[int, int], reach: int = 9) -> NDArray:
 
 
 def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: DriverTrack) -> None:
-    crops = CropReader(track)
-    raw = RatioImages(track, 0, crops, outliers=False).single(2)
-    refined = RatioImages(track, 0, crops, outliers=True).single(2)
+    raw = RatioImages(track, 0, outliers=False).single(2)
+    refined = RatioImages(track, 0, outliers=True).single(2)
     assert at(raw, SHADOW, 14).min() < 1 / SIGNIFICANT - 0.1  # without it, the shadow would be carried over
     assert at(refined, SHADOW, 14).min() > 0.99
     assert at(refined, CREASE).min() <= DARKEST + 1e-6
@@ -67,7 +66,7 @@ def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: DriverTrack) 
 
 def test_it_is_removed_from_every_frame(track: DriverTrack) -> None:
     """Judged once, in the most expressive frame, and propagated by similarities (section 6)."""
-    images = RatioImages(track, 0, CropReader(track), outliers=True)
+    images = RatioImages(track, 0, outliers=True)
     assert at(images.single(1), SHADOW, 14).min() > 0.99
     assert at(images.single(1), CREASE).min() < 0.85
 
@@ -79,14 +78,14 @@ def test_the_footprint_moves_with_the_head(tmp_path: Path) -> None:
     turned = ((FACE - FACE.mean(axis=0)) @ np.array([[np.cos(a), np.sin(a), 0], [-np.sin(a), np.cos(a), 0], [0, 0, 1]])
               + FACE.mean(axis=0) + (20, 10, 0)).astype(np.float32)  # fmt: skip
     track = driver(tmp_path, [FACE, turned, ACTED], [neutral, acted, acted])
-    assert at(RatioImages(track, 0, CropReader(track), outliers=True).single(1), SHADOW, 14).min() > 0.99
+    assert at(RatioImages(track, 0, outliers=True).single(1), SHADOW, 14).min() > 0.99
 
 
 def test_without_outliers_nothing_is_removed(tmp_path: Path) -> None:
     neutral = np.clip(skin(), 0, 255).astype(np.uint8)
     acted = np.clip(darkened(skin(), CREASE, (2, 14), 0.75), 0, 255).astype(np.uint8)
     track = driver(tmp_path, [FACE, ACTED], [neutral, acted])
-    images = RatioImages(track, 0, CropReader(track), outliers=True)
+    images = RatioImages(track, 0, outliers=True)
     assert images.outliers is not None
     assert images.outliers.distance.min() > 100
     assert at(images.single(1), CREASE).min() <= DARKEST + 1e-6

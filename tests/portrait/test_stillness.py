@@ -16,9 +16,11 @@ from engine.media.limits import Limits
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.person import person_mask
 from engine.portrait.driver import track_driver
+from engine.portrait.fine_details import RatioImages
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import render
+from engine.portrait.rig import rig_target
 from engine.portrait.target import Layers, find_target_face, separate_layers
 
 STILL = 0.5
@@ -98,11 +100,13 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     layers = separate_layers(target)
     track = track_driver(driver, None, None, Limits())
     track = replace(track, meshes=register_track(track, 0).meshes)
+    rig = rig_target(target, layers)
     black = Layers(layers.person, np.zeros_like(layers.plate))
     white = Layers(layers.person, np.full_like(layers.plate, 255))
     moved = np.zeros(rgb.shape[:2])
     for frame, low, high in zip(
-        *(render(track, 0, target, some, options) for some in (layers, black, white)), strict=True
+        *(render(track, 0, RatioImages(track, 0), target, some, rig, options) for some in (layers, black, white)),
+        strict=True,
     ):
         seen_through = (high.astype(float) - low).mean(axis=2) / 255
         moved = np.maximum(moved, np.abs(seen_through - (1 - layers.person[..., 3] / 255)))

@@ -164,6 +164,9 @@ def test_face_index_chooses(couple: Path) -> None:
     assert find(couple, face_index=1).mesh[4, 0] > 320
     error = refusal(couple, face_index=2)
     assert error.code == "face_index_out_of_range" and "2 face" in error.detail
+    (x, y, width, height), _ = error.found["faces"]
+    middle = find(couple).mesh[4]
+    assert x < middle[0] < x + width and y < middle[1] < y + height
 
 
 def test_size_scales_the_picture_to_fit(whole: TargetFace, woman: Path) -> None:

@@ -1,0 +1,55 @@
+"""What is measured of a face in every frame to tell what it shows: a few lengths and the head's angles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import RIGID, eye_opening
+from engine.portrait.head_motion import fit_rigid
+from engine.portrait.looks import frontal
+
+MEASURES = (
+    *("mouth_open", "mouth_wide", "right_corner_up", "left_corner_up"),
+    *("inner_brows_up", "outer_brows_up", "brows_apart", "right_eye_open", "left_eye_open"),
+    *("yaw", "pitch", "roll"),
+)
+"""Lengths are in eye distances of the face turned to the front; the eyes' opening is over their own width; angles in
+radians: `yaw` > 0 turns the face to the picture's right, `pitch` > 0 upwards, `roll` > 0 clockwise as seen."""
+
+JAW_TAKES_CORNERS = 0.25
+"""An opening jaw takes the corners of the mouth down by this share of the opening (0.22 to 0.29 in the built-in
+performances of surprise, whose corners do nothing of themselves): what is left is their own doing."""
+
+
+def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+    """`MEASURES` of meshes (N, 478, 3) in pixels: (N, 12)."""
+    face = frontal(meshes)
+    nose = face[:, 2, 1]
+    mouth_open = np.linalg.norm(face[:, 13] - face[:, 14], axis=1)
+    lids = face[:, [33, 133, 263, 362], 1].mean(axis=1)
+    eyes = eye_opening(meshes)
+    return np.column_stack(
+        [
+            mouth_open,
+            np.linalg.norm(face[:, 61] - face[:, 291], axis=1),
+            nose - face[:, 61, 1] + JAW_TAKES_CORNERS * mouth_open,
+            nose - face[:, 291, 1] + JAW_TAKES_CORNERS * mouth_open,
+            lids - face[:, [107, 336], 1].mean(axis=1),
+            lids - face[:, [70, 300], 1].mean(axis=1),
+            np.abs(face[:, 55, 0] - face[:, 285, 0]),
+            eyes[:, 0],
+            eyes[:, 1],
+            *_angles(meshes),
+        ]
+    ).astype(np.float32)
+
+
+def _angles(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Yaw, pitch and roll, (N,) each, of the rigid vertices against the canonical face."""
+    chosen = list(RIGID)
+    _, turn, _ = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
+    yaw = np.arctan2(-turn[:, 0, 2], turn[:, 2, 2])
+    pitch = np.arctan2(turn[:, 1, 2], turn[:, 2, 2])
+    return yaw, pitch, np.arctan2(turn[:, 1, 0], turn[:, 0, 0])

@@ -1,0 +1,136 @@
+"""The moments of a driving video, stage by stage: watch it, find the portions, take a picture of each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.kind import Given
+from engine.media.image import write_image
+from engine.media.limits import Limits
+from engine.media.video import read_video
+from engine.performances import State
+from engine.performances.catalogue import POSTER_SIDE, Strength
+from engine.portrait.moments.portions import Portion, find_portions
+from engine.portrait.moments.rest import SPREAD, own_rest
+from engine.portrait.moments.watching import FPS, LONGEST_SIDE, Watched, watch
+from engine.run import Run, write_report
+
+STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
+"""The stages and their usual share of the time."""
+
+AROUND = 0.35
+"""How much of the face's height a picture shows around it on every side."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A portion of a video that holds a state.
+
+    name : the state's, with a number from the second best on. start, end, apex : seconds from the video's beginning;
+    the face is at rest at `start` and `end`, and the state at its height at `apex`. score : how sure it is, in [0, 1].
+    """
+
+    name: str
+    state: State
+    strength: Strength
+    start: float
+    end: float
+    apex: float
+    score: float
+
+    @property
+    def seconds(self) -> float:
+        return round(self.end - self.start, 3)
+
+    @property
+    def poster(self) -> str:
+        """The name of its picture."""
+        return f"{self.name}.jpg"
+
+
+@dataclass(frozen=True)
+class Moments:
+    """All moments of a video, in the order of the states, the best of each first; `rest`: when the face is most at
+    rest, in seconds."""
+
+    rest: float
+    moments: tuple[Moment, ...]
+
+
+def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
+    """Find the moments of `inputs["driver"]`; leaves `moments.json`, a picture of each, `poster.jpg` (the face at
+    rest) and `report.json` in `out`."""
+    driver = inputs["driver"]
+    assert isinstance(driver, Path)
+    run.plan(STAGES)
+    watched = run.stage("watch", watch, driver, run.limits, run.tick, shared=True)
+    with run.timed("find_portions"):
+        moments = moments_of(watched)
+    with run.timed("posters"):
+        wanted = {"poster.jpg": moments.rest} | {one.poster: one.apex for one in moments.moments}
+        for done, (name, time) in enumerate(wanted.items()):
+            write_image(out / name, picture(driver, time, watched, run.limits))
+            run.tick((done + 1) / len(wanted))
+    write_moments(out / "moments.json", moments, watched)
+    seen = float(watched.found.mean())
+    inputs_ = {"seconds": round(watched.seconds, 3), "fps": FPS, "frames": len(watched.found)}
+    write_report(out / "report.json", "moments", run, inputs_, {"driver_face_share": seen})
+
+
+def moments_of(watched: Watched) -> Moments:
+    """The moments of a video that was watched."""
+    rest = own_rest(watched.values[watched.found])
+    apart = np.linalg.norm((watched.values - rest) / SPREAD, axis=1)
+    portions = find_portions(watched.values, watched.found, rest, FPS)
+    at_rest = int(np.argmin(np.where(watched.found, apart, np.inf)))
+    return Moments(at_rest / FPS, tuple(_named(portions, watched.seconds)))
+
+
+def write_moments(path: Path, moments: Moments, watched: Watched) -> None:
+    """Write `moments.json`."""
+    listed = [{**asdict(one), "seconds": one.seconds, "poster": one.poster} for one in moments.moments]
+    document = {"seconds": round(watched.seconds, 3), "rest": round(moments.rest, 3), "moments": listed}
+    path.write_text(json.dumps(document, indent=2) + "\n")
+
+
+def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArray[np.uint8]:
+    """The face at a time of the video and as much around it as there is, (256, 256, 3)."""
+    place = min(round(time * FPS), len(watched.found) - 1)
+    span = (max(time - 0.25 / FPS, 0.0), time + 1 / FPS)
+    frame = next(iter(read_video(path, fps=FPS, trim=span, limits=limits, longest_side=LONGEST_SIDE))).rgb
+    left, top, right, bottom = watched.boxes[place]
+    half = (np.array(frame.shape[1::-1]) - 1) / 2
+    reach = min((0.5 + AROUND) * max(right - left, bottom - top), *half)
+    centre = np.clip([(left + right) / 2, (top + bottom) / 2], reach, 2 * half - reach)
+    scale = POSTER_SIDE / (2 * reach)
+    shift = (POSTER_SIDE - 1) / 2 - scale * centre
+    moved = np.array([[scale, 0, shift[0]], [0, scale, shift[1]]])
+    drawn = cv2.warpAffine(
+        frame, moved, (POSTER_SIDE, POSTER_SIDE), flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE
+    )
+    return np.asarray(drawn, np.uint8)
+
+
+def _named(portions: list[Portion], seconds: float) -> list[Moment]:
+    named: list[Moment] = []
+    for one in portions:
+        number = 1 + sum(other.state == one.state for other in named)
+        named.append(
+            Moment(
+                name=one.state if number == 1 else f"{one.state}-{number}",
+                state=one.state,
+                strength=one.strength,
+                start=round(one.first / FPS, 3),
+                end=round(min((one.last + 1) / FPS, seconds), 3),
+                apex=round(one.apex / FPS, 3),
+                score=round(one.score, 3),
+            )
+        )
+    return named

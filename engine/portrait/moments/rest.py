@@ -1,0 +1,58 @@
+"""The face at rest: what everything else that a person's face does is measured against."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
+
+from engine.perception.head_pose import canonical_face
+from engine.portrait.moments.measures import MEASURES, measure
+
+SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
+"""By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
+varies by while people wait (from the idle performances and the quiet stretches of the clips in `benchmarks/moments`)."""
+
+USUAL = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
+"""By how much the measures at rest differ between people."""
+
+UNLIKE = 0.3
+"""How much being unlike a resting face in general counts, against being unlike most of what this person shows."""
+
+LOWERED = 2.0
+"""How much lowered lids count, as a share of how far they are usually open, beyond `LIDS_VARY`."""
+
+LIDS_VARY = 0.2
+
+NEIGHBOURS = 0.04
+"""The share of the frames that are compared with each: rest is what a face comes back to again and again."""
+
+FEWEST = 5
+
+_LIDS = [MEASURES.index("right_eye_open"), MEASURES.index("left_eye_open")]
+_STILL = [index for index in range(len(MEASURES)) if index not in _LIDS]
+
+
+def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
+
+    The frame among whose nearest neighbours it is closest, and which is not unlike a resting face at all: so a smile
+    that lasts through half of a clip is not taken for rest, where the other half is quiet.
+    """
+    general = measure(canonical_face()[None].astype(float))[0]
+    neighbours = min(max(FEWEST, round(NEIGHBOURS * len(values))), len(values) - 1)
+    apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
+    unlike = np.sqrt(np.mean(((values - general) / USUAL)[:, :9] ** 2, axis=1))
+    usual = np.quantile(values[:, _LIDS], 0.7, axis=0)
+    lowered = np.clip(1 - LIDS_VARY - values[:, _LIDS] / np.maximum(usual, 1e-3), 0, 1).max(axis=1)
+    best = int(np.argmin(apart.mean(axis=1) + UNLIKE * unlike + LOWERED * lowered))
+    nearest = np.argsort(np.linalg.norm((values - values[best]) / SPREAD, axis=1))[: neighbours + 1]
+    return np.asarray(np.median(values[nearest], axis=0), float)
+
+
+def unrest(moved: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how far from rest each frame is, from differences (N, 12): up to 1 it counts as calm. A blink is no unrest."""
+    share = np.abs(moved) / SPREAD
+    blink = moved[:, _LIDS].max(axis=1) < 0
+    lids = np.where(blink, 0.0, share[:, _LIDS].max(axis=1))
+    return np.asarray(np.maximum(share[:, _STILL].max(axis=1), lids), float)

@@ -1,0 +1,155 @@
+"""Ways out of a clip: from nearly any of its frames a few rendered ones that lead to rest.
+
+A clip that is broken off cannot jump to another's first frame, and cross-fading would show two faces. So poses of the
+clip are chosen as exits, close enough together that every frame has one that can hardly be told from it, and from each
+exit a short bridge is rendered. A player shows the bridge of the exit that belongs to the frame it is at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.portrait.reactive.excursion import Pose
+
+NEAR = 0.4
+"""How far an exit may be from the frames that use it, against the longest step between two frames of its clip ..."""
+LEAST_PACE = 0.5
+"""... or this share of the longest step in all clips, where that is more ..."""
+UNSEEN = (0.3, 1.0)
+"""... or these pixels (the head, the furthest point), which nobody sees."""
+TAPER = 0.5
+"""Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
+CALM = 0.5
+"""The longest step of a bridge against the longest in all clips: a head that goes back to rest does not snap back."""
+SHORTEST, LONGEST = 3, 12
+"""Frames of a bridge."""
+HOLD = 2
+"""Frames of rest after each bridge, which cost next to nothing: a player that stops late shows nothing else."""
+REACH = 32
+"""Bridges are coded one after another from one whole picture on, the one at rest, as long as no more frames than these
+follow it: that many must be decoded at worst before a bridge is seen, and whole pictures are what bridges cost."""
+
+
+@dataclass(frozen=True)
+class Stride:
+    """How far two poses are apart, in pixels: by half of the control points (the head), and by the furthest (a lid)."""
+
+    head: float
+    furthest: float
+
+    @classmethod
+    def between(cls, one: NDArray[np.float32], other: NDArray[np.float32] | float = 0.0) -> Stride:
+        far = np.linalg.norm(one - other, axis=1)
+        return cls(float(np.median(far)), float(far.max()))
+
+    def against(self, other: Stride) -> float:
+        """The larger of the two ratios."""
+        return max(self.head / max(other.head, 1e-3), self.furthest / max(other.furthest, 1e-3))
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A bridge in its file: the `start` of its frames, and how many (`length`) lead to rest. `HOLD` frames at rest
+    follow; where it is the first after a whole picture, that one comes before it (`opens`)."""
+
+    start: int
+    length: int
+    opens: bool
+
+
+@dataclass(frozen=True)
+class Exits:
+    """Ways out of one clip: the poses that bridges begin at by their `frames`, each bridge's length, and for each frame
+    of the clip the exit `at` it; -1 where it is at rest, or as good as."""
+
+    frames: tuple[int, ...]
+    lengths: tuple[int, ...]
+    at: tuple[int, ...]
+
+    def segments(self) -> list[Segment]:
+        """Where the bridges lie in their file."""
+        placed: list[Segment] = []
+        end, room = 0, 0
+        for length in self.lengths:
+            opens = room < length + HOLD
+            if opens:
+                end, room = end + 1, REACH
+            placed.append(Segment(end, length, opens))
+            end, room = end + length + HOLD, room - length - HOLD
+        return placed
+
+
+def longest_step(poses: Sequence[Pose], loops: bool) -> Stride:
+    """The longest steps from frame to frame of a clip."""
+    offsets = [pose.motion.offsets for pose in poses]
+    ahead = offsets[1:] + (offsets[:1] if loops else [])
+    steps = [Stride.between(one, other) for one, other in zip(offsets, ahead, strict=False)]
+    return Stride(max(step.head for step in steps), max(step.furthest for step in steps))
+
+
+def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
+    """Exits for a clip, as few as serve all of its frames.
+
+    Parameters
+    ----------
+    step : the longest of the clip itself; pace : the longest of all clips of the profile.
+    """
+    step = Stride(
+        max(step.head, LEAST_PACE * pace.head, UNSEEN[0] / NEAR),
+        max(step.furthest, LEAST_PACE * pace.furthest, UNSEEN[1] / NEAR),
+    )
+    offsets = [pose.motion.offsets for pose in poses]
+    resting = [Stride.between(one).against(step) <= NEAR for one in offsets]
+    frames: list[int] = []
+    at: list[int] = []
+    while len(at) < len(poses):
+        first = len(at)
+        if resting[first]:
+            at.append(-1)
+            continue
+        chosen = _furthest(offsets, resting, first, first, step)
+        frames.append(chosen)
+        last = _furthest(offsets, resting, chosen, chosen, step)
+        at += [len(frames) - 1] * (last - first + 1)
+    far = [Stride.between(offsets[frame]).against(pace) for frame in frames]
+    steps = [one / (CALM * (1 - TAPER / 2)) for one in far]
+    lengths = tuple(int(np.clip(np.ceil(one) - 1, SHORTEST, LONGEST)) for one in steps)
+    return Exits(tuple(frames), lengths, tuple(at))
+
+
+def _furthest(
+    offsets: Sequence[NDArray[np.float32]], resting: Sequence[bool], start: int, of: int, step: Stride
+) -> int:
+    """The last frame from `start` on up to which all are near the pose of the frame `of`."""
+    last = start
+    while (
+        last + 1 < len(offsets)
+        and not resting[last + 1]
+        and Stride.between(offsets[last + 1], offsets[of]).against(step) <= NEAR
+    ):
+        last += 1
+    return last
+
+
+def bridge(pose: Pose, segment: Segment, rest: NDArray[np.float32]) -> Iterator[Pose]:
+    """The frames of a bridge's segment: the poses between this one and rest, with what comes before and after."""
+    if segment.opens:
+        yield pose.eased(0.0, rest)
+    for weight in 1 - glide(np.arange(1, segment.length + 1) / (segment.length + 1)):
+        yield pose.eased(float(weight), rest)
+    for _ in range(HOLD):
+        yield pose.eased(0.0, rest)
+
+
+def glide(t: NDArray[np.floating]) -> NDArray[np.float64]:
+    """From 0 at 0 to 1 at 1, at rest at both and with an even pace between, so that no step is much longer than the mean
+    (the integral of a cosine-tapered window)."""
+    late = t > 0.5
+    u = np.where(late, 1 - t, t)
+    begins = 0.5 * (u - TAPER / (2 * np.pi) * np.sin(2 * np.pi * u / TAPER))
+    way = np.where(u < TAPER / 2, begins, u - TAPER / 4) / (1 - TAPER / 2)
+    return np.asarray(np.where(late, 1 - way, way), float)

@@ -1,0 +1,206 @@
+"""A reactive profile, stage by stage: the target is analysed once, then every state's clip and its bridges are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.export.still import write_still
+from engine.export.video import VideoWriter
+from engine.kind import Given
+from engine.media.video import probe_video
+from engine.performances.catalogue import FPS
+from engine.portrait.fine_details import RatioStrip
+from engine.portrait.head_proxy import build_head_proxy
+from engine.portrait.motion import carry_motion
+from engine.portrait.neutral import choose_neutral_frame
+from engine.portrait.options import PortraitOptions
+from engine.portrait.pipeline import STAGES, Performed, analyse_driver, prepare_target, write_landmarks
+from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
+from engine.portrait.reactive.bundle import write_bundle
+from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
+from engine.portrait.reactive.excursion import Pose, excursion
+from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
+from engine.portrait.render import Renderer, draw_in_order
+from engine.portrait.rig import Rig
+from engine.portrait.target import Layers, TargetFace
+from engine.run import Run, write_report
+
+MOST_SECONDS = 20.0
+"""Of a driving video of the user's own: a page loads the clip and all ways out of it."""
+PER_DRIVER = ("track_driver", "register_driver", "ratio_images", "animate")
+
+
+@dataclass(frozen=True)
+class Act:
+    """One state's performance on the target: its poses, and the ways out of them."""
+
+    state: State
+    performed: Performed
+    poses: tuple[Pose, ...]
+    exits: Exits
+    rest: NDArray[np.float32]
+
+    def bridges(self) -> Iterator[Pose]:
+        """The poses of all bridges, one bridge after another."""
+        for frame, segment in zip(self.exits.frames, self.exits.segments(), strict=True):
+            yield from bridge(self.poses[frame], segment, self.rest)
+
+
+def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Path, run: Run) -> None:
+    """Make `inputs["image"]` react; leaves the artifacts of the contract in `out`. A driver left to be chosen adds
+    nothing: the built-in performances are there anyway."""
+    image, driver = inputs["image"], inputs.get("driver")
+    assert isinstance(image, Path)
+    states = choose_states(options, driver if isinstance(driver, Path) else None)
+    run.plan(STAGES, dict.fromkeys(PER_DRIVER, len(states)))
+    if options.sound:
+        run.warn("profile_is_silent", "A reactive profile has no sound.")
+    prepared = prepare_target(image, options, out, run)
+    fps = options.fps or float(FPS)
+    performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
+    layers, rig = prepared.layers(), prepared.rig()
+    acts = plan_acts(states, performed, prepared.face, rig, options)
+    _draw(acts, prepared.face, layers, rig, options, fps, out, run)
+    profile = _describe(acts, prepared.face, fps)
+    (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
+    write_bundle(out / "profile.zip", out, profile)
+    write_landmarks(out / "landmarks.json", prepared.face, performed[0].track, performed[0].neutral)
+    height, width = prepared.face.rgb.shape[:2]
+    write_report(
+        out / "report.json",
+        "portrait",
+        run,
+        inputs={
+            "size": [width, height],
+            "fps": fps,
+            "frames": sum(len(act.poses) for act in acts),
+            "faces": [[round(float(v), 1) for v in box] for box in prepared.face.faces],
+            "states": {act.state.name: len(act.poses) for act in acts},
+            "bridges": {act.state.name: len(act.exits.frames) for act in acts},
+            "animation": "animation.mp4",
+        },
+        quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performed])))},
+    )
+
+
+def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
+    """A driver's analysis, the same that a portrait driven by it alone would make where the frame rates agree."""
+    if not state.own:
+        asked = options.fps
+        return analyse_driver(state.video, asked, None, lambda track: round(_frame(state, track.fps)), run)
+    trim = options.trim
+    if trim is None and probe_video(state.video, run.limits).seconds > MOST_SECONDS:
+        trim = (0.0, MOST_SECONDS)
+        run.warn(
+            "driver_shortened", f"The first {MOST_SECONDS:.0f} seconds of the driver are used: trim chooses others."
+        )
+    return analyse_driver(
+        state.video, fps, trim, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run
+    )
+
+
+def _frame(state: State, fps: float) -> float:
+    """The neutral frame of a built-in performance at another frame rate."""
+    return (state.neutral_frame or 0) * fps / FPS
+
+
+def plan_acts(
+    states: Sequence[State], performed: Sequence[Performed], target: TargetFace, rig: Rig, options: PortraitOptions
+) -> list[Act]:
+    """The poses of all states, and the ways out of them, before anything is drawn."""
+    proxy = build_head_proxy(rig.control.points, target.mesh) if options.head_3d else None
+    poses, rests = [], []
+    for state, one in zip(states, performed, strict=True):
+        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options))
+        rests.append(motions[one.neutral].depth)
+        poses.append(excursion(motions, rests[-1], one.track.fps, state.loops))
+    steps = [longest_step(one, state.loops) for state, one in zip(states, poses, strict=True)]
+    pace = Stride(max(step.head for step in steps), max(step.furthest for step in steps))
+    return [
+        Act(state, one, acted, find_exits(acted, step, pace), rest)
+        for state, one, acted, step, rest in zip(states, performed, poses, steps, rests, strict=True)
+    ]
+
+
+def _draw(
+    acts: Sequence[Act], target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, fps: float,
+    out: Path, run: Run,
+) -> None:  # fmt: skip
+    """All clips, their bridges, all of it in one animation, and the poster."""
+    height, width = target.rgb.shape[:2]
+    size = (width, height)
+    mark = run.mark_synthetic
+    with VideoWriter(out / "animation.mp4", size, fps, synthetic=mark) as whole:
+        for act in acts:
+            with run.timed("animate"), ExitStack() as files:
+                track, neutral, ratios = act.performed.track, act.performed.neutral, act.performed.ratios
+                renderer = Renderer(track, neutral, target, layers, rig, options)
+                name = out / clip_name(act.state)
+                clip = files.enter_context(VideoWriter(name, size, fps, entries=(0,), synthetic=mark))
+                segments = act.exits.segments()
+                total = len(act.poses) + sum(one.opens + one.length + HOLD for one in segments)
+                done = 0
+                for frame in draw_in_order(renderer, _with_ratios(act.poses, ratios)):
+                    if done == 0 and act.state.name == IDLE:
+                        write_still(out / "poster.jpg", frame, mark)
+                    clip.write(frame)
+                    whole.write(frame)
+                    done += 1
+                    run.tick(done / total, f"{act.state.name}: frame {done} of {total}")
+                if not segments:
+                    continue
+                entries = [one.start - 1 for one in segments if one.opens]
+                name = out / bridges_name(act.state)
+                bridges = files.enter_context(VideoWriter(name, size, fps, entries=entries, synthetic=mark))
+                for frame in draw_in_order(renderer, _with_ratios(act.bridges(), ratios)):
+                    bridges.write(frame)
+                    done += 1
+                    run.tick(done / total, f"{act.state.name}: frame {done} of {total}")
+
+
+def _with_ratios(poses: Iterable[Pose], ratios: RatioStrip):  # type: ignore[no-untyped-def]
+    """Each pose's motion with its ratio image, as `draw_in_order` takes them."""
+    for pose in poses:
+        ratio = ratios.ratio(pose.motion.frame)
+        yield pose.motion, 1 + np.float32(pose.creases) * (ratio - 1)
+
+
+def clip_name(state: State) -> str:
+    """The file of a state's clip."""
+    return f"clip-{state.name}.mp4"
+
+
+def bridges_name(state: State) -> str:
+    """The file of the ways out of it."""
+    return f"bridges-{state.name}.mp4"
+
+
+def _describe(acts: Sequence[Act], target: TargetFace, fps: float) -> Profile:
+    height, width = target.rgb.shape[:2]
+    states, transitions = {}, {}
+    for act in acts:
+        state = act.state
+        states[state.name] = StatePart(
+            title=state.title,
+            emotion=state.emotion,
+            clip=clip_name(state),
+            frames=len(act.poses),
+            loops=state.loops,
+        )
+        transitions[state.name] = TransitionPart(
+            end=IDLE,
+            bridges=bridges_name(state) if act.exits.frames else None,
+            segments=[(one.start, one.length) for one in act.exits.segments()],
+            at=list(act.exits.at),
+        )
+    triggers = [TriggerPart.model_validate(one) for one in default_triggers([act.state for act in acts])]
+    return Profile(
+        size=(width, height), fps=fps, poster="poster.jpg", initial=IDLE,
+        states=states, transitions=transitions, triggers=triggers,
+    )  # fmt: skip

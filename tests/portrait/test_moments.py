@@ -1,0 +1,268 @@
+"""The moments of a driver: what is there is found, and what is not there is not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_clip import write_frames
+from numpy.typing import NDArray
+
+from benchmarks.moments import Stretch, Tally, is_right, join, judge, labels
+from engine.errors import InputError
+from engine.media.image import read_image
+from engine.media.limits import Limits
+from engine.perception.faces import find_faces
+from engine.perception.head_pose import canonical_face, mirror_vertices
+from engine.performances import STATES
+from engine.portrait.moments import find_moments
+from engine.portrait.moments.gestures import swings
+from engine.portrait.moments.measures import MEASURES, measure
+from engine.portrait.moments.pipeline import Moment, work
+from engine.portrait.moments.portions import BEARABLE, Portion, find_portions
+from engine.portrait.moments.prototypes import show
+from engine.portrait.moments.rest import own_rest, unrest
+from engine.portrait.moments.watching import FPS, watch
+from engine.run import Run
+
+Mesh = NDArray[np.floating]
+
+UPPER_LIDS = {"right": [159, 158, 160], "left": [386, 385, 387]}
+LOWER_LIDS = {"right": [145, 153, 144], "left": [374, 380, 373]}
+
+
+@pytest.fixture(scope="module")
+def joined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Stretch]]:
+    """A clip that shows something of everything, and what it holds."""
+    path = tmp_path_factory.mktemp("joined") / "clip.mp4"
+    order = ["sadness", "idle", "wink", "surprise", "talk", "fear", "nod", "anger", "happy", "shake", "anger-strong"]
+    return path, join(order, path)
+
+
+@pytest.fixture(scope="module")
+def found(joined: tuple[Path, list[Stretch]]) -> tuple[Moment, ...]:
+    return find_moments(joined[0]).moments
+
+
+def test_everything_that_was_joined_is_found_and_nothing_else(
+    joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
+) -> None:
+    assert judge({state: Tally() for state in STATES}, found, joined[1]) == []
+    assert [moment.name for moment in found if moment.state == "anger"] == ["anger", "anger-2"]
+    strong = next(one for one in joined[1][::-1] if one.state == "anger")
+    best = next(moment for moment in found if moment.name == "anger")
+    assert is_right(best, strong) and best.apex > strong.start, "the clearer one comes first"
+
+
+def test_portions_begin_and_end_at_rest_and_do_not_overlap(
+    joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
+) -> None:
+    watched = watch(joined[0], Limits())
+    unresting = unrest(watched.values - own_rest(watched.values[watched.found]))
+    for moment in found:
+        first, last = round(moment.start * FPS), round(moment.end * FPS) - 1
+        assert max(unresting[first], unresting[min(last, len(unresting) - 1)]) <= 1, moment
+        assert moment.start <= moment.apex <= moment.end <= watched.seconds
+        assert moment.seconds == pytest.approx(moment.end - moment.start) and 0 < moment.score <= 1
+        others = [one for one in found if one.state == moment.state and one is not moment]
+        assert all(one.end <= moment.start or one.start >= moment.end for one in others)
+    assert len({moment.name for moment in found}) == len(found)
+    assert [STATES.index(moment.state) for moment in found] == sorted(STATES.index(moment.state) for moment in found)
+
+
+def test_a_mirrored_clip_has_the_same_moments(tmp_path: Path) -> None:
+    order = ["wink", "happy", "shake", "fear"]
+    plain, mirrored = tmp_path / "plain.mp4", tmp_path / "mirrored.mp4"
+    join(order, plain)
+    join(order, mirrored, mirrored=True)
+    one, other = find_moments(plain).moments, find_moments(mirrored).moments
+    assert [moment.name for moment in one] == [moment.name for moment in other]
+    for a, b in zip(one, other, strict=True):
+        assert a.start == pytest.approx(b.start, abs=0.3) and a.end == pytest.approx(b.end, abs=0.3)
+
+
+@pytest.mark.parametrize("clip", ["man_smile_d9.mp4", "woman_frown_surprise_d3.mp4"])
+def test_real_people_are_understood(media: Callable[[str], Path], clip: str) -> None:
+    must, may = labels()[clip]
+    moments = find_moments(media(f"driving/{clip}")).moments
+    assert judge({state: Tally() for state in STATES}, moments, must, may) == []
+
+
+def test_a_smile_is_the_difference_between_two_photographs_of_one_woman(media: Callable[[str], Path]) -> None:
+    quiet, smiling = (
+        find_faces(read_image(media(f"portraits/pair1_{name}.png")).rgb)[0] for name in ("neutral", "smile")
+    )
+    rest = measure(quiet[None])[0]
+    shown = show(measure(smiling[None]) - rest, rest)
+    assert shown["happy"][0] >= 1
+    assert max(clearly[0] for state, clearly in shown.items() if state != "happy") < 0.5
+
+
+def test_artifacts(joined: tuple[Path, list[Stretch]], tmp_path: Path) -> None:
+    work({"driver": joined[0]}, tmp_path, Run())
+    document = json.loads((tmp_path / "moments.json").read_text())
+    assert {one["state"] for one in document["moments"]} == set(STATES)
+    for one in document["moments"]:
+        assert read_image(tmp_path / one["poster"]).rgb.shape == (256, 256, 3)
+    rest = read_image(tmp_path / "poster.jpg").rgb
+    happy = read_image(tmp_path / "happy.jpg").rgb
+    quiet, smiling = (measure(find_faces(rgb)[0][None])[0] for rgb in (rest, happy))
+    assert (smiling - quiet)[MEASURES.index("right_corner_up")] > 0.08, "the picture shows the smile at its height"
+    assert json.loads((tmp_path / "report.json").read_text())["quality"] == {"driver_face_share": 1.0}
+
+
+def test_a_video_without_a_face_is_refused(tmp_path: Path) -> None:
+    frames = [np.full((128, 128, 3), shade, np.uint8) for shade in range(30)]
+    with pytest.raises(InputError) as refused:
+        find_moments(write_frames(tmp_path / "grey.mp4", frames))
+    assert refused.value.code == "no_face_in_driver"
+
+
+# Hand-made faces: the canonical one, whose vertices are moved by known lengths.
+
+
+def moved(mesh: Mesh, vertices: list[int], right: float = 0.0, down: float = 0.0) -> Mesh:
+    """With some vertices elsewhere, in eye distances."""
+    mesh = mesh.copy()
+    mesh[vertices, 0] += right
+    mesh[vertices, 1] += down
+    return mesh
+
+
+def lids(mesh: Mesh, side: str, share: float) -> Mesh:
+    """An eye opened by a share of how far it is open; -1 shuts it."""
+    gap = (mesh[LOWER_LIDS[side], 1] - mesh[UPPER_LIDS[side], 1]).mean()
+    return moved(mesh, UPPER_LIDS[side], down=-share * gap)
+
+
+def smile(mesh: Mesh, much: float) -> Mesh:
+    return moved(moved(mesh, [61], -0.08 * much, -0.14 * much), [291], 0.08 * much, -0.14 * much)
+
+
+def startle(mesh: Mesh, much: float) -> Mesh:
+    mesh = moved(moved(mesh, [107, 336, 70, 300], down=-0.08 * much), [14], down=0.3 * much)
+    mesh = moved(mesh, [61, 291], down=0.075 * much)  # where a jaw that drops takes them
+    return lids(lids(mesh, "right", 0.35 * much), "left", 0.35 * much)
+
+
+def frown(mesh: Mesh, much: float) -> Mesh:
+    mesh = moved(mesh, [107, 336, 70, 300], down=0.08 * much)
+    return moved(moved(mesh, [55], right=0.02 * much), [285], right=-0.02 * much)
+
+
+def mourn(mesh: Mesh, much: float) -> Mesh:
+    mesh = moved(moved(mesh, [107, 336], down=-0.07 * much), [61, 291], down=0.07 * much)
+    return lids(lids(mesh, "right", -0.25 * much), "left", -0.25 * much)
+
+
+def dread(mesh: Mesh, much: float) -> Mesh:
+    mesh = moved(moved(mesh, [107, 336], down=-0.06 * much), [61, 291], down=0.02 * much)
+    mesh = moved(moved(mesh, [61], right=-0.03 * much), [291], right=0.03 * much)
+    return lids(lids(mesh, "right", 0.4 * much), "left", 0.4 * much)
+
+
+def wink(mesh: Mesh, much: float) -> Mesh:
+    return lids(mesh, "left", -0.95 * much)
+
+
+def blink(mesh: Mesh, much: float) -> Mesh:
+    return lids(wink(mesh, much), "right", -0.95 * much)
+
+
+def turned(mesh: Mesh, yaw: float = 0.0, pitch: float = 0.0) -> Mesh:
+    c, s, cp, sp = np.cos(yaw), np.sin(yaw), np.cos(pitch), np.sin(pitch)
+    about_y = np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
+    about_x = np.array([[1, 0, 0], [0, cp, sp], [0, -sp, cp]])
+    return mesh @ (about_y @ about_x).T
+
+
+def film(acting: Callable[[Mesh, float], Mesh], seconds: float, height: float = 1.0, noise: float = 0.0) -> Mesh:
+    """Two seconds of rest, something that comes and goes within `seconds`, two seconds of rest: (N, 478, 3) pixels."""
+    rest = canonical_face().astype(float)
+    frames = int(seconds * FPS)
+    course = [*[0.0] * int(2 * FPS), *(height * np.sin(np.pi * np.arange(frames) / frames)), *[0.0] * int(2 * FPS)]
+    meshes = np.array([acting(rest, float(much)) for much in course]) * 80 + (200, 220, 0)
+    return meshes + noise * np.random.default_rng(5).normal(size=meshes.shape)
+
+
+def told(meshes: Mesh) -> list[Portion]:
+    values = measure(meshes)
+    return find_portions(values, np.ones(len(values), bool), own_rest(values), FPS)
+
+
+ACTED = {"happy": smile, "surprise": startle, "anger": frown, "sadness": mourn, "fear": dread, "wink": wink}
+
+
+@pytest.mark.parametrize("state", ACTED)
+def test_a_movement_by_known_lengths_is_told(state: str) -> None:
+    meshes = film(ACTED[state], 1.5)
+    found = [one for one in told(meshes) if one.state != "idle"]
+    assert [one.state for one in found] == [state]
+    assert found[0].first / FPS == pytest.approx(2.0, abs=0.4) and found[0].last / FPS == pytest.approx(3.5, abs=0.4)
+    assert found[0].apex / FPS == pytest.approx(2.75, abs=0.3)
+    mirrored = meshes[:, mirror_vertices()] * (-1, 1, 1)
+    assert [(o.state, o.first, o.last) for o in told(mirrored)] == [(o.state, o.first, o.last) for o in told(meshes)]
+
+
+@pytest.mark.parametrize("state", ACTED)
+def test_a_third_of_it_is_nothing(state: str) -> None:
+    assert [one.state for one in told(film(ACTED[state], 1.5, height=0.33)) if one.state != "idle"] == []
+
+
+def test_a_blink_is_no_wink_and_a_jaw_that_drops_no_sadness() -> None:
+    assert [one.state for one in told(film(blink, 0.4)) if one.state != "idle"] == []
+    yawn = film(lambda mesh, much: moved(moved(mesh, [14], down=0.5 * much), [61, 291], down=0.12 * much), 2.0)
+    assert [one.state for one in told(yawn) if one.state != "idle"] == []
+
+
+@pytest.mark.parametrize(("state", "axis"), [("nod", "pitch"), ("shake", "yaw")])
+def test_to_and_fro_three_times_is_a_gesture_and_once_slowly_is_none(state: str, axis: str) -> None:
+    def sway(times: float, seconds: float) -> list[str]:
+        frames = int(seconds * FPS)
+        angle = [*[0.0] * 24, *(0.16 * np.sin(2 * np.pi * times * np.arange(frames) / frames)), *[0.0] * 24]
+        meshes = np.array([turned(canonical_face().astype(float), **{axis: one}) for one in angle]) * 80
+        return [one.state for one in told(meshes) if one.state != "idle"]
+
+    assert sway(2, 1.6) == [state]
+    assert sway(0.5, 2.0) == [] and sway(1, 4.0) == []
+
+
+def test_measures_do_not_depend_on_where_the_head_is_and_how_it_is_turned() -> None:
+    face = smile(canonical_face().astype(float), 1.0)
+    plain = measure(face[None] * 80)[0]
+    elsewhere = measure(turned(face, 0.2, -0.15)[None] * 130 + (300, 40, 9))[0]
+    assert elsewhere[:7] == pytest.approx(plain[:7], abs=1e-4)
+    assert elsewhere[MEASURES.index("yaw")] == pytest.approx(0.2, abs=0.02)
+    assert elsewhere[MEASURES.index("pitch")] == pytest.approx(-0.15, abs=0.02)
+
+
+def test_rest_is_what_the_face_comes_back_to_though_it_smiles_for_longer() -> None:
+    quiet = film(lambda mesh, much: mesh, 2.0, noise=0.15)
+    smiling = film(lambda mesh, much: smile(mesh, 1.0), 4.0, noise=0.15)
+    values = measure(np.concatenate([quiet, smiling]))
+    assert unrest((values - own_rest(values))[: len(quiet)]).max() <= 1
+
+
+def test_a_portion_ends_where_the_face_is_lost() -> None:
+    values = measure(film(smile, 1.5, height=1.4))
+    seen = np.ones(len(values), bool)
+    seen[int(3.9 * FPS) : int(4.3 * FPS)] = False
+    (found,) = (one for one in find_portions(values, seen, own_rest(values), FPS) if one.state == "happy")
+    assert seen[found.first : found.last + 1].all()
+    seen[int(2.9 * FPS) : int(4.3 * FPS)] = False
+    assert [one.state for one in find_portions(values, seen, own_rest(values), FPS) if one.state == "happy"] == []
+
+
+def test_swings_of_a_known_curve() -> None:
+    curve = np.concatenate([np.zeros(10), np.linspace(0, 1, 6), np.linspace(1, -1, 11)[1:], np.full(8, -1.0)])
+    to, fro = swings(curve, 0.5)
+    assert (to.size, fro.size) == (1, 2)
+    assert 9 <= to.first <= 10 and to.last in (14, 15) and 15 <= fro.first <= 16 and 23 <= fro.last <= 25
+
+
+def test_a_portion_may_end_less_calmly_at_a_lower_score() -> None:
+    calm, uneasy = (Portion("happy", 0, 20, 9, 2.0, rests) for rests in (0.4, BEARABLE))
+    assert calm.score == 1 and uneasy.score == pytest.approx(1 / BEARABLE)
