@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 
 class InputError(Exception):
     """What the user gave cannot be used. Anything else that is raised is a bug.
 
     `code` is stable (`no_face`, `video_unreadable`, ...); `detail` is one sentence that says what to
-    do; `correctable` names the corrections (`landmarks`, `face_index`, ...) that could mend it.
+    do; `correctable` names the corrections (`landmarks`, `face_index`, ...) that could mend it; `found` is what helps
+    with that, as JSON: the boxes of the faces to choose from, for instance.
     """
 
-    def __init__(self, code: str, detail: str, correctable: tuple[str, ...] = ()):
+    def __init__(
+        self, code: str, detail: str, correctable: tuple[str, ...] = (), found: Mapping[str, Any] | None = None
+    ):
         super().__init__(f"{code}: {detail}")
         self.code = code
         self.detail = detail
         self.correctable = correctable
+        self.found = dict(found or {})
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.code, self.detail, self.correctable)
+        return type(self), (self.code, self.detail, self.correctable, self.found)
 
 
 class Canceled(Exception):

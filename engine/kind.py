@@ -25,22 +25,63 @@ class Input:
     description: str
     required: bool = True
     many: bool = False
-    library: Literal["performances"] | None = None
-    """Where set, the input may also be the name of an item of that built-in library."""
+    serves_many: bool = False
+    """Its analysis is worth keeping for further jobs: stages marked `shared` look at nothing but this input."""
+    library: Literal["performances", "motions"] | None = None
+    """Where set, the input may also be the name of an item of that library: the built-in one, or what a user keeps."""
+    trimmed_by: str | None = None
+    """Where set, the option of this name holds which part of the input is used, [start, end] in seconds: a driver's
+    portion can be named then (`myclip/happy`), which sets it."""
+    spared_by: str | None = None
+    """Where set, the option of this name makes the input one that may be left out."""
+
+    named_by: str | None = None
+    """Where set, the option of this name names something built in that stands in for the input: in a shell either may
+    be given in its place."""
+    corrects: bool = False
+    """A revision may give it, or take it back, as a correction: a picture painted by hand of what the work found."""
+
+    @property
+    def auto(self) -> bool:
+        """Whether `auto` may be given: the work chooses among the library's files then."""
+        return self.library is not None and self.named_by is None
+
+    def needed(self, options: BaseModel) -> bool:
+        """Whether a job with these options must have the input."""
+        return self.required and not (self.spared_by is not None and getattr(options, self.spared_by))
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Files by name, of which the system itself takes the one that fits best: what `auto` stands for."""
+
+    files: Mapping[str, Path]
+
+
+Given = Path | tuple[Path, ...] | Candidates
+"""What an input can be when the work begins."""
+
+AUTO = "auto"
+"""The name by which an input with a library asks for that choice."""
 
 
 @dataclass(frozen=True)
 class Kind:
     """A job kind. `work(inputs, options, out, run)` leaves its artifacts in the existing folder `out`.
 
-    `inputs` maps an input's name to a local file (a tuple of files where `many`). The media types and
-    limits were not looked at before: `work` probes them itself and raises `InputError`.
+    `inputs` maps an input's name to a local file (a tuple of files where `many`, `Candidates` where it was `auto`).
+    The media types and limits were not looked at before: `work` probes them itself and raises `InputError`.
     """
 
     name: str
     summary: str
     inputs: tuple[Input, ...]
     options: type[BaseModel]
-    work: Callable[[Mapping[str, Path | tuple[Path, ...]], BaseModel, Path, Run], None]
+    work: Callable[[Mapping[str, Given], BaseModel, Path, Run], None]
+    correctable: tuple[str, ...] = ()
+    """The options that correct what the work found by itself: a revision may set them as corrections."""
     prepare: Callable[[], None] | None = None
     """Imports what `work` needs: called by a process that will do the work, so that importing a kind is cheap."""
+    rehearse: Callable[[Path], None] | None = None
+    """Does the work once in an empty folder, on media of the project's own, so that all that is compiled at its first
+    use is compiled and kept."""

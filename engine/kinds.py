@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from engine import portrait
+from engine import character, portrait
+from engine.character import motion_check
 from engine.kind import Kind
+from engine.portrait import moments
 
-KINDS: Mapping[str, Kind] = MappingProxyType({kind.name: kind for kind in (portrait.KIND,)})
+KINDS: Mapping[str, Kind] = MappingProxyType(
+    {kind.name: kind for kind in (portrait.KIND, moments.KIND, character.KIND, motion_check.KIND)}
+)

@@ -12,12 +12,12 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, Generic, Literal, TypeVar, get_type_hints
 
 import numpy as np
 from pydantic import BaseModel
@@ -28,6 +28,9 @@ from engine.media.limits import Limits
 from engine.store import StageStore
 
 T = TypeVar("T")
+
+Turn = Literal["began", "ended", "broke"]
+"""What becomes of a stage; it breaks off by an error, or because the run is canceled."""
 
 PATIENCE = 0.2
 """Seconds after which a wait for another core looks whether the run was canceled."""
@@ -51,8 +54,11 @@ class Run:
     shared : where outputs of stages marked `shared` are kept (a driver's analysis serves many jobs).
     on_progress : called with each `Progress`.
     canceled : asked between stages and inside long loops; True ends the run with `Canceled`.
+    on_stage : called with the name of each stage when it begins and when it ends or breaks off.
     on_artifact : called with the path of an artifact that is complete before the run is (a preview).
     limits : how large the inputs may be; whoever opens them hands these on to `engine.media`.
+    mark_synthetic : whether what shows a person says of itself that it is synthetic (`engine.export.synthetic`): for
+        whoever runs the program to choose, never a job.
     """
 
     def __init__(
@@ -63,13 +69,17 @@ class Run:
         canceled: Callable[[], bool] | None = None,
         on_artifact: Callable[[Path], None] | None = None,
         limits: Limits | None = None,
+        mark_synthetic: bool = True,
+        on_stage: Callable[[str, Turn], None] | None = None,
     ):
         self._store = store
         self._shared = shared or store
         self._on_progress = on_progress or (lambda progress: None)
         self._canceled = canceled or (lambda: False)
         self._on_artifact = on_artifact or (lambda path: None)
+        self._on_stage = on_stage or (lambda name, turn: None)
         self.limits = limits or Limits()
+        self.mark_synthetic = mark_synthetic
         self._keys: dict[int, tuple[Any, str]] = {}
         self._weights: dict[str, float] = {}
         self._done = 0.0
@@ -79,9 +89,10 @@ class Run:
         self.reused: list[str] = []
         self.notices: list[Notice] = []
 
-    def plan(self, weights: Mapping[str, float]) -> None:
-        """Announce the stages to come and their usual share of the time, for the progress fraction."""
-        total = sum(weights.values())
+    def plan(self, weights: Mapping[str, float], times: Mapping[str, int] | None = None) -> None:
+        """Announce the stages to come and their usual share of the time, for the progress fraction; `times` says how
+        often a stage comes, where that is more than once."""
+        total = sum(weight * (times or {}).get(name, 1) for name, weight in weights.items())
         self._weights = {name: weight / total for name, weight in weights.items()}
         self._done = 0.0
 
@@ -98,22 +109,21 @@ class Run:
             before = len(self.notices)
             return self._output(name, function, arguments, store, lambda: self.notices[before:])
 
-    def beside(self, name: str, function: Callable[..., T], *arguments: Any) -> Callable[[], T]:
-        """Begin a stage on another core while the next ones run; what is returned waits for its output.
+    def beside(self, name: str, function: Callable[..., T], *arguments: Any) -> Beside[T]:
+        """Begin a stage on another core while the next ones run; calling what is returned waits for its output.
 
-        For stages that give no notices and report nothing on the way. Its time is that of the wait.
+        For stages that give no notices and report nothing on the way. Its time is that of the wait. Arguments may
+        be stages that were begun so: this one then follows them.
         """
+
+        def work() -> T:
+            ready = [one.output.result() if isinstance(one, Beside) else one for one in arguments]
+            return self._output(name, function, ready, self._store, list)
+
         pool = ThreadPoolExecutor(1, thread_name_prefix=name)
-        output = pool.submit(self._output, name, function, arguments, self._store, list)
+        output = pool.submit(work)
         pool.shutdown(wait=False)
-
-        def wait() -> T:
-            with self.timed(name):
-                while not wait_for([output], timeout=PATIENCE).done:
-                    self.check()
-                return output.result()
-
-        return wait
+        return Beside(self, name, output)
 
     def _output(
         self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None,
@@ -141,11 +151,15 @@ class Run:
         self.check()
         self._current = name
         self._report(0.0, "")
+        self._on_stage(name, "began")
         started = time.perf_counter()
+        turn: Turn = "broke"
         try:
             yield
+            turn = "ended"
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started
+            self._on_stage(name, turn)
         self._done += self._weights.get(name, 0.0)
         self._current = name
 
@@ -202,6 +216,21 @@ class Run:
         self._last_report = (now, self._current)
         share = self._weights.get(self._current, 0.0)
         self._on_progress(Progress(self._current, min(self._done + share * fraction, 1.0), message))
+
+
+@dataclass(frozen=True)
+class Beside(Generic[T]):
+    """A stage at work on another core; calling it waits for its `output`, unless the run is canceled."""
+
+    run: Run
+    name: str
+    output: Future[T]
+
+    def __call__(self) -> T:
+        with self.run.timed(self.name):
+            while not wait_for([self.output], timeout=PATIENCE).done:
+                self.run.check()
+            return self.output.result()
 
 
 def content_hash(path: Path) -> str:

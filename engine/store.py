@@ -12,7 +12,8 @@ import shutil
 import tempfile
 import time
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
 from types import UnionType
@@ -58,14 +59,15 @@ class StageStore:
     def load(self, key: str, kind: Any) -> tuple[list[Notice], Any] | None:
         """The notices and the output stored under `key`; None if there is none that can be read.
 
-        One that cannot be read (the power failed before the disk had it all) is thrown away, to be made anew.
+        One that cannot be read (the power failed before the disk had it all, or another version wrote it) is thrown
+        away, to be made anew.
         """
         found = self.find(key)
         if found is None:
             return None
         try:
             return found.load(kind)
-        except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+        except (OSError, ValueError, EOFError, LookupError, TypeError, AttributeError, zipfile.BadZipFile):
             shutil.rmtree(found.folder, ignore_errors=True)
             return None
 
@@ -85,24 +87,12 @@ class StageStore:
         finally:
             shutil.rmtree(draft, ignore_errors=True)
 
-    def trim(self, most: float) -> None:
-        """Erase the outputs that were not used for longest until the store holds no more than `most` bytes.
-
-        What was used within the last hour stays: a running job may be about to read it.
-        """
-        folders = list(self.folder.glob("*")) if self.folder.is_dir() else []
-        entries = sorted((folder.stat().st_mtime, _size(folder), folder) for folder in folders)
-        total = sum(size for _, size, _ in entries)
-        limit = time.time() - IN_USE
-        for used, size, folder in entries:
-            draft = folder.name.startswith(".draft-")
-            if used > limit or (total <= most and not draft):
-                continue
-            # First out of sight in one step, so that nobody finds half of it.
-            doomed = folder.with_name(f".draft-erased-{folder.name}")
-            folder.rename(doomed)
-            shutil.rmtree(doomed, ignore_errors=True)
-            total -= size
+    def discard_drafts(self) -> None:
+        """Erase what a killed process began to store; what another may just be storing stays."""
+        for draft in self.folder.glob(".draft-*"):
+            with suppress(FileNotFoundError):
+                if draft.stat().st_mtime < time.time() - IN_USE:
+                    shutil.rmtree(draft, ignore_errors=True)
 
     def _publish(self, draft: Path, key: str) -> None:
         try:
@@ -110,6 +100,25 @@ class StageStore:
         except OSError:
             if not (self.folder / key).is_dir():  # otherwise another run was faster; both found the same
                 raise
+
+
+def trim(stores: Iterable[Path], most: float) -> None:
+    """Erase the outputs that were not used for longest until these stores hold no more than `most` bytes together.
+
+    What was used within the last hour stays: a running job may be about to read it.
+    """
+    entries = sorted((one.stat().st_mtime, _size(one), one) for store in stores for one in store.glob("*"))
+    total = sum(size for _, size, _ in entries)
+    limit = time.time() - IN_USE
+    for used, size, folder in entries:
+        draft = folder.name.startswith(".draft-")
+        if used > limit or (total <= most and not draft):
+            continue
+        # First out of sight in one step, so that nobody finds half of it.
+        doomed = folder.with_name(f".draft-erased-{folder.name}")
+        folder.rename(doomed)
+        shutil.rmtree(doomed, ignore_errors=True)
+        total -= size
 
 
 def _pack(value: Any, name: str, arrays: dict[str, np.ndarray], folder: Path) -> Any:

@@ -1,0 +1,235 @@
+"""The person in the picture: who is found, where the joints are, and whether that is enough."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.posture import check_posture
+from engine.errors import InputError
+from engine.imaging.resample import resized, size_within
+from engine.media.image import read_image
+from engine.media.limits import Limits
+from engine.perception.body import LANDMARKS, Body
+from engine.perception.faces import find_faces
+from engine.perception.people import covered_by, find_body_within, find_people, person_box
+
+LONGEST_SIDE = 1920
+"""Pixels: larger pictures are made smaller first."""
+NEEDED = ("LeftShoulder", "RightShoulder", "LeftHip", "RightHip")
+LEGS = ("LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
+PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
+"""The joints that can be placed by hand."""
+WHOLE_SKELETON = tuple(
+    f"{side}{joint}" for side in ("Left", "Right") for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
+)
+"""What must be placed where nobody is found."""
+SEEN = 0.35
+"""Confidence below which a leg is not in the picture."""
+MORE = 0.1
+"""By how much more than a box drawn by hand is looked at, as a share of its sides: it may be drawn too tightly."""
+CROWD = 10
+"""People among whom the largest is not taken for the one who is meant."""
+FACE_SIZE = 320
+"""Pixels to which a small head is enlarged where its face is looked for."""
+LEAST_HEIGHT = 80
+"""Pixels from the highest to the lowest joint; a smaller person has nothing to animate."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
+    look, or which of those found, `index`, the largest first; and joints `placed` by hand: name, x, y."""
+
+    box: tuple[float, float, float, float] | None = None
+    index: int = 0
+    placed: tuple[tuple[str, float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Figure:
+    """`rgb` (H, W, 3) the picture, `alpha` (H, W) its own where it has one. `points` (33, 2) pixels, `confidence` (33,) and
+    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `scale`: pixels of `rgb` for
+    each of the original picture. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
+    `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
+    `engine.perception.faces.find_faces` gives it; None where none is seen."""
+
+    rgb: NDArray[np.uint8]
+    alpha: NDArray[np.float32] | None
+    points: NDArray[np.float32]
+    confidence: NDArray[np.float32]
+    world: NDArray[np.float32]
+    spatial: bool
+    scale: float
+    people: NDArray[np.float32]
+    index: int
+    others: NDArray[np.bool_]
+    face: NDArray[np.float32] | None
+
+    def point(self, name: str) -> NDArray[np.float32]:
+        """The pixel (2,) of one of the landmarks."""
+        return self.points[LANDMARKS.index(name)]
+
+
+def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn: Callable[[str, str], None]) -> Figure:
+    """Find the person in a picture.
+
+    Raises
+    ------
+    InputError : `no_person`, `not_full_body`, `person_too_small`, `person_lying`, `crowd`, `person_index_out_of_range`,
+    `person_box_outside`, `unknown_joint`, `joint_outside`, and what reading a picture may raise.
+    """
+    picture = read_image(path, limits)
+    height, width = picture.rgb.shape[:2]
+    joints = {name: (x, y) for name, x, y in choice.placed}
+    _check_joints(joints, (height, width))
+    size = size_within(picture.rgb.shape, LONGEST_SIDE)
+    scale = min(1.0, size[0] / width)
+    rgb = (
+        picture.rgb if scale == 1 else np.asarray(cv2.resize(picture.rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
+    )
+    rgb = np.ascontiguousarray(rgb)
+    alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, (rgb.shape[1], rgb.shape[0])), 0, 1)
+    people = find_people(rgb)
+    body, index = _chosen(rgb, people, choice, scale)
+    if body is None and not set(WHOLE_SKELETON) <= set(joints):
+        raise InputError(
+            "no_person",
+            "No person was found in the picture: choose one that shows somebody whole, or place the joints by hand "
+            f"({', '.join(WHOLE_SKELETON)}).",
+            ("joints", "person_box"),
+        )
+    points = np.zeros((len(LANDMARKS), 2), np.float32) if body is None else body.points.copy()
+    confidence = np.zeros(len(LANDMARKS), np.float32) if body is None else body.confidence.copy()
+    for name, place in joints.items():
+        points[LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
+        confidence[LANDMARKS.index(name)] = 1
+    figure = Figure(
+        rgb=rgb,
+        alpha=alpha,
+        points=points,
+        confidence=confidence,
+        world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else body.world,
+        spatial=body is not None,
+        scale=scale,
+        people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
+        index=index,
+        others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
+        face=None if body is None else _face(rgb, points),
+    )
+    _check_whole(figure, partial, warn)
+    check_posture(figure.points, figure.world if figure.spatial else None, warn)
+    return figure
+
+
+def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: float) -> tuple[Body | None, int]:
+    """The one who is meant, and their number among those found."""
+    height, width = rgb.shape[:2]
+    if choice.box is not None:
+        x, y, wide, high = (value * scale for value in choice.box)
+        if not (x < width and y < height and x + wide > 0 and y + high > 0 and wide > 0 and high > 0):
+            raise InputError(
+                "person_box_outside",
+                f"The person's box lies outside the picture: draw it within {width / scale:.0f} x {height / scale:.0f}.",
+                ("person_box",),
+            )
+        body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
+        return body, next((k for k, one in enumerate(people) if _same(one, body)), 0)
+    boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
+    if not people and choice.index == 0:
+        return None, 0
+    if choice.index >= len(people):
+        raise InputError(
+            "person_index_out_of_range",
+            f"{len(people)} people were found in the picture: person_index counts from 0.",
+            ("person_index", "person_box"),
+            {"people": boxes},
+        )
+    if len(people) >= CROWD and choice.index == 0 and not choice.placed:
+        raise InputError(
+            "crowd",
+            f"The picture shows a crowd ({len(people)} people and more): draw a box around the one who is meant.",
+            ("person_box",),
+            {"people": boxes},
+        )
+    return people[choice.index], choice.index
+
+
+def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.float32] | None:
+    """The face (478, 3) at the head of a body whose landmarks (33, 2) are known, looked at closely."""
+    height, width = rgb.shape[:2]
+    at = {name: points[LANDMARKS.index(name)] for name in ("Nose", "LeftShoulder", "RightShoulder")}
+    reach = max(8.0, 1.3 * float(np.linalg.norm(at["Nose"] - (at["LeftShoulder"] + at["RightShoulder"]) / 2)))
+    x, y = at["Nose"]
+    left, right = int(max(0, x - reach)), int(min(width, x + reach))
+    top, bottom = int(max(0, y - reach)), int(min(height, y + reach))
+    if right - left < 16 or bottom - top < 16:
+        return None
+    larger = max(1.0, FACE_SIZE / (right - left))
+    part = cv2.resize(rgb[top:bottom, left:right], None, fx=larger, fy=larger, interpolation=cv2.INTER_CUBIC)
+    meshes = find_faces(np.ascontiguousarray(part, np.uint8), 1)
+    if not meshes:
+        return None
+    mesh = meshes[0] / np.float32(larger)
+    mesh[:, :2] += [left + 0.5 / larger - 0.5, top + 0.5 / larger - 0.5]
+    return np.asarray(mesh, np.float32) if np.linalg.norm(mesh[1, :2] - at["Nose"]) < 0.4 * reach else None
+
+
+def _same(one: Body, other: Body | None) -> bool:
+    """Whether two findings are of one person."""
+    if other is None:
+        return False
+    away = np.median(np.linalg.norm(one.points - other.points, axis=1))
+    return bool(away < 0.15 * np.ptp(one.points, axis=0).max())
+
+
+def _covered(people: Sequence[Body], shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    covered = np.zeros(shape[:2], np.bool_)
+    for one in people:
+        covered |= covered_by(one, (shape[0], shape[1]))
+    return covered
+
+
+def _check_joints(joints: Mapping[str, tuple[float, float]], shape: tuple[int, int]) -> None:
+    for name, (x, y) in joints.items():
+        if name not in PLACED:
+            raise InputError("unknown_joint", f"There is no joint “{name[:40]}”: choose of {', '.join(PLACED)}.")
+        if not (-0.25 * shape[1] <= x <= 1.25 * shape[1] and -0.25 * shape[0] <= y <= 1.25 * shape[0]):
+            raise InputError(
+                "joint_outside",
+                f"“{name}” lies far outside the picture: place it within {shape[1]} x {shape[0]}.",
+                ("joints",),
+            )
+
+
+def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]) -> None:
+    height, width = figure.rgb.shape[:2]
+    limit = np.array([width, height])
+    off = np.abs(figure.points / limit - 0.5).max(axis=1)
+    seen = {name for i, name in enumerate(LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
+    if missing := [name for name in NEEDED if name not in seen]:
+        raise InputError(
+            "not_full_body",
+            f"The person's trunk is not to be seen ({', '.join(missing)}): choose a picture of the whole body.",
+            ("joints",),
+        )
+    if missing := [name for name in LEGS if name not in seen]:
+        if not partial:
+            raise InputError(
+                "not_full_body",
+                f"The person is cut off or hidden below ({', '.join(missing)}): choose a picture of the whole body, or "
+                "set “partial” to animate what is there.",
+                ("partial", "joints"),
+            )
+        warn("not_full_body", f"The person is cut off or hidden below ({', '.join(missing)}).")
+    shown = figure.points[[LANDMARKS.index(name) for name in seen], 1]
+    if np.ptp(shown) < LEAST_HEIGHT:
+        raise InputError(
+            "person_too_small",
+            f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {LEAST_HEIGHT} or more.",
+        )

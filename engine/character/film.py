@@ -1,0 +1,70 @@
+"""The video: the person comes to life in the picture and walks out of it, over the background behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.measures import picture_camera
+from engine.character.rigging import Character
+from engine.character.template_fit import FittedBody
+from engine.export.video import even_size
+from engine.motion.clip import Clip
+from engine.render.backdrop import Backdrop
+from engine.render.camera import Camera
+from engine.render.camera_moves import Move, camera_at
+from engine.render.character import Actor, film_cast, prepare
+from engine.render.ground_shadow import GroundShadow
+
+LONGEST_SIDE = 1280
+"""Pixels of the video by default."""
+WALL = 1.6
+"""How far behind the person the picture's wall stands, metres."""
+
+
+def film_size(size: tuple[int, int], asked: tuple[int, int] | None) -> tuple[int, int]:
+    """Even width and height of the video for a picture of `size` (width, height): fitted into what was asked for."""
+    limit = asked or (LONGEST_SIDE, LONGEST_SIDE)
+    factor = min(limit[0] / size[0], limit[1] / size[1])
+    if asked is None:
+        factor = min(factor, 1.0)
+    return even_size(size[0] * factor, size[1] * factor)
+
+
+def film(
+    people: Sequence[tuple[Character, Clip]],
+    fitted: FittedBody,
+    plate: NDArray[np.uint8],
+    shadow: GroundShadow,
+    move: Move,
+    size: tuple[int, int],
+) -> Iterator[NDArray[np.uint8]]:
+    """The frames (h, w, 3) of the video; `size` (width, height). Characters with what they do, the one in the middle of the
+    camera's interest first; `fitted` is the first one's."""
+    height, width = plate.shape[:2]
+    main = people[0][0]
+    camera = resized_camera(picture_camera(main, fitted, (height, width)), size)
+    small = np.asarray(cv2.resize(plate, size, interpolation=cv2.INTER_AREA), np.uint8)
+    backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL)
+    target = main.pictured.root[0]
+    return film_cast(cast_of(people), lambda second: camera_at(move, camera, target, second), backdrop.seen_by, shadow)
+
+
+def cast_of(people: Sequence[tuple[Character, Clip]]) -> list[Actor]:
+    """Who is furthest first, all in the world of the first of `people`: one camera took them all."""
+    main = people[0][0]
+    cast = []
+    for character, clip in sorted(people, key=lambda one: -float(one[0].eye[2] - one[1].root[0, 2])):
+        x, y, z = (main.eye - character.eye).tolist()
+        cast.append(Actor(prepare(character.mesh), clip, (x, y, z)))
+    return cast
+
+
+def resized_camera(camera: Camera, size: tuple[int, int]) -> Camera:
+    """The camera of the same picture, resized to `size` (width, height)."""
+    factor = size[0] / camera.size[1]
+    x, y = ((c + 0.5) * factor - 0.5 for c in camera.centre)
+    return Camera(camera.eye, camera.focal * factor, (x, y), (size[1], size[0]), camera.axes)

@@ -1,0 +1,76 @@
+"""What was found, to be looked at and corrected: `mask.png`, `labels.png`, `skeleton.json`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.figure import PLACED
+from engine.character.film import WALL
+from engine.character.measures import picture_camera
+from engine.character.person import Person
+from engine.character.strokes import LABEL_COLOURS
+from engine.media.image import write_image
+from engine.motion.kinematics import joint_places
+from engine.perception.body import LANDMARKS
+
+
+def write_findings(out: Path, people: Sequence[Person]) -> None:
+    """Write them: mask and labels of all who were woken, the skeleton of the first."""
+    alpha = np.max([person.silhouette.alpha for person in people], axis=0)
+    write_image(out / "mask.png", np.repeat(np.round(alpha * 255).astype(np.uint8)[..., None], 3, 2))
+    first = people[0]
+    height, width = first.figure.rgb.shape[:2]
+    shown = np.zeros((height, width, 3), np.uint8)
+    for person in reversed(people):
+        back = np.asarray(cv2.invertAffineTransform(person.silhouette.to_grid))
+        coloured = LABEL_COLOURS[person.labels.labels.astype(int)]
+        own = cv2.warpAffine(coloured, back, (width, height), flags=cv2.INTER_NEAREST)
+        shown = np.asarray(np.where(own.any(-1, keepdims=True), own, shown), np.uint8)
+    write_image(out / "labels.png", shown)
+    (out / "skeleton.json").write_text(json.dumps(_skeleton(first)) + "\n")
+
+
+def _skeleton(person: Person) -> dict[str, Any]:
+    """Landmarks as they were seen and the character's joints as they were fitted, both in pixels of the original picture;
+    and the camera, in pixels of `background.png`."""
+    figure, fitted, character = person.figure, person.fitted, person.character
+    height, width = figure.rgb.shape[:2]
+
+    def original(points: NDArray[np.floating]) -> list[list[float]]:
+        found: list[list[float]] = np.round((points + 0.5) / figure.scale - 0.5, 1).tolist()
+        return found
+
+    seen = original(figure.points)
+    skeleton = character.mesh.skeleton
+    camera = picture_camera(character, fitted, (height, width))
+    fitted_at = original(camera.project(joint_places(skeleton, character.pictured)[0])[:, :2])
+    above = [None if parent < 0 else skeleton.names[parent] for parent in skeleton.parents]
+    return {
+        "size": [round(width / figure.scale), round(height / figure.scale)],
+        "joints": {
+            name: {
+                "place": seen[LANDMARKS.index(name)],
+                "confidence": round(float(figure.confidence[LANDMARKS.index(name)]), 3),
+            }
+            for name in PLACED
+        },
+        "fitted": {
+            name: {"place": place, "parent": parent}
+            for name, place, parent in zip(skeleton.names, fitted_at, above, strict=True)
+        },
+        "reprojection": round(fitted.fit.reprojection / figure.scale, 2),
+        "camera": {
+            "eye": np.round(character.eye, 5).tolist(),
+            "focal": round(fitted.focal, 3),
+            "centre": list(fitted.centre),
+            "size": [width, height],
+            "wall": WALL,
+        },
+    }

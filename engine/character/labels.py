@@ -1,0 +1,174 @@
+"""Which part of the body each pixel shows: the paper's body label map (section 4.2.1, equations 12 to 19)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.rig import Rig
+from engine.geometry.graph_cut import alpha_expansion, grid_edges
+
+PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
+"""Labels in order; the person's own left and right."""
+ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
+
+ROUGH_HEIGHT = 160
+"""Pixels of height at which labels are found first."""
+GAMMA_ROUGH, GAMMA_FINE = 16.0, 8.0
+"""How much neighbours agree: the paper's values for the two stages."""
+GAMMA_HEIGHT = 640
+"""Pixels of height for which the first of them is taken to be meant: costs of areas grow with the cube of the size, those
+of borders with the size itself."""
+COLOURS = 5
+"""Gaussians in a label's mixture of colours."""
+MOST_COLOURS = 1500
+"""Pixels from which a mixture is found."""
+ROUNDS = 3
+"""How often mixtures and labels are found anew from one another."""
+SLEEVE, BEYOND = 0.04, 2.0
+"""How far sleeves reach beyond the template's arms, as a share of the height, and by how much more than its distance a pixel
+further away is unlikely to be an arm's."""
+NOWHERE = 1e3
+"""The cost, in pixels, of a label that the template does not show."""
+
+
+def part_of_bone(name: str) -> int:
+    """The label of what a joint moves, by its Mixamo name."""
+    for side in ("Left", "Right"):
+        rest = name.removeprefix(side)
+        if rest != name and rest.startswith(("Arm", "ForeArm", "Hand")):
+            return PARTS.index(f"{side.lower()}_arm")
+        if rest != name and rest.startswith(("UpLeg", "Leg", "Foot", "Toe")):
+            return PARTS.index(f"{side.lower()}_leg")
+    return PARTS.index("head" if name.startswith(("Head", "Neck", "Jaw")) or name.endswith("Eye") else "torso")
+
+
+def vertex_parts(rig: Rig) -> NDArray[np.intp]:
+    """The label of each of the template's vertices (V,), by the joint that moves it most."""
+    of_bone = np.array([part_of_bone(name) for name in rig.names])
+    return of_bone[rig.bones[:, 0]]
+
+
+def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDArray[np.intp]:
+    """L_init: labels (H, W), -1 outside `mask`, that resemble the projected template's (`template` (H, W), -1 where
+    it is not) in shape and hang together. Equations 12 to 14, found at `ROUGH_HEIGHT`."""
+    height, width = mask.shape
+    factor = min(1.0, ROUGH_HEIGHT / height)
+    size = (max(1, round(width * factor)), max(1, round(height * factor)))
+    small = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
+    seen = cv2.resize(template.astype(np.int16), size, interpolation=cv2.INTER_NEAREST_EXACT)
+    unary = np.stack([_distance_to(seen == label)[small] for label in range(len(PARTS))], 1)  # equation 13
+    for arm in ARMS:  # sleeves are wider than arms, but not as wide as the skirt beside one
+        unary[:, arm] += BEYOND * np.maximum(unary[:, arm] - SLEEVE * size[1], 0)
+    edges, _ = grid_edges(small)
+    gamma = GAMMA_ROUGH * (size[1] / GAMMA_HEIGHT) ** 2
+    found = np.full(small.shape, -1, np.intp)
+    found[small] = alpha_expansion(unary, edges, np.full(len(edges), gamma), unary.argmin(1))
+    large = cv2.resize(found.astype(np.int16), (width, height), interpolation=cv2.INTER_NEAREST_EXACT).astype(np.intp)
+    return complete_labels(mask, large)
+
+
+def complete_labels(mask: NDArray[np.bool_], labels: NDArray[np.integer]) -> NDArray[np.intp]:
+    """Labels (H, W) for all of `mask` and nothing else: where one is missing it is the nearest."""
+    out = labels.astype(np.intp)
+    missing = mask & (out < 0)
+    out[missing] = _nearest_label(out)[missing]
+    return np.where(mask, out, -1)
+
+
+@dataclass(frozen=True)
+class Colours:
+    """A mixture of K Gaussians over colours: `weights` (K,), `means` (K, 3), `covariances` (K, 3, 3). Found as GrabCut
+    does (C. Rother et al., 2004): the colours in K clusters, a Gaussian for each."""
+
+    weights: NDArray[np.float64]
+    means: NDArray[np.float64]
+    covariances: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, pixels: NDArray[np.float64]) -> Colours:
+        """The mixture of some colours (N, 3)."""
+        some = np.ascontiguousarray(pixels[:: max(1, len(pixels) // MOST_COLOURS)], np.float32)
+        criteria = (cv2.TERM_CRITERIA_COUNT, 10, 0.0)
+        cv2.setRNGSeed(1)
+        _, cluster, _ = cv2.kmeans(some, COLOURS, np.empty(0, np.int32), criteria, 1, cv2.KMEANS_PP_CENTERS)
+        own = [some[cluster.ravel() == k].astype(np.float64) for k in range(COLOURS)]
+        own = [colours for colours in own if len(colours) > 3]
+        return cls(
+            np.array([len(colours) / len(some) for colours in own]),
+            np.stack([colours.mean(0) for colours in own]),
+            np.stack([np.cov(colours.T) + np.eye(3) for colours in own]),
+        )
+
+    def unlikely(self, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
+        """U of equation 16: minus the logarithm of a colour's probability, (N,)."""
+        total = np.zeros(len(pixels))
+        for weight, mean, covariance in zip(self.weights, self.means, self.covariances, strict=True):
+            inverse = np.linalg.inv(covariance)
+            off = pixels - mean
+            exponent = -0.5 * np.einsum("ni,ni->n", off @ inverse, off)
+            total += weight * np.exp(exponent) * np.sqrt(np.linalg.det(inverse) / (2 * np.pi) ** 3)
+        return np.asarray(-np.log(np.maximum(total, 1e-30)))
+
+
+def refined_labels(
+    rgb: NDArray[np.uint8], rough: NDArray[np.integer], occlusion: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """L: the labels where limbs pass before others, moved to where colours change. Equations 15 to 19.
+
+    `rgb` (H, W, 3); `rough` (H, W) labels, -1 outside the person; `occlusion` (H, W) the mask O within which labels may
+    change. Those outside of it hold their neighbours.
+    """
+    labels = rough.astype(np.intp).copy()
+    inside = occlusion & (labels >= 0)
+    if not inside.any():
+        return labels
+    # each of the regions of O knows only the labels that meet there
+    _, regions = cv2.connectedComponents(inside.astype(np.uint8))
+    colours = rgb.astype(np.float64)
+    for region in range(1, regions.max() + 1):
+        _refine(colours, labels, inside & (regions == region))
+    return labels
+
+
+def _refine(colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_]) -> None:
+    """Refine the labels within one region, in place."""
+    around = cv2.dilate(region.astype(np.uint8), np.ones((15, 15), np.uint8)) > 0
+    near = around & (labels >= 0)
+    meeting = [int(label) for label in np.unique(labels[region])]
+    if len(meeting) < 2:
+        return
+    edges, lengths = grid_edges(near)
+    pixels, inner, first = colours[near], region[near], labels[near]
+    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
+    beta = 1 / (2 * max(float(difference.mean()), 1.0))  # equation 19
+    weights = GAMMA_FINE * np.exp(-beta * difference) / lengths  # equations 17 and 18
+    current = first
+    for _ in range(ROUNDS):
+        shown = [pixels[current == label] for label in meeting]
+        if min(len(own) for own in shown) < 10 * COLOURS:
+            return
+        unary = np.stack([Colours.of(own).unlikely(pixels) for own in shown], 1)
+        held = np.array([[label != one for one in meeting] for label in first]) * NOWHERE
+        unary = np.where(inner[:, None], unary, held)
+        start = np.array([meeting.index(label) if label in meeting else 0 for label in current])
+        found = np.array(meeting)[alpha_expansion(unary, edges, weights, start)]
+        fresh = np.where(inner, found, first)
+        if (fresh == current).all():
+            break
+        current = fresh
+    labels[near] = current
+
+
+def _distance_to(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+    if not mask.any():
+        return np.full(mask.shape, NOWHERE)
+    return np.asarray(cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5), np.float64)
+
+
+def _nearest_label(labels: NDArray[np.intp]) -> NDArray[np.intp]:
+    distances = np.stack([_distance_to(labels == label) for label in range(len(PARTS))])
+    return np.asarray(distances.argmin(0), np.intp)

@@ -1,0 +1,212 @@
+"""The person taken apart: the body, and each arm that passes before it, each a surface with a front and a back.
+
+The paper's sections 4.2.2 and 4.2.3. Around the shoulder the arm and the body both have what is there, of the template and
+of the picture: as the arm is lifted, neither shows a gap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.rig import Rig
+from engine.character.face_warp import Face, with_face
+from engine.character.labels import ARMS, PARTS, complete_labels, refined_labels, rough_labels, vertex_parts
+from engine.character.legs import LEGS_APART, cut_along, each_by_its_own, hem
+from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
+from engine.character.part_surface import Surface, part_surface, warp_part
+from engine.character.sheets import Layer
+from engine.character.template_maps import side_maps, weights_at
+from engine.render.attributes import interpolate
+
+SHOULDER = 0.105
+"""Metres around the shoulder's joint in which arm and body overlap."""
+UNDER = 3
+"""Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
+WHOLE = 0.9
+"""Share of an arm in one piece, below which the other arm is taken to pass before it."""
+BENEATH = 1.5
+"""Pixels by which what overlaps lies beneath the body's surface."""
+BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
+"""What is in the names of joints that move skin, hair or shoes, not cloth."""
+LEAST = 50
+"""Pixels of an arm that is worth being a part of its own."""
+
+
+@dataclass(frozen=True)
+class PosedTemplate:
+    """The fitted template on the grid on which a character is made.
+
+    `vertices` (V, 3) in picture space and `rest` (V, 3) in T-pose, metres; `triangles` (T, 3); `joints` (J, 3) in picture
+    space and `rest_joints` (J, 3); `pixels_per_metre`.
+    """
+
+    vertices: NDArray[np.float64]
+    rest: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    joints: NDArray[np.float64]
+    rest_joints: NDArray[np.float32]
+    pixels_per_metre: float
+
+
+@dataclass(frozen=True)
+class Labels:
+    """`labels` (h, w) int8: indices of `engine.character.labels.PARTS`, -1 outside the person; `occlusion` (h, w): where
+    arms pass before others; `apart`: the arms that do; `parting` (h, w): where one leg touches the other and is not
+    joined to it."""
+
+    labels: NDArray[np.int8]
+    occlusion: NDArray[np.bool_]
+    apart: NDArray[np.int8]
+    parting: NDArray[np.bool_]
+
+
+def label_parts(
+    rgb: NDArray[np.uint8],
+    mask: NDArray[np.bool_],
+    template: PosedTemplate,
+    rig: Rig,
+    given: NDArray[np.int8] | None = None,
+    corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
+) -> Labels:
+    """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found;
+    `corrected` has the last word."""
+    part_of = vertex_parts(rig)[template.triangles[:, 0]]
+    seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
+    projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
+    rest = interpolate(template.rest, template.triangles, seen.raster)
+    if given is not None:
+        rough = complete_labels(mask, given)
+    else:
+        rough = rough_labels(mask, projected)
+        around = _occluded(rough, projected, rest).occlusion
+        rough = refined_labels(rgb, rough, around)
+    return _occluded(corrected(rough.astype(np.int8)), projected, rest)
+
+
+def _occluded(labels: NDArray[np.integer], projected: NDArray[np.integer], rest: NDArray[np.float32]) -> Labels:
+    """Labels with what they say of limbs before others."""
+    places = [rest_places(labels, part, projected, rest) for part in range(len(PARTS))]
+    pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
+    left, right = (PARTS.index(f"{side}_leg") for side in ("left", "right"))
+    parting = np.zeros(labels.shape, np.bool_)
+    for leg, other in ((left, right), (right, left)):
+        only = [where if part in (left, right) else np.full_like(where, np.nan) for part, where in enumerate(places)]
+        parting |= occlusion_pixels(np.where(np.isin(labels, (leg, other)), labels, -1), leg, only, LEGS_APART)
+    legs = np.isin(labels, (left, right))
+    parting[: hem(legs, np.isin(projected, (left, right)))] = False
+    return Labels(
+        labels.astype(np.int8),
+        occlusion_mask(pixels[ARMS[0]] | pixels[ARMS[1]]),
+        np.array([arm for arm in ARMS if pixels[arm].any()], np.int8),
+        parting,
+    )
+
+
+def build_layers(
+    mask: NDArray[np.bool_], found: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None
+) -> list[Layer]:
+    """The body first, its head by its `face` if there is one; then each arm that is apart and large enough."""
+    apart = [int(arm) for arm in found.apart if largest(found.labels == arm).sum() >= LEAST]
+    part = vertex_parts(rig)[template.triangles]
+    near = {arm: _near_shoulder(arm, template, rig, mask.shape) for arm in apart}
+    of_body: NDArray[np.bool_] = np.asarray(~np.isin(part, apart)).any(1)  # type: ignore[assignment]
+    for triangles, _ in near.values():
+        of_body = np.asarray(of_body | triangles)
+    arms = np.isin(found.labels, apart)
+    limbs = {arm: _limb(arm, found, mask, template, near[arm][1], arms, part) for arm in apart}
+    lost = arms & ~np.logical_or.reduce([np.zeros_like(mask), *limbs.values()])
+    visible = mask & (~arms | lost)
+    body = largest(visible)
+    if apart:
+        silhouette = side_maps(template.vertices, template.triangles[of_body], (mask.shape[0], mask.shape[1]), "front")
+        body = completed(visible, arms & ~lost, found.occlusion, silhouette.mask)
+        under = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
+        body = body | (arms & under)
+        for _, pixels in near.values():
+            body = largest(body | (arms & pixels))
+    layers = [
+        each_by_its_own(
+            _layer(body, template, of_body, rig, cut_along(found.labels, found.parting), face),
+            found.labels,
+            found.parting,
+            rig,
+        )
+    ]
+    for arm, reached in limbs.items():
+        limb = _layer(reached, template, np.asarray((part == arm).any(1) | near[arm][0]), rig)
+        layers.append(_sunk(limb, layers[0], found.labels == arm))
+    return layers
+
+
+def _limb(
+    arm: int,
+    found: Labels,
+    mask: NDArray[np.bool_],
+    template: PosedTemplate,
+    shoulder: NDArray[np.bool_],
+    arms: NDArray[np.bool_],
+    part: NDArray[np.intp],
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of an arm in one piece: what is seen of it, what it shares with the body around the shoulder, and,
+    where the other arm passes before it or it does not reach the shoulder, what the template has there."""
+    own = found.labels == arm
+    reach = np.ones((3, 3), np.uint8)
+    beside = cv2.dilate(own.astype(np.uint8), reach, iterations=round(SHOULDER / 2 * template.pixels_per_metre)) > 0
+    seen = own | (mask & shoulder & beside)
+    piece = largest(seen)
+    torn, lost = piece.sum() < WHOLE * seen.sum(), not (piece & shoulder).any()
+    if torn or lost:
+        hidden = side_maps(
+            template.vertices, template.triangles[(part == arm).all(1)], (mask.shape[0], mask.shape[1]), "front"
+        )
+        between = cv2.dilate(hidden.mask.astype(np.uint8), reach, iterations=UNDER) > 0
+        seen = seen | (between & (mask if lost else arms))
+    return largest(seen)
+
+
+def _near_shoulder(
+    arm: int, template: PosedTemplate, rig: Rig, shape: Sequence[int]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder."""
+    joint = rig.index("LeftArm" if PARTS[arm] == "left_arm" else "RightArm")
+    close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < SHOULDER
+    y, x = np.mgrid[: shape[0], : shape[1]]
+    distance = np.hypot(x - template.joints[joint, 0], y - template.joints[joint, 1])
+    return close[template.triangles].all(1), distance < SHOULDER * template.pixels_per_metre
+
+
+def _layer(
+    mask: NDArray[np.bool_],
+    template: PosedTemplate,
+    chosen: NDArray[np.bool_],
+    rig: Rig,
+    cut: NDArray[np.int8] | None = None,
+    face: Face | None = None,
+) -> Layer:
+    triangles = template.triangles[chosen]
+    size = (mask.shape[0], mask.shape[1])
+    front, back = (side_maps(template.vertices, triangles, size, side) for side in ("front", "back"))
+    warp = warp_part(mask, front.mask)
+    bare = np.array([any(part in name for part in BARE) for name in rig.names])
+    seen, behind = (
+        part_surface(mask, own, side, weights_at(side.raster, triangles, rig.bones, rig.weights, len(rig.names)), bare)
+        for own, side in ((warp if face is None else with_face(warp, face), front), (warp, back))
+    )
+    return Layer(mask, seen, behind, np.zeros(mask.shape, np.int8) if cut is None else cut)
+
+
+def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
+    """A limb whose pixels that are not its `own` (h, w), those of the overlap, lie just beneath the body's surface: there
+    they are not seen until the limb is lifted."""
+    over = body.mask & limb.mask & ~own
+    front, back = limb.front.depth.copy(), limb.back.depth.copy()
+    middle = (body.front.depth + body.back.depth) / 2
+    inside_front, inside_back = body.front.depth - BENEATH, body.back.depth + BENEATH
+    front[over] = np.maximum(np.minimum(front, inside_front), middle)[over]
+    back[over] = np.minimum(np.maximum(back, inside_back), middle)[over]
+    return replace(limb, front=Surface(front, limb.front.weights), back=Surface(back, limb.back.weights))

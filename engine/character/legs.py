@@ -1,0 +1,76 @@
+"""Legs that touch in the picture: where they part, down to where a skirt joins them, and what moves each.
+
+Beyond the paper, in which legs are one surface where they touch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt, uniform_filter1d
+
+from engine.body.rig import Rig
+from engine.character.labels import PARTS
+from engine.character.part_surface import Surface
+from engine.character.sheets import Layer
+
+LEGS_APART = 0.05
+"""Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""
+WIDER, SHINS = 1.7, 0.72
+"""How much wider than the template's legs cloth is that goes around both; how far down the legs it is looked for: shoes are
+wide, too."""
+HALF = 0.5
+"""Share of what moves a leg that must be its own to be believed."""
+
+
+def hem(legs: NDArray[np.bool_], template: NDArray[np.bool_]) -> int:
+    """The row down to which one piece of cloth goes around both legs (h, w), much wider than the template's; 0 without."""
+    rows = np.flatnonzero(template.any(1))
+    if not len(rows) or not legs.any():
+        return 0
+    smooth = max(1, legs.shape[0] // 40)
+    wide, usual = (uniform_filter1d(mask.sum(1).astype(np.float64), smooth) for mask in (legs, template))
+    cloth = wide > WIDER * np.maximum(usual, np.median(usual[rows]))
+    cloth[int(rows[0] + SHINS * (rows[-1] - rows[0])) :] = False
+    return int(np.flatnonzero(cloth)[-1]) + 1 if cloth.any() else 0
+
+
+def cut_along(labels: NDArray[np.integer], parting: NDArray[np.bool_]) -> NDArray[np.int8]:
+    """Along the parting of the legs, the side to which a pixel belongs: 1 left, 2 right; 0 elsewhere (h, w)."""
+    near = cv2.dilate(parting.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    cut = np.zeros(labels.shape, np.int8)
+    for side, name in ((1, "left_leg"), (2, "right_leg")):
+        cut[near & (labels == PARTS.index(name))] = side
+    return cut
+
+
+def each_by_its_own(body: Layer, labels: NDArray[np.integer], parting: NDArray[np.bool_], rig: Rig) -> Layer:
+    """The body without what moves its left leg by the right one's joints, or the other way round: where legs touch the warp
+    may lead from one to the other. Only below where they begin to part."""
+    rows = np.flatnonzero(parting.any(1))
+    if not len(rows):
+        return body
+    below = np.zeros(body.mask.shape, np.bool_)
+    below[rows[0] :] = True
+    sides = []
+    for surface in (body.front, body.back):
+        weights = surface.weights.copy()
+        for own, other in (("left_leg", "Right"), ("right_leg", "Left")):
+            region = body.mask & below & (labels == PARTS.index(own))
+            others = [k for k, name in enumerate(rig.names) if name.startswith(other)]
+            kept = weights[region]
+            kept[:, others] = 0
+            total = kept.sum(1)
+            known = np.zeros(body.mask.shape, np.bool_)
+            known[region] = total > HALF
+            if not known.any():
+                continue
+            weights[region] = kept / np.maximum(total, 1e-6)[:, None]
+            _, (y, x) = distance_transform_edt(~known, return_indices=True)
+            lost = region & ~known
+            weights[lost] = weights[y[lost], x[lost]]
+        sides.append(Surface(surface.depth, weights))
+    return replace(body, front=sides[0], back=sides[1])

@@ -1,0 +1,93 @@
+"""What the method can say of its own result."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+
+from engine.body.skinning import pose_transforms, skin
+from engine.character.figure import Figure
+from engine.character.rigging import Character
+from engine.character.silhouette import Silhouette
+from engine.character.template_fit import FittedBody
+from engine.geometry.welding import is_closed, weld
+from engine.motion.clip import Clip
+from engine.render.camera import Camera
+from engine.render.rasteriser import rasterise
+
+
+def pose(character: Character, clip: Clip, frame: int = 0) -> NDArray[np.float32]:
+    """The character's vertices (V, 3) in a frame of a clip."""
+    mesh = character.mesh
+    transforms = pose_transforms(mesh.skeleton, clip.rotations[[frame]], clip.root[[frame]])[0]
+    return skin(mesh.vertices, mesh.bones, mesh.weights, transforms)
+
+
+def picture_camera(character: Character, fitted: FittedBody, size: tuple[int, int]) -> Camera:
+    """The picture's camera in the character's world; `size` (height, width) of the picture."""
+    x, y, z = (float(value) for value in character.eye)
+    return Camera((x, y, z), fitted.focal, fitted.centre, size)
+
+
+def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, character: Character) -> dict[str, float]:
+    """Figures for the report.
+
+    `silhouette_iou`: how well the posed mesh covers the mask; `landmark_reprojection`: how far landmarks are from where they
+    were seen, as a share of the person's height; `closed`, `holes` (loops of open border) and `non_manifold_edges` of the
+    mesh; `flipped`: the share of the pixels in view that show a triangle from its back; `unseen_texture`: the share of the
+    surface whose colours are not the picture's own but mirrored or filled.
+    """
+    height, width = figure.rgb.shape[:2]
+    camera = picture_camera(character, fitted, (height, width))
+    projected = camera.project(pose(character, character.pictured))
+    triangles = character.mesh.triangles
+    seen = rasterise(projected, triangles, (height, width), perspective=True).triangle
+    drawn, mask = seen >= 0, silhouette.alpha > 0.5
+    rows = np.flatnonzero(mask.any(1))
+    points = weld(character.mesh)
+    border, crowded = _odd_edges(points[triangles])
+    return {
+        "silhouette_iou": round(float((drawn & mask).sum() / max((drawn | mask).sum(), 1)), 4),
+        "landmark_reprojection": round(fitted.fit.reprojection / max(int(np.ptp(rows)), 1), 4),
+        "closed": float(is_closed(points[triangles])),
+        "holes": float(_loops(border)),
+        "non_manifold_edges": float(crowded),
+        "flipped": round(float(_turned_away(projected, triangles)[seen[drawn]].mean()), 5),
+        "unseen_texture": round(_unseen(character), 3),
+        "triangles": float(len(triangles)),
+    }
+
+
+def _odd_edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+    """The edges (E, 2) of one triangle alone, and how many have more than two."""
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
+    found, count = np.unique(edges, axis=0, return_counts=True)
+    return np.asarray(found[count == 1], np.intp), int((count > 2).sum())
+
+
+def _loops(border: NDArray[np.intp]) -> int:
+    """How many loops edges (E, 2) make."""
+    if not len(border):
+        return 0
+    names, ends = np.unique(border, return_inverse=True)
+    a, b = ends.reshape(-1, 2).T
+    graph = csr_matrix((np.ones(len(a)), (a, b)), (len(names), len(names)))
+    return int(connected_components(graph, directed=False)[0])
+
+
+def _turned_away(projected: NDArray[np.float32], triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Whether each triangle shows its back; y points down."""
+    a, b, c = (projected[triangles[:, k], :2].astype(np.float64) for k in range(3))
+    p, q = b - a, c - a
+    return np.asarray(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)
+
+
+def _unseen(character: Character) -> float:
+    """The share of the surface, as pictured, on the last tile of the texture: the back's (`engine.character.texture.atlas`)."""
+    vertices, triangles = pose(character, character.pictured), character.mesh.triangles
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    behind = character.mesh.uv[triangles, 0].mean(1) > 1 - character.tile
+    return float(area[behind].sum() / max(float(area.sum()), 1e-12))

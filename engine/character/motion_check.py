@@ -1,0 +1,73 @@
+"""A motion file looked at by itself: the job kind `motion`.
+
+It finds what a character's job would: the skeleton, and which of its joints move which of a character's. So a motion
+can be kept, shown, and mended by overrides before anybody is moved by it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict
+
+from engine.character.options import MotionJoints
+from engine.kind import Given, Input, Kind
+from engine.run import Run, write_report
+
+STAGES = {"read": 4.0, "map_joints": 1.0}
+
+
+class MotionOptions(BaseModel):
+    """What a user may choose about a check."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    motion_joints: MotionJoints = {}
+
+
+def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
+    """Leaves `motion.json` and `report.json` in `out`. A skeleton that is nobody's is told of, and no failure."""
+    from engine.motion.check import check_motion  # the service reads KIND alone: it stays light
+    from engine.motion.reading import read_motion
+
+    path = inputs["motion"]
+    assert isinstance(path, Path) and isinstance(options, MotionOptions)
+    run.plan(STAGES)
+    with run.timed("read"):
+        motion = read_motion(path)
+    with run.timed("map_joints"):
+        checked = check_motion(motion, options.motion_joints)
+    error = None
+    if checked.refused is not None:
+        error = {"code": checked.refused.code, "detail": checked.refused.detail}
+        run.warn(checked.refused.code, checked.refused.detail)
+    figures = {"fps": round(checked.fps, 4), "frames": checked.frames, "seconds": round(checked.seconds, 3)}
+    document = {
+        **figures,
+        "joints": [
+            {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)
+        ],
+        "mapping": dict(checked.mapping),
+        "missing": list(checked.missing),
+        "error": error,
+    }
+    (out / "motion.json").write_text(json.dumps(document, indent=2) + "\n")
+    report = {**figures, "joints": len(checked.joints), "motion_joints": dict(checked.mapping)}
+    write_report(out / "report.json", "motion", run, report, {})
+
+
+def _prepare() -> None:
+    from engine.motion import check, reading  # noqa: F401 - importing them is the preparation
+
+
+KIND = Kind(
+    name="motion",
+    summary="A motion file is read: its skeleton, and which of its joints move a character's.",
+    inputs=(Input("motion", "motion", "A BVH file, or a GLB with an animated skeleton."),),
+    options=MotionOptions,
+    work=_work,
+    correctable=("motion_joints",),
+    prepare=_prepare,
+)

@@ -1,0 +1,149 @@
+"""Where an arm passes before the rest of the body, and the body completed behind it.
+
+The paper's occlusion mask (section 4.2.1) and occluded region construction (4.2.2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.part_surface import continued, outline
+from engine.geometry.boundary_matching import match_boundaries
+from engine.geometry.mean_value_coordinates import mean_value_warp
+
+NEAR = 0.16
+"""Metres at rest within which two points of the template are near each other on its surface."""
+REACH = 0.02
+"""By how much the occlusion pixels are dilated, as a share of the picture's height."""
+SHORTEST = 8
+"""Pixels of border that make an occlusion."""
+
+
+def rest_places(
+    labels: NDArray[np.integer], label: int, template: NDArray[np.integer], rest: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The template's point at rest (H, W, 3) that each pixel of a label shows; NaN elsewhere: the paper's f_l.
+
+    `template` (H, W): the projected template's labels; `rest` (H, W, 3): its points at rest.
+    """
+    found = np.full((*labels.shape, 3), np.nan, np.float32)
+    mask, source = largest(labels == label), largest(template == label)
+    if mask.sum() < SHORTEST or source.sum() < SHORTEST:
+        return found
+    border, reference = outline(mask), outline(source)
+    if len(border) < 4 or len(reference) < 4:
+        return found
+    partners = reference[match_boundaries(border, reference)]
+    edge = _border(mask)
+    ys, xs = np.nonzero(edge)
+    places = np.rint(mean_value_warp(np.stack([xs, ys], 1), border, partners)).astype(int)
+    x, y = np.clip(places[:, 0], 0, mask.shape[1] - 1), np.clip(places[:, 1], 0, mask.shape[0] - 1)
+    columns, rows = continued(source)
+    found[ys, xs] = rest[rows[y, x], columns[y, x]]
+    return found
+
+
+def occlusion_pixels(
+    labels: NDArray[np.integer], limb: int, places: Sequence[NDArray[np.float32]], near: float = NEAR
+) -> NDArray[np.bool_]:
+    """Pixels of the limb (H, W) beside which another part shows that is not `near`, in metres, on the body's surface.
+    `places`: those of each part at rest (`rest_places`)."""
+    found = np.zeros(labels.shape, np.bool_)
+    for other, theirs in enumerate(places):
+        if other == limb:
+            continue
+        for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+            moved = np.roll(theirs, (-dy, -dx), (0, 1))
+            beside = np.roll(labels, (-dy, -dx), (0, 1)) == other
+            with np.errstate(invalid="ignore"):
+                far = np.linalg.norm(places[limb] - moved, axis=-1) > near
+            found |= (labels == limb) & beside & far
+    return found if found.sum() >= SHORTEST else np.zeros_like(found)
+
+
+def occlusion_mask(pixels: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The paper's O: the occlusion pixels and what is around them."""
+    radius = max(2, round(REACH * pixels.shape[0]))
+    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
+    return np.asarray(cv2.dilate(pixels.astype(np.uint8), disk) > 0)
+
+
+def completed(
+    visible: NDArray[np.bool_], hidden_by: NDArray[np.bool_], near: NDArray[np.bool_], template: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """The region B with its spurious borders replaced by the template's (the paper's figure 5, e to g).
+
+    `visible` (H, W): what is seen of head, trunk and legs; `hidden_by`: the arms before them; `near`: the occlusion
+    mask; `template`: head, trunk and legs of the projected template. Each run of B's border that lies in the occlusion
+    mask beside an arm gives way to the template's border between the partners of its ends, by the similarity transform
+    that takes those to its ends. B never shrinks, and grows only behind the arms.
+    """
+    body = _one_piece(visible, hidden_by, template)
+    border, reference = outline(body), outline(largest(template))
+    partners = match_boundaries(border, reference)
+    beside = cv2.dilate(hidden_by.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    at = border.astype(int)
+    spurious = beside[at[:, 1], at[:, 0]] & near[at[:, 1], at[:, 0]]
+    grown = body.copy()
+    for first, last in _runs(spurious):
+        run = np.arange(first, last + 1) % len(border)
+        a, b = border[run[0]], border[run[-1]]
+        steps = int((partners[run[-1]] - partners[run[0]]) % len(reference))
+        curve = reference[(partners[run[0]] + np.arange(steps + 1)) % len(reference)]
+        moved = _similarity(curve, a, b)
+        if moved is None:
+            continue
+        # what is worn is wider than the template: it goes on straight, at least
+        for replaced in (moved, np.stack([a, b])):
+            region = np.zeros(body.shape, np.uint8)
+            polygon = np.concatenate([replaced, border[run[::-1]]])
+            cv2.fillPoly(region, [np.rint(polygon).astype(np.int32)], (1,))
+            grown |= (region > 0) & hidden_by
+    return largest(grown)
+
+
+def _one_piece(
+    visible: NDArray[np.bool_], hidden_by: NDArray[np.bool_], template: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """The body in one connected piece: where an arm cuts it in two, the template says what joins them."""
+    count, _, stats, _ = cv2.connectedComponentsWithStats(visible.astype(np.uint8))
+    if (stats[1:count, cv2.CC_STAT_AREA] > 0.02 * visible.sum()).sum() > 1:
+        visible = visible | (hidden_by & template)
+    return largest(visible)
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Runs of true values on a circle as (first, last), last counted on beyond the end where a run goes around it."""
+    if flags.all() or not flags.any():
+        return []
+    start = int(np.flatnonzero(~flags)[0])
+    turned = np.roll(flags, -start).astype(np.int8)
+    begins, ends = np.flatnonzero(np.diff(turned) == 1) + 1, np.flatnonzero(np.diff(np.append(turned, 0)) == -1)
+    return [(int(b) + start, int(e) + start) for b, e in zip(begins, ends, strict=True) if e - b >= SHORTEST]
+
+
+def _similarity(
+    curve: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """The curve moved, turned and scaled so that its ends come to a and b; None if it has no length."""
+    z = curve @ [1, 1j]
+    span = z[-1] - z[0]
+    if abs(span) < 2:
+        return None
+    ends = np.stack([a, b]) @ [1, 1j]
+    moved = ends[0] + (z - z[0]) * (ends[1] - ends[0]) / span
+    return np.stack([moved.real, moved.imag], 1)
+
+
+def largest(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The largest connected piece of a mask."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    return np.asarray(labels == 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))) if count > 1 else mask
+
+
+def _border(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    return mask & ~(cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0)

@@ -1,0 +1,110 @@
+"""What a user may choose about a character."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from engine.render.camera_moves import Move
+
+Side = Annotated[int, Field(ge=64, le=4096)]
+Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
+Angle = Annotated[float, Field(ge=-180, le=180)]
+Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
+MOTIONS: tuple[Motion, ...] = get_args(Motion)
+Part = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg"]
+MotionJoints = Annotated[
+    dict[Annotated[str, Field(max_length=40)], Annotated[str, Field(max_length=200)] | None],
+    Field(
+        max_length=100,
+        description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
+    ),
+]
+BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg", "arms", "legs"]
+
+
+Place = tuple[Coordinate, Coordinate]
+Radius = Annotated[float, Field(gt=0, le=2048)]
+Path = Annotated[tuple[Place, ...], Field(min_length=1, max_length=5000)]
+
+
+class MaskStroke(BaseModel):
+    """A stroke of a round brush over the mask, in pixels of the picture."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    path: Path = Field(description="The points that the brush passes.")
+    radius: Radius
+    person: bool = Field(description="Whether it paints the person, or what is not the person.")
+
+
+class LabelStroke(BaseModel):
+    """A stroke of a round brush over the label map, in pixels of the picture."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    path: Path = Field(description="The points that the brush passes.")
+    radius: Radius
+    part: Part = Field(description="What it paints; the person's own left and right.")
+
+
+class CharacterOptions(BaseModel):
+    """Options of the character system; every one has a sound default."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    motion: Motion = Field("walk", description="The clip into which the person steps, where no file is given.")
+    motion_joints: MotionJoints = {}
+    keep: tuple[BodyPart, ...] = Field((), description="Parts of the body that stay as pictured.")
+    seconds: Annotated[float, Field(ge=1, le=30)] = Field(4.0, description="Length of the video, at most.")
+    size: tuple[Side, Side] | None = Field(
+        None,
+        description="Width and height of the video in pixels; the picture is fitted into it. Default: the picture's own size, the longest side at most 1280.",
+    )
+    fps: Annotated[float, Field(ge=1, le=60)] = Field(30.0, description="Frames a second of clips and video.")
+    format: Literal["mp4", "webm", "webp", "png"] = Field(
+        "mp4", description="Container of the animation; png is a zip of numbered pictures."
+    )
+    camera: Move = Field("fixed", description="What the video's camera does.")
+    triangles: Annotated[int, Field(ge=2000, le=200_000)] = Field(
+        60_000, description="Most triangles of the character."
+    )
+    levels: Annotated[int, Field(ge=0, le=3)] = Field(
+        0, description="Further levels of detail, each with a quarter of the triangles: character-lod1.glb and so on."
+    )
+    vrm: bool = Field(False, description="Write the character as VRM 1.0, too.")
+    partial: bool = Field(
+        False, description="Accept a person whose legs are cut off or hidden, and animate what is there."
+    )
+    pose: dict[str, tuple[Angle, Angle, Angle]] = Field(
+        {},
+        description="Joints turned on from the pictured pose, by their names in the character's skeleton: degrees about x, y and z of the T-pose. The person starts from there, and posed.png shows it.",
+    )
+    joints: dict[str, tuple[Coordinate, Coordinate]] = Field(
+        {},
+        description="Joints placed by hand, by their names in skeleton.json: [x, y] in pixels of the picture.",
+    )
+    person_box: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
+        None, description="x, y, width and height in pixels of the picture: the person is looked for in there."
+    )
+    person_index: Annotated[int, Field(ge=0, le=99)] | Literal["all"] = Field(
+        0,
+        description="Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together.",
+    )
+    mask_strokes: Annotated[tuple[MaskStroke, ...], Field(max_length=500)] = Field(
+        (), description="Strokes over the mask, in their order."
+    )
+    label_strokes: Annotated[tuple[LabelStroke, ...], Field(max_length=500)] = Field(
+        (), description="Strokes over the label map, in their order."
+    )
+    back_texture: Literal["mirror", "inpaint"] = Field(
+        "mirror",
+        description="The back: a mirrored copy of the front, or filled by what the sides of each part of the body show.",
+    )
+
+    @model_validator(mode="after")
+    def _one_to_correct(self) -> Self:
+        if self.person_index == "all" and (self.joints or self.person_box or self.mask_strokes or self.label_strokes):
+            raise ValueError("corrections are of one person: say which by person_index")
+        return self

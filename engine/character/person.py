@@ -1,0 +1,33 @@
+"""One who is woken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from engine.character.figure import Figure
+from engine.character.layers import Labels
+from engine.character.motions import choose_motion, posed_by_hand
+from engine.character.options import CharacterOptions
+from engine.character.rigging import Character
+from engine.character.silhouette import Silhouette
+from engine.character.template_fit import FittedBody
+
+
+@dataclass
+class Person:
+    """One who is woken, with all that was found on the way. `act` says what they do."""
+
+    figure: Figure
+    silhouette: Silhouette
+    fitted: FittedBody
+    labels: Labels
+    character: Character
+
+    def act(self, options: CharacterOptions, motion: Path | None) -> None:
+        """Choose the pose they `start` from and what is `played`."""
+        self.start = posed_by_hand(self.character, options.pose)
+        self.played = choose_motion(
+            *(self.character, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
+            options.motion_joints,
+        )

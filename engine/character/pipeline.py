@@ -1,0 +1,164 @@
+"""Photo Wake-Up (Weng, Curless, Kemelmacher-Shlizerman; CVPR 2019), stage by stage."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from engine.character.cast_shadow import ground_shadow
+from engine.character.figure import Choice, Figure, find_figure
+from engine.character.film import cast_of, film, film_size
+from engine.character.findings import write_findings
+from engine.character.measures import measure, picture_camera
+from engine.character.options import CharacterOptions
+from engine.character.person import Person
+from engine.character.silhouette import Silhouette, cut_out
+from engine.character.stages import build_mesh, fewer_triangles, fill_background, fit_template, label, make_character
+from engine.errors import InputError
+from engine.export.glb import write_glb
+from engine.export.still import write_still
+from engine.export.usdz import write_usdz
+from engine.export.video import VideoWriter
+from engine.export.vrm import VrmMeta, write_vrm
+from engine.kind import Given
+from engine.media.image import write_image
+from engine.perception.models import matting_model
+from engine.render.character import film_cast
+from engine.run import Run, write_report
+
+STAGES = {
+    "find_figure": 1.0,
+    "cut_out": 2.0,
+    "fit_template": 1.0,
+    "label_parts": 2.0,
+    "build_mesh": 3.0,
+    "fill_background": 1.0,
+    "make_character": 2.0,
+    "write_character": 2.0,
+    "animate": 8.0,
+}
+"""The stages and their usual share of the time."""
+
+EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character")
+"""Those that come once for each person."""
+MOST = 6
+"""People who are woken together."""
+
+
+def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, run: Run) -> None:
+    """Make a character of the person in `inputs["photo"]`, or of each; leaves the artifacts of the contract in `out`."""
+    photo, motion, mask, label_map = (_file(inputs, name) for name in ("photo", "motion", "mask", "labels"))
+    assert photo is not None
+    run.plan(STAGES)
+    figures = find_figures(photo, options, run)
+    figure = figures[0]
+    if len(figures) > 1:
+        run.plan(STAGES, dict.fromkeys(EACH, len(figures)))
+    write_still(out / "preview.jpg", figure.rgb, run.mark_synthetic)
+    run.publish(out / "preview.jpg")
+    model = matting_model(os.environ)
+    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256)
+    silhouettes = tuple(run.stage("cut_out", cut_out, one, *cut) for one in figures)
+    background = run.beside("fill_background", fill_background, figure, silhouettes)
+    people = [
+        reconstruct(one, silhouette, label_map, options, run)
+        for one, silhouette in zip(figures, silhouettes, strict=True)
+    ]
+    with run.timed("write_character"):
+        for person in people:
+            person.act(options, motion)
+        for number, person in enumerate(people, 1):
+            write_character(out, "character" if number == 1 else f"character-{number}", person, options, run)
+        write_findings(out, people)
+    plate, cast = background().rgb, background().shadow
+    shadow = ground_shadow(cast, people[0].character, people[0].fitted)
+    write_image(out / "background.png", plate)
+    height, width = figure.rgb.shape[:2]
+    camera = picture_camera(people[0].character, people[0].fitted, (height, width))
+    still = [(person.character, person.start) for person in people]
+    reposed = next(film_cast(cast_of(still), lambda second: camera, lambda camera: plate, shadow))
+    write_still(out / "posed.png", reposed, run.mark_synthetic)
+    size = film_size((width, height), options.size)
+    name = "animation." + {"png": "zip"}.get(options.format, options.format)
+    acting = [(person.character, person.played.film) for person in people]
+    frames = max(len(clip.rotations) for _, clip in acting)
+    with (
+        run.timed("animate"),
+        VideoWriter(out / name, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
+    ):
+        for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size)):
+            writer.write(frame)
+            if index == frames // 3:
+                write_still(out / "poster.jpg", frame, run.mark_synthetic)
+            run.tick((index + 1) / frames)
+    write_report(
+        out / "report.json",
+        "character",
+        run,
+        inputs={
+            "size": [width, height],
+            "fps": options.fps,
+            "frames": frames,
+            "animation": name,
+            "people": np.round(figure.people / figure.scale, 1).tolist(),
+            "person": options.person_index if options.person_index == "all" else figure.index,
+        }
+        | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {}),
+        quality=measure(people[0].figure, people[0].silhouette, people[0].fitted, people[0].character),
+    )
+
+
+def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figure]:
+    """The one who is meant, or all. Of all, those of whom too little is seen stay in the picture."""
+    placed = tuple((name, x, y) for name, (x, y) in sorted(options.joints.items()))
+
+    def find(index: int) -> Figure:
+        choice = Choice(options.person_box, index, placed)
+        return run.stage("find_figure", find_figure, photo, choice, options.partial, run.limits, run.warn)
+
+    if options.person_index != "all":
+        return [find(options.person_index)]
+    first = find(0)
+    figures = [first]
+    for index in range(1, min(len(first.people), MOST)):
+        try:
+            figures.append(find(index))
+        except InputError as error:
+            run.warn("person_left_out", f"Person {index + 1} stays in the picture: {error.detail}")
+    return figures
+
+
+def reconstruct(
+    figure: Figure, silhouette: Silhouette, label_map: Path | None, options: CharacterOptions, run: Run
+) -> Person:
+    """From the mask to the character."""
+    fitted = run.stage("fit_template", fit_template, figure)
+    labels = run.stage("label_parts", label, figure, silhouette, fitted, label_map, options.label_strokes, run.limits)
+    mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
+    character = run.stage(
+        "make_character",
+        make_character,
+        *(figure, silhouette, fitted, labels, mesh, options.triangles, options.back_texture),
+    )
+    return Person(figure, silhouette, fitted, labels, character)
+
+
+def write_character(out: Path, name: str, person: Person, options: CharacterOptions, run: Run) -> None:
+    """The character in all formats that are wanted, and in all levels of detail."""
+    mesh, marked = person.character.mesh, run.mark_synthetic
+    write_glb(out / f"{name}.glb", mesh, person.played.all, synthetic=marked)
+    for level in range(1, options.levels + 1):
+        coarser = fewer_triangles(mesh, len(mesh.triangles) // 4**level)
+        write_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, synthetic=marked)
+    write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
+    if options.vrm:
+        write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=("Galatea",)), synthetic=marked)
+
+
+def _file(inputs: Mapping[str, Given], name: str) -> Path | None:
+    given = inputs.get(name)
+    assert given is None or isinstance(given, Path)
+    return given

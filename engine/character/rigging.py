@@ -1,0 +1,72 @@
+"""From a mesh in the pictured pose to a character in T-pose, and back: what binds it to its skeleton."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.body.body_space import BodySpace
+from engine.body.fitting import Fit
+from engine.body.skinning import pose_transforms
+from engine.character.picture_space import PictureCamera
+from engine.character.sheets import ClosedMesh
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.motion.clip import Clip
+from engine.motion.skeleton import Skeleton
+
+LEAST_VOLUME = 0.35
+"""What blending turns may leave of a volume. Where they would leave less, as between the two sides of a bent elbow, the
+way back to T-pose is no longer one: such a vertex goes with its strongest joint alone."""
+
+
+@dataclass(frozen=True)
+class Character:
+    """A character and how it stands in its picture: `pictured`, a clip of one frame. The picture's camera stands at
+    `eye` (3,) in the character's world, in which the ground is y = 0. `tile`: the share of the texture's width that each of
+    its tiles takes; the last is the back's."""
+
+    mesh: SkinnedMesh
+    pictured: Clip
+    eye: NDArray[np.float64]
+    tile: float
+
+
+def bind(
+    mesh: ClosedMesh,
+    camera: PictureCamera,
+    fit: Fit,
+    space: BodySpace,
+    texture: NDArray[np.uint8],
+    uv: NDArray[np.float32],
+    tile: float,
+) -> Character:
+    """Bind a mesh in picture space to the fitted skeleton, in T-pose.
+
+    Posed by `Character.pictured` the vertices are where they were: linear blend skinning by the same weights is inverted
+    for each vertex.
+    """
+    seen = camera.to_metres(mesh.vertices)
+    eye = np.array([0.0, -seen[:, 1].min(), camera.distance])
+    posed = seen + eye
+    bones, weights = mesh.bones.astype(np.intp), mesh.weights.copy()
+    rest = space.skeleton(fit.coefficients)
+    turns = Rotation.from_matrix(fit.rotations.astype(np.float64)).as_quat()
+    root = fit.place + eye
+    transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
+        np.float64
+    )
+    blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), transforms[bones])
+    crushed = np.linalg.det(blended[:, :3, :3]) < LEAST_VOLUME
+    weights[crushed] = [1, 0, 0, 0]
+    blended[crushed] = transforms[bones[crushed, 0]]
+    vertices = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
+    lift = np.array([0.0, -vertices[:, 1].min(), 0.0])
+    skeleton = Skeleton(rest.names, rest.parents, (rest.heads + lift).astype(np.float32))
+    bound = SkinnedMesh(
+        skeleton, (vertices + lift).astype(np.float32), mesh.triangles, uv, bones.astype(np.uint8), weights, texture
+    )
+    pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
+    return Character(bound, pictured, eye, tile)

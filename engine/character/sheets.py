@@ -1,0 +1,218 @@
+"""Front and back of each part made into one closed mesh (the paper's sections 4.1.3 and 4.2.3).
+
+Each part is a sheet of pixels: two triangles for each block of four, the front and the back sheet joined along their
+border. Parts are not sewn to one another: they overlap where a limb begins (`engine.character.layers`), and what overlaps
+moves alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from engine.character.part_surface import Surface
+
+INFLUENCES = 4
+"""Joints that move a vertex, at most: what engines take."""
+THINNEST, EDGE = 0.5, 0.3
+"""Pixels between the middle and each side, at least, inside a part; and at its border."""
+FORWARD = 0.2
+"""Pixels by which an arm lies before the body where both have the same depth: about the shoulder they overlap."""
+APART = 0.02
+"""Pixels of depth between the two sides of a cut, which are otherwise in one place."""
+OUT = 1.2
+"""Pixels by which the border may move to the mask's edge."""
+BORDER_SWEEPS = 3
+"""How often the border is smoothed: a silhouette of pixels is jagged."""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8: where a 1 lies beside a 2 the part is not
+    joined (one leg and the other)."""
+
+    mask: NDArray[np.bool_]
+    front: Surface
+    back: Surface
+    cut: NDArray[np.int8]
+
+
+@dataclass(frozen=True)
+class ClosedMesh:
+    """A mesh in picture space.
+
+    `vertices` (V, 3) float64: x, y, z; `triangles` (T, 3) int32, counter-clockwise seen from outside for one who looks at
+    the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
+    it meets the front's colours and the back's.
+    `layer` (V,) int: the part. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
+    summing to one.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    front: NDArray[np.bool_]
+    layer: NDArray[np.intp]
+    bones: NDArray[np.uint8]
+    weights: NDArray[np.float32]
+
+
+def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
+    """Join front and back of each part into a mesh without open borders.
+
+    `soft` (H, W) [0, 1] is the person's mask: where a border lies along its edge, it is moved to where the mask is 0.5,
+    between the pixels.
+    """
+    places, owners, sources, triangles = _sheet(layers)
+    count = len(places)
+    rim = _rim(triangles, count)
+    border = np.zeros(count, np.bool_)
+    border[rim.ravel()] = True
+    ys, xs = places.T
+    z = [np.zeros(count), np.zeros(count)]
+    weights = [np.zeros((count, layers[0].front.weights.shape[-1]), np.float32) for _ in range(2)]
+    for k, layer in enumerate(layers):
+        own = owners == k
+        for side, surface in enumerate((layer.front, layer.back)):
+            z[side][own] = surface.depth[ys[own], xs[own]]
+            weights[side][own] = surface.weights[sources[own, 0], sources[own, 1]]
+    shared = (weights[0] + weights[1]) / 2
+    for one in weights:
+        one[border] = shared[border]
+    middle = (z[0] + z[1]) / 2 + FORWARD * owners + APART * (sources != places).any(1)
+    half = np.maximum((z[0] - z[1]) / 2, THINNEST)
+    half[border] = EDGE
+    points = _smoothed(np.stack([xs, ys, middle], 1).astype(np.float64), rim)
+    points[border, :2] = _to_the_edge(points[border, :2], soft)
+    deep = np.outer(half, [0, 0, 1])
+    edge = np.unique(rim)  # once more, for the strip between the sheets, which is coloured as the front is
+    again = np.full(count, -1)
+    again[edge] = 2 * count + np.arange(len(edge))
+    a, b = rim.T
+    strip = np.concatenate([np.stack([b, a, again[a]], 1), np.stack([b, again[a], again[b]], 1)])
+    bones, kept = strongest(np.concatenate([*weights, weights[1][edge]]))
+    return ClosedMesh(
+        vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge]]),
+        triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
+        front=np.repeat([True, False, True], [count, count, len(edge)]),
+        layer=np.concatenate([owners, owners, owners[edge]]),
+        bones=bones,
+        weights=kept,
+    )
+
+
+def strongest(weights: NDArray[np.float32]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """The strongest influences of weights (V, J): joints and weights, (V, 4) each, strongest first, summing to one."""
+    chosen = np.argsort(-weights, 1, kind="stable")[:, :INFLUENCES]
+    kept = np.take_along_axis(weights, chosen, 1)
+    kept = kept / np.maximum(kept.sum(1, keepdims=True), 1e-9)
+    return np.where(kept > 0, chosen, 0).astype(np.uint8), kept.astype(np.float32)
+
+
+def _sheet(
+    layers: Sequence[Layer],
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """The front sheets of all parts: rows and columns (N, 2), parts (N,), the pixels (N, 2) that say what moves each,
+    triangles (T, 3)."""
+    places, owners, sources, triangles = [], [], [], []
+    count = 0
+    for k, layer in enumerate(layers):
+        at = np.argwhere(layer.mask)
+        number = np.full(layer.mask.shape, -1, np.intp)
+        number[layer.mask] = np.arange(len(at))
+        blocks = _blocks(number[:-1, :-1], number[:-1, 1:], number[1:, :-1], number[1:, 1:])
+        whole, from_where, parted = _parted(at, layer.cut, blocks)
+        places.append(whole)
+        sources.append(from_where)
+        owners.append(np.full(len(whole), k))
+        triangles.append(parted + count)
+        count += len(whole)
+    found = _without_pinches(np.concatenate(triangles), count)
+    used, renumbered = np.unique(found, return_inverse=True)
+    kept = [np.concatenate(one)[used] for one in (places, owners, sources)]
+    return kept[0], kept[1], kept[2], renumbered.reshape(found.shape)
+
+
+def _parted(
+    at: NDArray[np.intp], cut: NDArray[np.int8], triangles: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """A sheet of pixels (n, 2) cut where side 1 meets side 2: a triangle of both goes with side 1, for which it gets corners
+    of its own in the same places, moved as the nearest pixel of that side is."""
+    side = cut[at[:, 0], at[:, 1]]
+    corners = side[triangles]
+    both = (corners == 1).any(1) & (corners == 2).any(1)
+    if not both.any():
+        return at, at, triangles
+    doubled = np.unique(triangles[both][corners[both] == 2])
+    _, (rows, columns) = distance_transform_edt(cut != 1, return_indices=True)
+    again = np.arange(len(at))
+    again[doubled] = len(at) + np.arange(len(doubled))
+    parted = triangles.copy()
+    parted[both] = again[triangles[both]]
+    y, x = at[doubled].T
+    copies = np.stack([rows[y, x], columns[y, x]], 1)
+    return np.concatenate([at, at[doubled]]), np.concatenate([at, copies]), parted
+
+
+def _without_pinches(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Triangles without those around vertices where the sheet is joined by nothing but that vertex."""
+    while True:
+        passes = np.bincount(_rim(triangles, count).ravel(), minlength=count)
+        pinched = passes > 2
+        if not pinched.any():
+            return triangles
+        triangles = triangles[~pinched[triangles].any(1)]
+
+
+def _blocks(a: NDArray[np.intp], b: NDArray[np.intp], c: NDArray[np.intp], d: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Triangles of blocks with corners a b over c d; -1 is no corner. y points down: a, c, b turn counter-clockwise."""
+    there = [corner >= 0 for corner in (a, b, c, d)]
+    full = there[0] & there[1] & there[2] & there[3]
+    found = [np.stack([a[full], c[full], b[full]], 1), np.stack([b[full], c[full], d[full]], 1)]
+    corners = (a, b, c, d)
+    for missing, (i, j, k) in ((0, (1, 2, 3)), (1, (0, 2, 3)), (2, (0, 3, 1)), (3, (0, 2, 1))):
+        three = there[i] & there[j] & there[k] & ~there[missing]
+        found.append(np.stack([corners[n][three] for n in (i, j, k)], 1))
+    return np.concatenate(found)
+
+
+def _rim(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Edges (E, 2) that only one triangle has, as it turns."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    there, back = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
+    return edges[~np.isin(there, back)]
+
+
+def _to_the_edge(points: NDArray[np.float64], soft: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Points (N, 2) near the mask's edge moved onto it, along its slope; the others stay."""
+    slope = [np.asarray(cv2.Sobel(soft, cv2.CV_32F, *step, ksize=3, scale=1 / 8)) for step in ((1, 0), (0, 1))]
+    moved = points.copy()
+    for _ in range(3):
+        x, y = (moved[:, k].astype(np.float32)[:, None] for k in range(2))
+        value, dx, dy = (
+            cv2.remap(one, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0] for one in (soft, *slope)
+        )
+        steep = dx**2 + dy**2
+        step = np.where(steep > 0.01, (0.5 - value) / np.maximum(steep, 0.01), 0)
+        step = np.clip(step[:, None] * np.stack([dx, dy], 1), -0.7, 0.7)
+        moved = np.clip(moved + step, points - OUT, points + OUT)
+    return moved
+
+
+def _smoothed(points: NDArray[np.float64], rim: NDArray[np.intp]) -> NDArray[np.float64]:
+    """The points of the border drawn to the mean of their neighbours on it, alternately forth and back (G. Taubin, A
+    signal processing approach to fair surface design, SIGGRAPH 1995), so that nothing shrinks."""
+    count = len(points)
+    ends = np.concatenate([rim, rim[:, ::-1]])
+    degree = np.bincount(rim.ravel(), minlength=count)
+    moving = degree > 0
+    moved = points.copy()
+    for _ in range(BORDER_SWEEPS):
+        for share in (0.5, -0.53):
+            sums = [np.bincount(ends[:, 0], moved[ends[:, 1], axis], count)[moving] for axis in range(3)]
+            moved[moving] += share * (np.stack(sums, 1) / degree[moving, None] - moved[moving])
+    return moved

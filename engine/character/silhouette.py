@@ -1,0 +1,143 @@
+"""The person cut out, and the grid of pixels on which the character is made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.figure import Figure
+from engine.character.occlusion import largest
+from engine.character.options import MaskStroke
+from engine.character.picture_space import PictureCamera
+from engine.character.strokes import read_mask, repaint_mask
+from engine.errors import InputError
+from engine.media.limits import Limits
+from engine.perception.body import LANDMARKS
+from engine.perception.models import MattingModel
+from engine.perception.person import person_mask
+
+HEIGHT = 400
+"""Pixels of the person's height on the grid."""
+MARGIN = 24
+"""Pixels of the grid around the person."""
+LEAST = 400
+"""Pixels of a person."""
+AROUND = 0.15
+"""How much of the picture around a person is looked at where others are in it, as a share of the box."""
+PALM, HAND = 0.02, 0.7
+"""Width of a hand's middle, as a share of the person's height, and the confidence from which it is seen."""
+LIMB = 0.03
+"""Width of a limb that is known to be the person's, as a share of its skeleton's height."""
+
+
+@dataclass(frozen=True)
+class Silhouette:
+    """`alpha` (H, W) float32: the person's mask in the picture. `soft` (h, w): the same on the grid; `mask` (h, w): its
+    largest piece. `rgb` (h, w, 3): the picture on the grid. `to_grid` (2, 3): from the picture's pixels to the grid's."""
+
+    alpha: NDArray[np.float32]
+    soft: NDArray[np.float32]
+    mask: NDArray[np.bool_]
+    rgb: NDArray[np.uint8]
+    to_grid: NDArray[np.float64]
+
+    def camera(self, picture: PictureCamera) -> PictureCamera:
+        """The grid's camera, of the picture's."""
+        x, y = self.to_grid[:, :2] @ np.array(picture.centre) + self.to_grid[:, 2]
+        return PictureCamera(picture.focal * float(self.to_grid[0, 0]), (float(x), float(y)), picture.distance)
+
+
+def cut_out(
+    figure: Figure,
+    mask: Path | None,
+    strokes: tuple[MaskStroke, ...],
+    limits: Limits,
+    model: MattingModel | None,
+    model_key: str | None,
+) -> Silhouette:
+    """Cut the person out. `mask` is a picture that takes the place of what is found, and `strokes` are painted over it;
+    `model_key` says which model, for the stage's key.
+
+    Raises
+    ------
+    InputError : `no_person` where no mask was found around the joints, and what `read_mask` may raise.
+    """
+    height, width = figure.rgb.shape[:2]
+    if mask is None:
+        alpha = _found(figure, model)
+    else:
+        original = (round(width / figure.scale), round(height / figure.scale))
+        alpha = np.asarray(cv2.resize(read_mask(mask, [original, (width, height)], limits), (width, height),
+                                      interpolation=cv2.INTER_AREA), np.float32)  # fmt: skip
+    alpha = repaint_mask(alpha, strokes, figure.scale)
+    piece = largest(np.asarray(alpha > 0.5))
+    if piece.sum() < LEAST:
+        raise InputError(
+            "no_person",
+            "No person stands out in the picture: choose one in which somebody is clearly seen, or paint the mask by hand.",
+            ("mask_strokes", "mask"),
+        )
+    alpha = np.where(cv2.dilate(piece.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0, alpha, 0).astype(np.float32)
+    rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
+    scale = HEIGHT / (rows[-1] + 1 - rows[0])
+    matrix = np.array([[scale, 0, -columns[0] * scale], [0, scale, -rows[0] * scale]])
+    matrix[:, 2] += (scale - 1) / 2 + MARGIN
+    size = (round((columns[-1] + 1 - columns[0]) * scale) + 2 * MARGIN, HEIGHT + 2 * MARGIN)
+    flags = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    soft = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=flags), np.float32)
+    rgb = cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    return Silhouette(alpha, soft, largest(soft > 0.5), np.asarray(rgb, np.uint8), matrix)
+
+
+def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
+    """The mask that is found of itself, (H, W). Where others are in the picture, the networks look at this one alone."""
+    seed = _hands(figure) if figure.spatial else _limbs(figure)
+    if len(figure.people) < 2:
+        return person_mask(figure.rgb, seed, figure.alpha, model)
+    x, y, wide, high = figure.people[figure.index]
+    height, width = figure.rgb.shape[:2]
+    rows = slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1))
+    columns = slice(max(0, int(x - AROUND * wide)), min(width, int(x + (1 + AROUND) * wide) + 1))
+    part = rows, columns
+    alpha = np.zeros((height, width), np.float32)
+    alpha[part] = person_mask(
+        np.ascontiguousarray(figure.rgb[part]),
+        seed[part],
+        None if figure.alpha is None else figure.alpha[part],
+        model,
+        figure.others[part],
+    )
+    return alpha
+
+
+def _hands(figure: Figure) -> NDArray[np.float32]:
+    """The middle of each hand that is seen: the network that cuts people out misses hands, the one that finds their joints
+    does not, and by colour a hand is not like the sleeve beside it."""
+    seed = np.zeros(figure.rgb.shape[:2], np.uint8)
+    width = max(1, round(PALM * float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))))
+    for side in ("Left", "Right"):
+        names = (f"{side}Wrist", f"{side}Index", f"{side}Pinky")
+        if min(figure.confidence[LANDMARKS.index(name)] for name in names) > HAND:
+            wrist, *fingers = (figure.point(name) for name in names)
+            middle = np.mean(fingers, axis=0)
+            line = np.rint(np.stack([wrist, middle])).astype(int)
+            cv2.polylines(seed, [line], False, (1,), width)
+    return seed.astype(np.float32)
+
+
+def _limbs(figure: Figure) -> NDArray[np.float32]:
+    """Where the person must be if the skeleton was placed by hand: along its limbs and in its trunk."""
+    seed = np.zeros(figure.rgb.shape[:2], np.uint8)
+    place = {name: np.rint(figure.point(name)).astype(int) for name in LANDMARKS}
+    width = max(1, round(LIMB * float(np.ptp(figure.points[figure.confidence > 0, 1]))))
+    for side in ("Left", "Right"):
+        for chain in (("Shoulder", "Elbow", "Wrist"), ("Shoulder", "Hip", "Knee", "Ankle")):
+            line = np.stack([place[f"{side}{joint}"] for joint in chain])
+            cv2.polylines(seed, [line], False, (1,), width)
+    trunk = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
+    cv2.fillPoly(seed, [np.stack([place[name] for name in trunk])], (1,))
+    return seed.astype(np.float32)

@@ -1,0 +1,135 @@
+"""The stages of a character from silhouette to skeleton, each from what was found to what is found next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.cast_shadow import CastShadow, find_cast_shadow
+from engine.character.face_region import face_ellipse
+from engine.character.face_warp import JAW, Face
+from engine.character.figure import Figure
+from engine.character.head import face_vertices, turn_head
+from engine.character.labels import PARTS
+from engine.character.layers import Labels, build_layers, label_parts
+from engine.character.options import LabelStroke
+from engine.character.rigging import Character, bind
+from engine.character.sheets import ClosedMesh, close
+from engine.character.silhouette import Silhouette
+from engine.character.strokes import read_labels, relabel
+from engine.character.template_fit import FittedBody, fit_figure, load_human, pose_template
+from engine.character.texture import BackTexture, atlas, paint_tiles
+from engine.geometry.decimation import decimate, joint_importance
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.imaging.inpaint import background_plate
+from engine.media.limits import Limits
+from engine.perception.landmarks import fiducials
+
+FACE_COUNTS = 6.0
+"""How much more a triangle of the head counts where triangles are saved."""
+SHADOW = 0.012
+"""How far the hole behind the person reaches beyond the mask, as a share of the picture's longer side: hair and the
+shadow at the feet are not in the mask."""
+
+
+def label(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    file: Path | None,
+    strokes: tuple[LabelStroke, ...],
+    limits: Limits,
+) -> Labels:
+    """The body label map (section 4.2.1). `file` is a label map that takes the place of what is found, and `strokes` are
+    painted over it.
+
+    Raises
+    ------
+    InputError : what `read_labels` may raise.
+    """
+    human = load_human()
+    posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    height, width = figure.rgb.shape[:2]
+    given = None
+    if file is not None:
+        original = (round(width / figure.scale), round(height / figure.scale))
+        read = read_labels(file, [original, (width, height)], limits)
+        read = np.asarray(cv2.resize(read, (width, height), interpolation=cv2.INTER_NEAREST_EXACT), np.int8)
+        size = (silhouette.mask.shape[1], silhouette.mask.shape[0])
+        given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,
+                                          borderValue=(-1,)), np.int8)  # fmt: skip
+    return label_parts(
+        silhouette.rgb,
+        silhouette.mask,
+        posed,
+        human.rig,
+        given,
+        lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
+    )
+
+
+def fit_template(figure: Figure) -> FittedBody:
+    """The template fitted to the figure, its head to the face (sections 3 and 5)."""
+    return turn_head(fit_figure(figure), figure)
+
+
+def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> ClosedMesh:
+    """The mesh in the pictured pose (sections 4.1 and 4.2)."""
+    human = load_human()
+    posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    face = None
+    if figure.face is not None:
+        seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
+        on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
+        laid = posed.vertices[face_vertices()[JAW:], :2]
+        face = Face(on_grid, laid, labels.labels == PARTS.index("head"))
+    return close(build_layers(silhouette.mask, labels, posed, human.rig, face), silhouette.soft)
+
+
+def make_character(
+    figure: Figure,
+    silhouette: Silhouette,
+    fitted: FittedBody,
+    labels: Labels,
+    mesh: ClosedMesh,
+    triangles: int,
+    back: BackTexture,
+) -> Character:
+    """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
+    face = face_ellipse(figure, silhouette.to_grid)
+    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, face, back)
+    texture, uv = atlas(tiles, mesh, 0)
+    tile = tiles.seen.shape[1] / texture.shape[1]
+    camera = silhouette.camera(fitted.camera())
+    character = bind(mesh, camera, fitted.fit, load_human().space, texture, uv, tile)
+    return replace(character, mesh=fewer_triangles(character.mesh, triangles))
+
+
+def fewer_triangles(mesh: SkinnedMesh, triangles: int) -> SkinnedMesh:
+    """The mesh with so many triangles at most: silhouette and face are kept longest."""
+    if len(mesh.triangles) <= triangles:
+        return mesh
+    return decimate(mesh, triangles, joint_importance(mesh, {"Head": FACE_COUNTS})).mesh
+
+
+@dataclass(frozen=True)
+class Background:
+    """The picture without the person: `rgb` (H, W, 3); the shadow that they cast in it has gone, too."""
+
+    rgb: NDArray[np.uint8]
+    shadow: CastShadow
+
+
+def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Background:
+    """Fill the hole that those leave who walk out."""
+    radius = max(3, round(SHADOW * max(figure.rgb.shape[:2])))
+    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
+    alpha = np.max([one.alpha for one in silhouettes], axis=0)
+    shadow = find_cast_shadow(figure.rgb, alpha)
+    gone = np.maximum(alpha > 0.02, shadow.mask > 0.1).astype(np.float32)
+    hole = np.asarray(cv2.dilate(gone, disk), np.float32)
+    return Background(background_plate(figure.rgb, hole, reach=float(np.sqrt(hole.sum()))), shadow)

@@ -1,0 +1,133 @@
+"""The template fitted to the figure: what perception saw, as `engine.body.fitting` takes it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body import load_template
+from engine.body.body_space import RIG, BodySpace, load_body_space
+from engine.body.first_guess import first_guess
+from engine.body.fitting import LIMBS, Fit, Seen, fit_body
+from engine.body.landmarks import LandmarkModel, landmark_model
+from engine.body.rig import Rig
+from engine.body.skinning import bone_transforms, skin
+from engine.body.template import load_rig
+from engine.character.figure import Figure
+from engine.character.layers import PosedTemplate
+from engine.character.picture_space import PictureCamera
+from engine.perception.body import LANDMARKS
+from engine.render.surface import triangulate
+
+FOCAL = 2.2
+"""Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
+RELIABLE = {"Pinky": 0.3, "Index": 0.3, "Thumb": 0.2, "Heel": 0.5, "FootIndex": 0.6, "Ear": 0.6, "Hip": 0.5}
+"""How much these landmarks count; the others count 1."""
+BEFORE, NARROWER, SEEN = 0.2, 0.9, 0.5
+"""Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
+confidence from which a joint is seen and not hidden."""
+JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip", "Leg": "Knee", "Foot": "Ankle"}
+"""Landmarks at which limbs begin and end, by the joint."""
+
+
+@dataclass(frozen=True)
+class FittedBody:
+    """The fit, and the picture's camera: `focal` pixels, `centre` (2,)."""
+
+    fit: Fit
+    focal: float
+    centre: tuple[float, float]
+
+    def camera(self) -> PictureCamera:
+        """The camera of the picture."""
+        return PictureCamera(self.focal, self.centre, -float(self.fit.place[2]))
+
+
+@dataclass(frozen=True)
+class Human:
+    """The template's data that a character is made of."""
+
+    space: BodySpace
+    rig: Rig
+    triangles: NDArray[np.int32]
+    landmarks: LandmarkModel
+
+
+@cache
+def load_human() -> Human:
+    """Load the template, its rig and its space of bodies, once for the process."""
+    template, space, rig = load_template(), load_body_space(), load_rig(RIG)
+    landmarks = landmark_model(template, space, rig)
+    return Human(space, rig, triangulate(template.quads[template.faces("body")]), landmarks)
+
+
+def fit_figure(figure: Figure) -> FittedBody:
+    """Fit pose, shape and place."""
+    human = load_human()
+    landmarks = human.landmarks
+    at = [LANDMARKS.index(name) for name in landmarks.names]
+    trust = np.array([RELIABLE.get(_part(name), 1.0) for name in landmarks.names], np.float32)
+    height, width = figure.rgb.shape[:2]
+    focal, centre = FOCAL * max(height, width), ((width - 1) / 2, (height - 1) / 2)
+    places = {
+        f"{side}{joint}": LANDMARKS.index(f"{side}{mark}")
+        for joint, mark in JOINTS.items()
+        for side in ("Left", "Right")
+    }
+    world = _arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
+    limbs = np.stack([world[places[b]] - world[places[a]] for a, b in LIMBS])
+    limbs /= np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
+    sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
+    seen = Seen(
+        figure.points[at],
+        figure.confidence[at] * trust,
+        limbs.astype(np.float32),
+        sure.astype(np.float32),
+        focal,
+        centre,
+    )
+    start = first_guess(human.space, landmarks, seen, {joint: world[place] for joint, place in places.items()})
+    return FittedBody(fit_body(human.space, landmarks, seen, start), focal, centre)
+
+
+def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:
+    """The fitted template in the picture space of a camera: that of the picture, or of a grid on it."""
+    fit = fitted.fit
+    rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)
+    transforms = bone_transforms(human.rig, heads, fit.rotations, fit.place - heads[0])
+    joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
+    vertices = skin(rest, human.rig.bones, human.rig.weights, transforms)
+    return PosedTemplate(
+        camera.to_picture(vertices), rest, human.triangles, camera.to_picture(joints), heads, camera.pixels_per_metre
+    )
+
+
+def _arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
+    """Perception's places in space (33, 3), with what is seen before the trunk before it: an arm behind it would be
+    hidden. `BEFORE` metres are those between the middle of a body and an arm that lies on it."""
+    world = figure.world.copy()
+    corners = ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")
+    trunk = np.stack([figure.point(name) for name in corners])
+    middle = trunk.mean(0)
+    trunk = np.asarray(middle + NARROWER * (trunk - middle), np.float32)
+    depths = world[[LANDMARKS.index(name) for name in corners], 2]
+    for side in ("Left", "Right"):
+        for joint in ("Elbow", "Wrist"):
+            at = LANDMARKS.index(f"{side}{joint}")
+            x, y = (float(value) for value in figure.points[at])
+            if figure.confidence[at] > SEEN and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
+                world[at, 2] = max(world[at, 2], float(depths.mean()) + BEFORE)
+    return world
+
+
+def _in_the_plane(points: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Places in space where only the picture is known: all limbs lie across the view."""
+    return np.stack([points[:, 0], -points[:, 1], np.zeros(len(points))], 1).astype(np.float32)
+
+
+def _part(name: str) -> str:
+    return name.removeprefix("Left").removeprefix("Right")

@@ -1,0 +1,193 @@
+"""The character's colours: one texture of the picture's own pixels, of what is hidden, and of the back.
+
+The paper's section 5: the front by projection; front regions behind arms filled by PatchMatch; the back a mirrored copy of
+the front, on which the face gives way to what surrounds it (hair, a hat).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.labels import PARTS
+from engine.character.layers import Labels
+from engine.character.sheets import ClosedMesh
+from engine.imaging.inpaint import background_plate
+
+BackTexture = Literal["mirror", "inpaint"]
+
+SURE = 0.9
+"""Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
+BESIDE = 0.008
+"""How far an arm's colours may reach beyond its label, as a share of the person's height."""
+ENOUGH = 0.12
+"""Share of a head from which the rest can be filled."""
+ALIKE = 25.0
+"""Distance of two colours (CIE Lab, 8 bits) below which skin cannot be told from hair."""
+THICK = 4.0
+"""Pixels from the edge of a part to its middle, below which it has no middle of its own."""
+SIDES = 0.4
+"""How far the sides of a part reach in, as a share of the way to its middle."""
+TALLEST = 1024
+"""Pixels of height of a tile, at most."""
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: what is `seen`, the `body`
+    without the arms before it, and its `back`. `scale`: their pixels for each of the grid's."""
+
+    seen: NDArray[np.uint8]
+    body: NDArray[np.uint8]
+    back: NDArray[np.uint8]
+    scale: float
+
+
+def paint_tiles(
+    rgb: NDArray[np.uint8],
+    alpha: NDArray[np.float32],
+    to_grid: NDArray[np.float64],
+    labels: Labels,
+    face: NDArray[np.float32] | None,
+    back: BackTexture,
+) -> Tiles:
+    """Paint the tiles.
+
+    Parameters
+    ----------
+    rgb, alpha : the picture (H, W, 3) and the person's mask (H, W).
+    to_grid : (2, 3) from the picture's pixels to those of the grid.
+    labels : what each pixel of the grid shows.
+    face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
+        face.
+    back : where the back's colours come from.
+    """
+    arms = np.isin(labels.labels, labels.apart)
+    shape = arms.shape
+    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0])
+    size = (round(shape[1] * scale), round(shape[0] * scale))
+    matrix = to_grid * scale
+    matrix[:, 2] += (scale - 1) / 2
+    shrinks = matrix[0, 0] < 1
+    flags = cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC
+    seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
+    own = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR)) > SURE
+    in_front = _enlarged(arms, size)
+    around = cv2.dilate(
+        in_front.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(BESIDE * size[1]))
+    )
+    seen = continued_colours(seen, own)
+    body = seen
+    if arms.any():
+        hidden = np.asarray(around > 0) & own
+        body = _filled(continued_colours(seen, own & ~hidden), hidden, own)
+    behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
+    head = _enlarged(labels.labels == PARTS.index("head"), size) & own
+    if face is not None and head.any():
+        behind = _without_face(behind, head, face * np.array([*[scale] * 4, 1]))
+    return Tiles(seen, body, behind, scale)
+
+
+def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+    """One texture (h, 3 w, 3), or two tiles wide where no arm hides anything, and each vertex' place on it (V, 2)."""
+    arms_apart = bool((mesh.layer != body_layer).any())
+    pictures = [tiles.seen, tiles.body, tiles.back] if arms_apart else [tiles.seen, tiles.back]
+    tile = np.where(mesh.layer == body_layer, np.where(mesh.front, len(pictures) - 2, len(pictures) - 1), 0)
+    height, width = tiles.seen.shape[:2]
+    place = (mesh.vertices[:, :2] + 0.5) * tiles.scale / [width, height]
+    place[:, 0] = (np.clip(place[:, 0], 0, 1) + tile) / len(pictures)
+    return np.concatenate(pictures, 1), place.astype(np.float32)
+
+
+def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """The picture with each pixel outside of `own` in the colour of the nearest one inside, softly."""
+    if not own.any() or own.all():
+        return rgb
+    _, labels = cv2.distanceTransformWithLabels((~own).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    colour_of = np.zeros((labels.max() + 1, 3), np.uint8)
+    colour_of[labels[own]] = rgb[own]
+    spread = colour_of[labels]
+    soft = np.asarray(cv2.GaussianBlur(spread, (0, 0), 2.0))
+    return np.where(own[..., None], rgb, soft).astype(np.uint8)
+
+
+def _filled(
+    rgb: NDArray[np.uint8],
+    hole: NDArray[np.bool_],
+    within: NDArray[np.bool_],
+    into: NDArray[np.uint8] | None = None,
+) -> NDArray[np.uint8]:
+    """The hole filled with patches, of the part of the picture around `within`; the rest is that of `into`, or as it was."""
+    if not hole.any():
+        return rgb
+    rows, columns = np.flatnonzero(within.any(1)), np.flatnonzero(within.any(0))
+    box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    if into is not None:
+        filled = _filled(rgb, hole, within)
+        return np.where(hole[..., None], filled, into).astype(np.uint8)
+    out = rgb.copy()
+    reach = float(np.sqrt(hole.sum()))
+    out[box] = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach)
+    return out
+
+
+def _from_the_sides(
+    rgb: NDArray[np.uint8], labels: Labels, size: tuple[int, int], own: NDArray[np.bool_]
+) -> NDArray[np.uint8]:
+    """The middle of each part of the body filled with patches of its sides (the paper's second way to a back): what is
+    printed, buttoned or worn in front is not on the back, and at the outline front and back are one."""
+    out = rgb
+    for part, name in enumerate(PARTS):
+        if name == "head":
+            continue  # its middle is the face
+        region = _enlarged(labels.labels == part, size) & own
+        depth = np.asarray(cv2.distanceTransform(np.pad(region.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+        if (thick := float(depth.max())) < THICK:
+            continue
+        out = _filled(continued_colours(out, region), depth > SIDES * thick, region, out)
+    return out
+
+
+def _without_face(rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """The head with hair, or whatever surrounds it, in the face's place."""
+    hole = np.zeros(head.shape, np.uint8)
+    x, y, wide, high, angle = (float(value) for value in face)
+    cv2.ellipse(hole, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
+    oval = (hole > 0) & head
+    above_chin = np.arange(head.shape[0])[:, None] < y + high
+    inner = cv2.erode(head.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(0.15 * wide))) > 0
+    # what is left must be enough to fill from; of a head that is all face, the outline
+    for inside in (oval | (_like_skin(rgb, head, oval, y - high) & above_chin), oval, inner & above_chin):
+        around = head & ~inside
+        if around.sum() > ENOUGH * head.sum():
+            break
+    if not inside.any() or not around.any():
+        return rgb
+    only_head = continued_colours(rgb, around)
+    filled = _filled(only_head, inside, head)
+    return np.where(head[..., None], filled, rgb).astype(np.uint8)
+
+
+def _like_skin(
+    rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray[np.bool_], brow: float
+) -> NDArray[np.bool_]:
+    """What of the head (h, w) has the face's colour rather than that of what is around the face above the row `brow` (hair, a
+    hat): ears, temples, the rest of a turned face. Nothing where both are alike."""
+    crown = head & ~face & (np.arange(head.shape[0])[:, None] < brow + 0.25 * np.ptp(np.flatnonzero(head.any(1))))
+    if crown.sum() < 30 or face.sum() < 30:
+        return np.zeros_like(head)
+    colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), 1.5), cv2.COLOR_RGB2LAB).astype(np.float32)
+    skin, hair = np.median(colours[face], axis=0), np.median(colours[crown], axis=0)
+    if np.linalg.norm(skin - hair) < ALIKE:
+        return np.zeros_like(head)
+    like = np.linalg.norm(colours - skin, axis=-1) < np.linalg.norm(colours - hair, axis=-1)
+    grown = cv2.dilate((like & head).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=2)
+    return np.asarray(grown > 0) & head
+
+
+def _enlarged(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:
+    return np.asarray(cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)) > 0.5

@@ -1,0 +1,225 @@
+"""What users correct: who is meant, the mask, the labels, the back; and what is said of postures and wrong files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from engine.character.figure import Choice, Figure, find_figure
+from engine.character.labels import PARTS
+from engine.character.layers import Labels
+from engine.character.options import LabelStroke, MaskStroke
+from engine.character.posture import check_posture
+from engine.character.sample import sample_picture
+from engine.character.silhouette import Silhouette, cut_out
+from engine.character.stages import fit_template, label
+from engine.character.strokes import LABEL_COLOURS, read_labels, read_mask, repaint_mask
+from engine.character.texture import paint_tiles
+from engine.errors import InputError
+from engine.media.image import write_image
+from engine.media.limits import Limits
+from engine.perception.body import LANDMARKS
+from engine.perception.people import find_people, person_box
+
+LIMITS = Limits()
+
+
+def found(path: Path, choice: Choice, warnings: list[str] | None = None, partial: bool = False) -> Figure:
+    told = [] if warnings is None else warnings
+    return find_figure(path, choice, partial, LIMITS, lambda code, message: told.append(code))
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("alone") / "photo.png"
+    write_image(path, sample_picture())
+    return path
+
+
+@pytest.fixture(scope="module")
+def couple(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two people beside one another, the right one smaller."""
+    one = sample_picture()
+    small = cv2.resize(one, None, fx=0.7, fy=0.7, interpolation=cv2.INTER_AREA)
+    wall = np.full((one.shape[0], small.shape[1], 3), one[2, 2], np.uint8)
+    wall[-small.shape[0] :] = small
+    path = tmp_path_factory.mktemp("couple") / "photo.png"
+    write_image(path, np.concatenate([one, wall], 1))
+    return path
+
+
+@pytest.fixture(scope="module")
+def figure(alone: Path) -> Figure:
+    return found(alone, Choice())
+
+
+@pytest.fixture(scope="module")
+def silhouette(figure: Figure) -> Silhouette:
+    return cut_out(figure, None, (), LIMITS, None, None)
+
+
+@pytest.fixture(scope="module")
+def labels(figure: Figure, silhouette: Silhouette) -> Labels:
+    return label(figure, silhouette, fit_template(figure), None, (), LIMITS)
+
+
+def test_of_two_people_the_larger_is_meant_unless_said_otherwise(couple: Path) -> None:
+    first, second = found(couple, Choice()), found(couple, Choice(index=1))
+    width = first.rgb.shape[1]
+    assert len(first.people) == 2 and (first.index, second.index) == (0, 1)
+    assert first.point("Nose")[0] < 0.5 * width < second.point("Nose")[0]
+    for box, figure in zip(first.people, (first, second), strict=True):
+        x, y = figure.point("Nose")
+        assert box[0] < x < box[0] + box[2] and box[1] < y < box[1] + box[3]
+
+
+def test_a_box_says_who_is_meant(couple: Path) -> None:
+    x, y, wide, high = (float(value) for value in found(couple, Choice()).people[1])
+    figure = found(couple, Choice(box=(x, y, wide, high)))
+    assert figure.index == 1
+    alpha = cut_out(figure, None, (), LIMITS, None, None).alpha
+    assert alpha[:, : int(x - 0.3 * wide)].max() < 0.5, "the other one is not in the mask"
+    assert (alpha > 0.5).sum() > 0.2 * wide * high
+
+
+def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
+    for choice, code in (
+        (Choice(index=2), "person_index_out_of_range"),
+        (Choice(box=(-500, 0, 100, 100)), "person_box_outside"),
+        (Choice(box=(0, 0, 30, 30)), "no_person"),
+    ):
+        with pytest.raises(InputError) as raised:
+            found(couple, choice)
+        assert raised.value.code == code
+        assert "person_box" in raised.value.correctable
+
+
+def test_in_a_crowd_a_box_is_asked_for(tmp_path: Path) -> None:
+    one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    write_image(tmp_path / "crowd.png", np.concatenate([one] * 12, 1))
+    with pytest.raises(InputError) as raised:
+        found(tmp_path / "crowd.png", Choice())
+    assert raised.value.code == "crowd"
+    x, y, wide, high = raised.value.found["people"][3]
+    assert found(tmp_path / "crowd.png", Choice(box=(x, y, wide, high))).spatial
+
+
+def test_one_person_is_one_person(media: Callable[[str], Path]) -> None:
+    for name in ("biden_arms_crossed_3q.jpg", "woman_grey_skirt.jpg"):
+        rgb = cv2.imread(str(media(f"fullbody/{name}")))[..., ::-1]
+        people = find_people(np.ascontiguousarray(rgb))
+        assert len(people) == 1
+        assert person_box(people[0], rgb.shape)[3] > 0.8 * len(rgb)
+
+
+def test_strokes_have_the_last_word_over_the_mask(figure: Figure, silhouette: Silhouette) -> None:
+    belly, wall = figure.points[[LANDMARKS.index("LeftHip"), LANDMARKS.index("RightHip")]].mean(0), (30.0, 30.0)
+    at = (float(belly[0]), float(belly[1]))
+    painted = repaint_mask(
+        silhouette.alpha,
+        (MaskStroke(path=(at,), radius=8, person=False), MaskStroke(path=(wall,), radius=5, person=True)),
+        figure.scale,
+    )
+    assert silhouette.alpha[round(at[1]), round(at[0])] == 1 and painted[round(at[1]), round(at[0])] == 0
+    assert painted[30, 30] == 1 and silhouette.alpha[30, 30] < 0.5
+    changed = np.abs(painted - silhouette.alpha) > 0.5
+    assert abs(changed.sum() - np.pi * (8**2 + 5**2)) < 0.2 * np.pi * (8**2 + 5**2)
+
+
+def test_a_mask_that_is_given_back_is_the_mask(figure: Figure, silhouette: Silhouette, tmp_path: Path) -> None:
+    write_image(tmp_path / "mask.png", np.repeat(np.round(silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2))
+    again = cut_out(figure, tmp_path / "mask.png", (), LIMITS, None, None)
+    np.testing.assert_allclose(again.alpha, silhouette.alpha, atol=0.01)
+    assert (again.mask != silhouette.mask).mean() < 1e-3
+
+
+def test_a_label_map_that_is_given_back_is_the_label_map(
+    figure: Figure, silhouette: Silhouette, labels: Labels, tmp_path: Path
+) -> None:
+    back = cv2.invertAffineTransform(silhouette.to_grid)
+    size = (figure.rgb.shape[1], figure.rgb.shape[0])
+    shown = cv2.warpAffine(LABEL_COLOURS[labels.labels.astype(int)], back, size, flags=cv2.INTER_NEAREST)
+    write_image(tmp_path / "labels.png", np.asarray(shown, np.uint8))
+    fitted = fit_template(figure)
+    again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS)
+    assert (again.labels != labels.labels).mean() < 0.01
+    at = figure.point("LeftKnee")
+    stroke = LabelStroke(path=((float(at[0]), float(at[1])),), radius=6, part="right_leg")
+    painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS)
+    x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
+    assert labels.labels[y, x] == PARTS.index("left_leg")
+    assert painted.labels[y, x] == PARTS.index("right_leg")
+
+
+def test_files_of_the_wrong_size_are_refused(tmp_path: Path) -> None:
+    write_image(tmp_path / "small.png", np.zeros((10, 12, 3), np.uint8))
+    for read, code in ((read_mask, "mask_size"), (read_labels, "labels_size")):
+        with pytest.raises(InputError) as raised:
+            read(tmp_path / "small.png", [(100, 120)], LIMITS)
+        assert raised.value.code == code
+
+
+def test_what_is_printed_in_front_is_behind_only_where_backs_are_mirrored(
+    figure: Figure, silhouette: Silhouette, labels: Labels
+) -> None:
+    corners = figure.points[
+        [LANDMARKS.index(f"{side}{joint}") for side in ("Left", "Right") for joint in ("Shoulder", "Hip")]
+    ]
+    x, y = np.rint(corners.mean(0)).astype(int)
+    rgb = figure.rgb.copy()
+    rgb[y - 12 : y + 12, x - 12 : x + 12] = (255, 30, 30)
+    printed = replace(figure, rgb=rgb)
+    red = []
+    for back in ("mirror", "inpaint"):
+        tiles = paint_tiles(printed.rgb, silhouette.alpha, silhouette.to_grid, labels, None, back)
+        red.append(int(((tiles.back[..., 0] > 200) & (tiles.back[..., 1] < 80)).sum()))
+        assert ((tiles.seen[..., 0] > 200) & (tiles.seen[..., 1] < 80)).sum() > 300
+    assert red[0] > 300 and red[1] == 0
+
+
+def landmarks(**places: tuple[float, float]) -> np.ndarray:
+    """Somebody who stands upright, arms down, in pixels; some points elsewhere."""
+    upright = {
+        **{"Nose": (100, 40), "LeftShoulder": (130, 80), "RightShoulder": (70, 80), "LeftHip": (120, 180)},
+        **{"RightHip": (80, 180), "LeftWrist": (140, 190), "RightWrist": (60, 190), "LeftKnee": (120, 260)},
+        **{"RightKnee": (80, 260), "LeftAnkle": (120, 340), "RightAnkle": (80, 340)},
+    }
+    return np.array([{**upright, **places}.get(name, (100, 100)) for name in LANDMARKS], np.float32)
+
+
+def in_space(points: np.ndarray) -> np.ndarray:
+    return np.stack([points[:, 0] / 170, -points[:, 1] / 170, np.zeros(len(points))], 1).astype(np.float32)
+
+
+def told(points: np.ndarray, world: np.ndarray | None = None) -> list[str]:
+    warnings: list[str] = []
+    check_posture(points, in_space(points) if world is None else world, lambda code, message: warnings.append(code))
+    return warnings
+
+
+def test_postures_are_told() -> None:
+    assert told(landmarks()) == []
+    turned = landmarks()
+    turned[:, 0] = 200 - turned[:, 0]
+    assert told(turned) == ["person_from_behind"]
+    assert told(landmarks(LeftWrist=(105, 5), RightWrist=(95, 5))) == ["hands_overhead"]
+    seated = in_space(landmarks())
+    for side in ("Left", "Right"):
+        hip, knee = (LANDMARKS.index(f"{side}{joint}") for joint in ("Hip", "Knee"))
+        seated[knee] = seated[hip] + [0, -0.1, 0.4]
+    assert told(landmarks(), seated) == ["person_seated"]
+    for lying in (landmarks()[:, ::-1], landmarks() * [1, -1]):
+        with pytest.raises(InputError) as raised:
+            told(np.asarray(lying, np.float32))
+        assert raised.value.code == "person_lying"
+
+
+def test_who_is_seen_from_behind_is_told_so(media: Callable[[str], Path]) -> None:
+    warnings: list[str] = []
+    found(media("orbit/turntable_man/frames/0004.png"), Choice(), warnings)
+    assert "person_from_behind" in warnings

@@ -1,0 +1,197 @@
+"""The parts of a character's making, each on something whose answer is known."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from engine.body.body_space import load_body_space
+from engine.body.fitting import Fit
+from engine.body.skinning import pose_transforms, skin
+from engine.character.labels import PARTS, part_of_bone, refined_labels, rough_labels
+from engine.character.occlusion import completed, largest
+from engine.character.part_surface import Surface, outline, part_surface, warp_part
+from engine.character.picture_space import PictureCamera
+from engine.character.rigging import bind
+from engine.character.sheets import Layer, close
+from engine.character.template_maps import side_maps
+from engine.character.texture import continued_colours
+from engine.geometry.welding import is_closed
+
+
+def disk(size: int, radius: float, x: float, y: float) -> np.ndarray:
+    rows, columns = np.mgrid[:size, :size]
+    return np.hypot(columns - x, rows - y) < radius
+
+
+def test_picture_space_and_metres_are_each_others_inverse() -> None:
+    camera = PictureCamera(900.0, (310.0, 205.5), 3.2)
+    points = np.random.default_rng(0).uniform(-1, 1, (200, 3)) - [0, 0, 3]
+    np.testing.assert_allclose(camera.to_metres(camera.to_picture(points)), points, atol=1e-9)
+
+
+def test_a_resized_picture_has_a_resized_camera() -> None:
+    camera, point = PictureCamera(900.0, (310.0, 205.5), 3.2), np.array([0.3, -0.2, -3.0])
+    large, small = camera.to_picture(point), camera.scaled(0.5).to_picture(point)
+    np.testing.assert_allclose((small[:2] + 0.5) * 2 - 0.5, large[:2])
+    np.testing.assert_allclose(small[2] * 2, large[2])
+
+
+def ball(size: int, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """A sphere in picture space around the middle, with outward triangles for y down."""
+    import trimesh
+
+    mesh = trimesh.creation.icosphere(4, radius)
+    return mesh.vertices + np.array([size / 2, size / 2, 0]), mesh.faces[:, ::-1].astype(np.int32)
+
+
+def test_a_ball_warped_to_a_wider_outline_grows_deeper_with_it() -> None:
+    """Normals are warped, not depth: the paper's figure 3."""
+    size = 160
+    vertices, triangles = ball(size, 30)
+    front = side_maps(vertices, triangles, (size, size), "front")
+    back = side_maps(vertices, triangles, (size, size), "back")
+    assert abs(np.nanmax(front.depth) - 30) < 0.5
+    assert abs(np.nanmin(back.depth) + 30) < 0.5
+    assert front.normals[size // 2, size // 2, 2] > 0.99
+    assert back.normals[size // 2, size // 2, 2] > 0.99
+    warp = warp_part(front.mask, front.mask)
+    same = part_surface(front.mask, warp, front, np.ones((size, size, 1), np.float32))
+    assert np.nanmean(np.abs(same.depth - front.depth)) < 1.5
+    assert 24 < same.depth[size // 2, size // 2] < 36
+    behind = part_surface(front.mask, warp, back, np.ones((size, size, 1), np.float32))
+    assert np.nanmean(np.abs(behind.depth - back.depth)) < 1.5
+    assert -36 < behind.depth[size // 2, size // 2] < -24
+
+
+def test_weights_are_carried_along() -> None:
+    size = 120
+    vertices, triangles = ball(size, 30)
+    front = side_maps(vertices, triangles, (size, size), "front")
+    upper = (np.arange(size) < size / 2)[:, None] & np.ones(size, bool)
+    weights = np.stack([upper, ~upper], -1).astype(np.float32)
+    mask = disk(size, 45, 60, 60)
+    surface = part_surface(mask, warp_part(mask, front.mask), front, weights)
+    assert surface.weights[25, 60, 0] > 0.95
+    assert surface.weights[95, 60, 1] > 0.95
+    np.testing.assert_allclose(surface.weights[disk(size, 45, 60, 60)].sum(-1), 1, atol=1e-5)
+
+
+def layer(mask: np.ndarray, depth: float = 8.0) -> Layer:
+    inside = np.asarray(cv2.distanceTransform(mask.astype(np.uint8), cv2.DIST_L2, 5))
+    sides = [np.where(mask, sign * np.minimum(inside, depth), np.nan).astype(np.float32) for sign in (1, -1)]
+    weights = np.zeros((*mask.shape, 52), np.float32)
+    weights[..., 0] = 1
+    return Layer(mask, *(Surface(side, weights) for side in sides), np.zeros(mask.shape, np.int8))
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_sheets_are_closed_and_end_at_the_masks_edge(count: int) -> None:
+    soft = np.clip(20.3 - np.hypot(*(np.mgrid[:64, :64] - 31.5)) + 0.5, 0, 1).astype(np.float32)
+    layers = [layer(soft > 0.5), layer(disk(64, 9, 40, 32))][:count]
+    mesh = close(layers, soft)
+    _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
+    assert is_closed(point.ravel()[mesh.triangles])
+    body = mesh.vertices[mesh.layer == 0]
+    radius = np.hypot(body[:, 0] - 31.5, body[:, 1] - 31.5).max()
+    assert abs(radius - 20.3) < 0.5, "within half a pixel"
+    a, b, c = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
+    assert (np.cross(a, b) * c).sum() < 0, "outward for one who looks at a picture whose y points down"
+
+
+def test_a_waist_of_one_pixel_is_no_pinch() -> None:
+    mask = disk(40, 8, 12, 20) | disk(40, 8, 28, 20)
+    mask[20, 19:22] = True
+    mesh = close([layer(mask)], mask.astype(np.float32))
+    _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
+    assert is_closed(point.ravel()[mesh.triangles])
+
+
+def test_posed_as_pictured_the_vertices_are_where_they_were() -> None:
+    space, random = load_body_space(), np.random.default_rng(4)
+    turns = Rotation.from_rotvec(random.normal(0, 0.3, (len(space.names), 3))).as_matrix()
+    fit = Fit(
+        random.normal(size=5).astype(np.float32),
+        turns.astype(np.float32),
+        np.array([0.1, 0.2, -3], np.float32),
+        0.0,
+        np.zeros(1),
+    )
+    mesh = close([layer(disk(64, 20, 32, 32))], disk(64, 20, 32, 32).astype(np.float32))
+    weights = random.uniform(0, 1, (len(mesh.vertices), 4)).astype(np.float32)
+    weights = -np.sort(-weights, 1) / weights.sum(1, keepdims=True)
+    bones = random.integers(0, 22, (len(mesh.vertices), 4)).astype(np.uint8)
+    mesh = type(mesh)(mesh.vertices, mesh.triangles, mesh.front, mesh.layer, bones, weights)
+    camera = PictureCamera(100.0, (32, 32), 3.0)
+    character = bind(
+        mesh, camera, fit, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
+    )
+    bound, pictured = character.mesh, character.pictured
+    transforms = pose_transforms(bound.skeleton, pictured.rotations, pictured.root)[0]
+    posed = skin(bound.vertices, bound.bones, bound.weights, transforms)
+    np.testing.assert_allclose(posed, camera.to_metres(mesh.vertices) + character.eye, atol=2e-4)
+    assert abs(bound.vertices[:, 1].min()) < 1e-5, "the T-pose stands on the ground"
+
+
+def test_bones_belong_to_parts() -> None:
+    assert PARTS[part_of_bone("LeftHandIndex2")] == "left_arm"
+    assert PARTS[part_of_bone("RightToeBase")] == "right_leg"
+    assert PARTS[part_of_bone("Neck")] == "head"
+    assert PARTS[part_of_bone("LeftShoulder")] == "torso"
+
+
+def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:
+    mask = np.zeros((120, 60), np.bool_)
+    mask[5:115, 10:50] = True
+    template = np.full((120, 60), -1)
+    template[10:40, 15:45], template[40:110, 15:45] = PARTS.index("head"), PARTS.index("torso")
+    found = rough_labels(mask, template)
+    assert (found[~mask] == -1).all()
+    assert set(np.unique(found[mask])) == {PARTS.index("head"), PARTS.index("torso")}
+    assert (found[5:35, 10:50] == PARTS.index("head")).mean() > 0.97
+    assert (found[45:115, 10:50] == PARTS.index("torso")).mean() > 0.97
+
+
+def test_refined_labels_go_to_where_the_colours_change() -> None:
+    rgb = np.zeros((80, 80, 3), np.uint8)
+    rgb[:, :46], rgb[:, 46:] = (200, 60, 50), (40, 80, 190)
+    rgb = np.clip(rgb + np.random.default_rng(0).normal(0, 6, rgb.shape), 0, 255).astype(np.uint8)
+    rough = np.where(np.arange(80) < 40, PARTS.index("torso"), PARTS.index("left_arm"))[None].repeat(80, 0)
+    occlusion = np.zeros((80, 80), np.bool_)
+    occlusion[10:70, 30:52] = True
+    found = refined_labels(rgb, rough, occlusion)
+    assert (found[12:68, 30:46] == PARTS.index("torso")).mean() > 0.99
+    assert (found[12:68, 46:52] == PARTS.index("left_arm")).mean() > 0.99
+    assert (found[~occlusion] == rough[~occlusion]).all()
+
+
+def test_the_body_is_completed_behind_an_arm() -> None:
+    """A square whose lower right corner an arm hides: the template's corner comes back."""
+    template = np.zeros((100, 100), np.bool_)
+    template[20:80, 20:80] = True
+    arm = np.zeros_like(template)
+    arm[60:90, 60:95] = True
+    visible = template & ~arm
+    near = np.asarray(cv2.dilate(arm.astype(np.uint8), np.ones((5, 5), np.uint8))) > 0
+    found = completed(visible, arm, near, template)
+    assert (found & visible).sum() == visible.sum()
+    assert ((found ^ template).sum()) < 0.02 * template.sum()
+    assert not (found & ~(template | arm)).any()
+
+
+def test_the_outline_goes_round_the_largest_piece() -> None:
+    mask = disk(64, 20, 30, 30) | disk(64, 3, 58, 58)
+    border = outline(mask)
+    assert np.hypot(*(border - 30).T).max() < 20.5
+    assert largest(mask).sum() == disk(64, 20, 30, 30).sum()
+
+
+def test_colours_are_continued_beyond_the_mask() -> None:
+    rgb = np.zeros((40, 40, 3), np.uint8)
+    rgb[:, :20] = (200, 10, 10)
+    own = np.zeros((40, 40), np.bool_)
+    own[:, :20] = True
+    found = continued_colours(rgb, own)
+    assert np.abs(found.astype(int) - [200, 10, 10]).max() <= 1

@@ -1,0 +1,162 @@
+"""The whole system: on a picture of the project's own, on real pictures, and on what is no picture of a person."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from engine.character import wake_up
+from engine.character.sample import sample_picture
+from engine.errors import InputError
+from engine.media.image import read_image, write_image
+from engine.media.video import read_video
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "export"))
+from glb_reader import Glb, validate
+
+ARTIFACTS = {
+    *("animation.mp4", "background.png", "character.glb", "character.usdz", "labels.png", "mask.png", "poster.jpg"),
+    *("posed.png", "preview.jpg", "report.json", "skeleton.json"),
+}
+
+
+@pytest.fixture(scope="module")
+def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("picture") / "photo.png"
+    write_image(path, sample_picture())
+    return path
+
+
+@pytest.fixture(scope="module")
+def woken(picture: Path) -> Path:
+    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True)
+
+
+def test_everything_is_left(woken: Path) -> None:
+    assert {path.name for path in woken.iterdir()} == ARTIFACTS | {"character.vrm"}
+
+
+def test_its_own_measures_are_good(woken: Path) -> None:
+    report = json.loads((woken / "report.json").read_text())
+    assert report["kind"] == "character"
+    assert report["quality"]["silhouette_iou"] > 0.99
+    assert report["quality"]["landmark_reprojection"] < 0.01
+    assert report["quality"]["closed"] == 1
+    assert report["quality"]["triangles"] <= 60_000
+    assert report["warnings"] == []
+
+
+def test_the_glb_is_valid_and_has_its_clips(woken: Path) -> None:
+    assert validate(woken / "character.glb")["numErrors"] == 0
+    names = [clip["name"] for clip in Glb(woken / "character.glb").json["animations"]]
+    assert names == ["pictured", "step_out", "walk", "walk_in_place", "idle"]
+    assert (woken / "character.glb").stat().st_size < 10e6
+
+
+def test_the_skeleton_is_told_as_seen_and_as_fitted(woken: Path, picture: Path) -> None:
+    skeleton = json.loads((woken / "skeleton.json").read_text())
+    assert skeleton["size"] == [read_image(picture).rgb.shape[1], read_image(picture).rgb.shape[0]]
+    for seen, fitted in (("LeftWrist", "LeftHand"), ("RightAnkle", "RightFoot"), ("LeftElbow", "LeftForeArm")):
+        off = np.subtract(skeleton["joints"][seen]["place"], skeleton["fitted"][fitted]["place"])
+        assert np.hypot(*off) < 0.02 * skeleton["size"][1], seen
+    assert skeleton["fitted"]["Hips"]["parent"] is None
+    assert skeleton["fitted"]["LeftHand"]["parent"] == "LeftForeArm"
+
+
+def test_the_film_begins_with_the_picture_itself(woken: Path, picture: Path) -> None:
+    """The person is drawn over the filled background where they are pictured: hardly anything changes."""
+    frames = list(read_video(woken / "animation.mp4"))
+    shown = read_image(picture).rgb[: frames[0].rgb.shape[0], : frames[0].rgb.shape[1]]
+    assert np.abs(frames[0].rgb.astype(int) - shown).mean() < 4
+    assert np.abs(frames[-1].rgb.astype(int) - shown).mean() > 6
+
+
+def test_nobody_is_left_in_the_background(woken: Path, picture: Path) -> None:
+    plate, mask = read_image(woken / "background.png").rgb, read_image(woken / "mask.png").rgb[..., 0] > 128
+    rows = np.arange(len(mask)) < 0.85 * len(mask)
+    wall = plate[mask & rows[:, None]].astype(int)
+    assert np.abs(wall - [128, 138, 148]).max() < 12
+
+
+def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path, tmp_path: Path) -> None:
+    out = wake_up(picture, tmp_path / "out", seconds=1, motion="wave", pose={"LeftArm": (0, 0, 90)}, keep=("legs",))
+    raised = np.abs(read_image(out / "posed.png").rgb.astype(int) - read_image(woken / "posed.png").rgb).sum(-1) > 60
+    columns = np.nonzero(raised)[1]
+    middle = raised.shape[1] / 2
+    assert raised.sum() > 500
+    assert np.median(columns) > middle, "the person's left is on the picture's right"
+
+
+def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
+    out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1)
+    names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
+    assert names == ["pictured", "step_out", "motion", "motion_in_place", "idle"]
+
+
+def refused(tmp_path: Path, photo: Path, motion: Path | None = None, **options: object) -> InputError:
+    with pytest.raises(InputError) as raised:
+        wake_up(photo, tmp_path / "refused", motion, **options)
+    return raised.value
+
+
+def test_what_shows_nobody_is_refused(tmp_path: Path) -> None:
+    write_image(tmp_path / "wall.png", np.full((300, 300, 3), 128, np.uint8))
+    error = refused(tmp_path, tmp_path / "wall.png")
+    assert (error.code, error.correctable) == ("no_person", ("joints", "person_box"))
+
+
+def test_who_is_cut_off_is_refused_unless_that_is_wanted(tmp_path: Path, picture: Path) -> None:
+    rgb = read_image(picture).rgb
+    write_image(tmp_path / "cut.png", np.ascontiguousarray(rgb[: int(0.62 * len(rgb))]))
+    error = refused(tmp_path, tmp_path / "cut.png")
+    assert error.code == "not_full_body" and "partial" in error.correctable
+    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True)
+    codes = [one["code"] for one in json.loads((out / "report.json").read_text())["warnings"]]
+    assert codes == ["not_full_body"]
+
+
+def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path) -> None:
+    assert refused(tmp_path, picture, joints={"Tail": (10, 10)}).code == "unknown_joint"
+    assert refused(tmp_path, picture, joints={"LeftKnee": (10_000, 10)}).code == "joint_outside"
+    assert refused(tmp_path, picture, pose={"Tail": (1, 2, 3)}).code == "unknown_joint"
+
+
+@pytest.mark.parametrize(("content", "code"), [
+    (b"", "motion_unreadable"),
+    (b"HIERARCHY\nROOT Hips\n{\n", "motion_truncated"),
+    (b"glTF", "motion_unreadable"),
+])  # fmt: skip
+def test_motions_that_are_none_are_refused(tmp_path: Path, picture: Path, content: bytes, code: str) -> None:
+    (tmp_path / "motion").write_bytes(content)
+    assert refused(tmp_path, picture, tmp_path / "motion").code == code
+
+
+@pytest.mark.parametrize("name", ["iper_apose_1.jpg", "man_mug_arm_across.png", "cartoon_basketball.jpg"])
+def test_real_pictures(media: Callable[[str], Path], tmp_path: Path, name: str) -> None:
+    out = wake_up(media(f"fullbody/{name}"), tmp_path / "out", seconds=1)
+    quality = json.loads((out / "report.json").read_text())["quality"]
+    assert quality["silhouette_iou"] > 0.985
+    assert quality["landmark_reprojection"] < 0.02
+    assert quality["closed"] == 1
+
+
+DRAWN = {
+    **{"RightShoulder": (200, 220), "RightElbow": (110, 260), "RightWrist": (50, 295), "RightHip": (200, 400)},
+    **{"RightKnee": (170, 465), "RightAnkle": (135, 540), "LeftShoulder": (320, 215), "LeftElbow": (390, 240)},
+    **{"LeftWrist": (440, 280), "LeftHip": (330, 395), "LeftKnee": (380, 460), "LeftAnkle": (410, 530)},
+}
+
+
+def test_a_childs_drawing_wakes_up_by_joints_placed_by_hand(media: Callable[[str], Path], tmp_path: Path) -> None:
+    drawing = media("fullbody/drawing_child_boy.png")
+    error = refused(tmp_path, drawing)
+    assert (error.code, error.correctable) == ("no_person", ("joints", "person_box"))
+    out = wake_up(drawing, tmp_path / "out", seconds=1, joints=DRAWN)
+    report = json.loads((out / "report.json").read_text())
+    assert report["quality"]["silhouette_iou"] > 0.98
+    assert report["quality"]["closed"] == 1
