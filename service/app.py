@@ -3,19 +3,28 @@
 from __future__ import annotations
 
 from fastapi import APIRouter, FastAPI
+from fastapi.middleware.cors import CORSMiddleware
 
 import engine
 from service import openapi, problems
 from service.artifacts.endpoints import router as artifacts
+from service.auth.endpoints import router as keys
 from service.context import Context
 from service.drivers.endpoints import router as drivers
 from service.events.endpoints import router as events
+from service.events.watch import Watch
 from service.files.endpoints import router as files
-from service.guard import LoopbackGuard
+from service.guard import Guard
 from service.health.endpoints import router as health
 from service.jobs.endpoints import router as jobs
 from service.kinds.endpoints import router as kinds
+from service.links.endpoints import router as links
+from service.motions.endpoints import router as motions
 from service.page import Page
+from service.traces.requests import Requests
+from service.uploads.endpoints import router as uploads
+from service.uploads.under_way import UnderWay
+from service.webhooks.endpoints import router as webhooks
 
 
 def make_app(context: Context) -> FastAPI:
@@ -27,15 +36,35 @@ def make_app(context: Context) -> FastAPI:
         openapi_url="/v1/openapi.json",
         docs_url=None,  # it would load scripts from elsewhere
         redoc_url=None,
+        # It would tell of addresses and messages that hold secrets; `service.traces` tells what may be told.
+        telemetry={"tracing": False, "metrics": False, "logs": False, "auto_configure": False},
     )
     app.state.context = context
+    app.state.uploads = UnderWay()
+    app.state.watch = Watch(context)
     problems.install(app)
-    openapi.describe(app)
+    openapi.describe(app, context.settings.keys_required)
     v1 = APIRouter(prefix="/v1")
-    for router in (files, jobs, events, artifacts, kinds, drivers):
+    for router in (files, uploads, jobs, events, artifacts, kinds, drivers, motions, keys, links, webhooks):
         v1.include_router(router)
     app.include_router(v1)
     app.include_router(health)
     app.router.default = Page(context.settings.web_dir)  # not mounted: a mount would hide which methods a route has
-    app.add_middleware(LoopbackGuard, trusted_proxies=context.settings.trusted_proxies)
+    settings = context.settings
+    if settings.cors_origins:
+        app.add_middleware(
+            CORSMiddleware,
+            allow_origins=settings.cors_origins,
+            allow_methods=["*"],
+            allow_headers=["*"],
+            expose_headers=["*", "Authorization"],
+        )
+    app.add_middleware(
+        Guard,
+        trusted_proxies=settings.trusted_proxies,
+        keys_required=settings.keys_required,
+        origins=settings.cors_origins,
+    )
+    # Around the layer that answers errors of ours too, which `add_middleware` cannot reach.
+    app.middleware_stack = Requests(app.build_middleware_stack(), context.traces.tracer)
     return app

@@ -10,11 +10,13 @@ from fastapi import Depends, Request
 
 import service.tables  # noqa: F401  (the tables must know of each other before the first query)
 from engine.kind import Kind
+from service.bucket import Bucket
 from service.database import Database
-from service.kinds.registry import load_kinds
+from service.kinds.registry import load_kinds, require_known
 from service.queue import Queue
 from service.settings import Settings
 from service.storage import Storage
+from service.traces.tracer import Traces
 
 
 @dataclass(frozen=True)
@@ -26,19 +28,29 @@ class Context:
     database: Database
     storage: Storage
     queue: Queue
+    traces: Traces
 
     @classmethod
-    def open(cls, settings: Settings) -> Context:
-        """Open everything, making the data folder and the tables where they are not there yet."""
+    def open(cls, settings: Settings, part: str = "api") -> Context:
+        """Open everything, making the data folder and the tables where they are not there yet. `part` is what this
+        process is, for the traces."""
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
         kinds = load_kinds(settings.kinds)
-        database = Database(settings.database)
+        require_known(settings.worker_kinds, kinds)
+        database = Database(settings.database, settings.database_connections)
         database.upgrade()
-        return cls(settings, kinds, database, Storage(settings.data_dir / "storage"), Queue(settings, kinds))
+        traces = Traces(settings.traces_url, part)
+        return cls(settings, kinds, database, open_storage(settings), Queue(settings, kinds), traces)
 
     def close(self) -> None:
         self.queue.close()
         self.database.close()
+        self.traces.close()
+
+
+def open_storage(settings: Settings) -> Storage:
+    """The bucket of the settings, or a folder in the data folder."""
+    return Bucket(settings) if settings.storage_url is not None else Storage(settings.data_dir / "storage")
 
 
 def _context(request: Request) -> Context:

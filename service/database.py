@@ -1,12 +1,12 @@
 """The database: sessions that read, sessions that write, and the bringing up to date of its tables.
 
-SQLite runs in write-ahead mode. A writing session takes the write lock at once (`BEGIN IMMEDIATE`): a
-transaction that reads first and writes later could otherwise find its snapshot stale and fail.
+SQLite and PostgreSQL are spoken to as `service.sqlite` and `service.postgresql` say. On SQLite one transaction writes
+at a time; on PostgreSQL many do, each under READ COMMITTED: a row that a decision rests on is locked first, or the
+decision stands in the WHERE of the change itself.
 """
 
 from __future__ import annotations
 
-import fcntl
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -15,9 +15,18 @@ from typing import Any
 
 from alembic import command
 from alembic.config import Config
-from sqlalchemy import DateTime, Dialect, TypeDecorator, create_engine, event
-from sqlalchemy.engine import Connection, Engine, make_url
+from alembic.runtime.migration import MigrationContext
+from alembic.script import ScriptDirectory
+from sqlalchemy import DateTime, Dialect, Float, TypeDecorator, literal
+from sqlalchemy.exc import DBAPIError, InterfaceError, TimeoutError
+from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.orm import DeclarativeBase, Session
+from sqlalchemy.sql.functions import GenericFunction
+
+from service import postgresql, sqlite
+
+SET_BACK_SECONDS = 1800.0
+"""What lies further ahead (leases are far shorter) was written before the clock was set back."""
 
 
 class Base(DeclarativeBase):
@@ -34,16 +43,45 @@ class UTCDateTime(TypeDecorator[datetime]):
         return None if value is None else value.astimezone(UTC)
 
     def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
-        return value.replace(tzinfo=UTC) if value is not None and value.tzinfo is None else value
+        if value is None:
+            return None
+        return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
+
+
+class moment_in(GenericFunction[datetime]):
+    """`moment_in(seconds)`: the database's own now, and so many seconds on (or back).
+
+    What several machines compare, such as the end of a lease, is measured by this one clock and never by theirs.
+    """
+
+    type = UTCDateTime()
+    inherit_cache = True
+
+    def __init__(self, seconds: float = 0.0):
+        super().__init__(literal(float(seconds), Float))
+
+
+@compiles(moment_in, "postgresql")
+def _moment_on_postgresql(element: moment_in, compiler: Any, **keywords: Any) -> str:
+    return f"(clock_timestamp() + make_interval(secs => {compiler.process(element.clauses, **keywords)}))"
+
+
+@compiles(moment_in, "sqlite")
+def _moment_on_sqlite(element: moment_in, compiler: Any, **keywords: Any) -> str:
+    seconds = compiler.process(element.clauses, **keywords)
+    return f"strftime('%Y-%m-%d %H:%M:%f000', 'now', ({seconds}) || ' seconds')"
 
 
 class Database:
     """An open database."""
 
-    def __init__(self, url: str):
+    def __init__(self, url: str, connections: int = 20):
+        """`connections` are the most that this process opens to a PostgreSQL server."""
         self.url = url
-        self._engine = _engine(url)
+        self._kind = postgresql if postgresql.speaks(url) else sqlite
+        self._engine = self._kind.engine(url, connections)
         self._writing = self._engine.execution_options(galatea_writes=True)
+        self._writers = self._kind.writers()
 
     @contextmanager
     def read(self) -> Iterator[Session]:
@@ -54,37 +92,57 @@ class Database:
     @contextmanager
     def write(self) -> Iterator[Session]:
         """A session whose changes become true together when the block ends, or not at all."""
-        with Session(self._writing, expire_on_commit=False) as session, session.begin():
+        with self._writers(), Session(self._writing, expire_on_commit=False) as session, session.begin():
             yield session
 
     def upgrade(self) -> None:
         """Bring the tables to the newest version; safe when several processes start at once."""
-        config = Config()
-        config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
-        path = make_url(self.url).database or ""
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        with Path(f"{path}.upgrade").open("w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            with self._engine.connect() as connection:
-                config.attributes["connection"] = connection
-                command.upgrade(config, "head")
+        self.migrate("head")
+
+    def migrate(self, revision: str) -> None:
+        """Bring the tables to a version, up or down. Going down forgets what the older version cannot hold."""
+        config = alembic_config()
+        with self._kind.alone(self.url) as connection:
+            config.attributes["connection"] = connection
+            scripts = ScriptDirectory.from_config(config)
+            here = MigrationContext.configure(connection).get_current_revision()
+            connection.rollback()
+            # Only what has been passed lies below: going there is going down.
+            passed = [script.revision for script in scripts.iterate_revisions(here, "base")] if here else []
+            (command.downgrade if revision in ("base", *passed[1:]) else command.upgrade)(config, revision)
+
+    def revision(self) -> str | None:
+        """The version of the tables; None if there are none yet."""
+        with self._engine.connect() as connection:
+            return MigrationContext.configure(connection).get_current_revision()
+
+    def tidy(self) -> None:
+        """See to it that what was erased is nowhere on disk, as far as this database can be told to."""
+        with self._engine.connect() as connection:
+            self._kind.tidy(connection)
 
     def close(self) -> None:
         self._engine.dispose()
 
 
-def _engine(url: str) -> Engine:
-    engine = create_engine(url, connect_args={"timeout": 15})
+def database_unavailable(error: BaseException) -> bool:
+    """Whether an error says that the database cannot be reached now, or has no time: later may be better."""
+    if isinstance(error, TimeoutError):
+        return True  # all connections of this process are in use
+    if not isinstance(error, DBAPIError):
+        return False
+    code = postgresql.error_code(error.orig)
+    return (
+        error.connection_invalidated
+        or isinstance(error, InterfaceError)
+        or code.startswith(postgresql.GONE)
+        or code in postgresql.BUSY
+        or "database is locked" in str(error.orig)
+    )
 
-    @event.listens_for(engine, "connect")
-    def prepare(connection: Any, _: Any) -> None:
-        connection.isolation_level = None  # the transactions below are ours, not the driver's
-        for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON"):
-            connection.execute(f"PRAGMA {pragma}").close()
 
-    @event.listens_for(engine, "begin")
-    def begin(connection: Connection) -> None:
-        writes = connection.get_execution_options().get("galatea_writes", False)
-        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
-
-    return engine
+def alembic_config() -> Config:
+    """Where the migrations are."""
+    config = Config()
+    config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
+    return config

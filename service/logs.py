@@ -24,10 +24,15 @@ def configure(settings: Settings) -> None:
         logger_factory=structlog.stdlib.LoggerFactory(),
         wrapper_class=structlog.stdlib.BoundLogger,
     )
+    # Tracebacks without the values of variables: among those are secrets, and drawing them takes seconds.
+    plain = structlog.tracebacks.ExceptionDictTransformer(show_locals=False)
+    console = structlog.dev.ConsoleRenderer(
+        colors=sys.stderr.isatty(), exception_formatter=structlog.dev.plain_traceback
+    )
     last: list[Processor] = (
-        [structlog.processors.dict_tracebacks, structlog.processors.JSONRenderer()]
+        [structlog.processors.ExceptionRenderer(plain), structlog.processors.JSONRenderer()]
         if settings.log_format == "json"
-        else [structlog.dev.ConsoleRenderer(colors=sys.stderr.isatty())]
+        else [console]
     )
     handler = logging.StreamHandler()
     handler.setFormatter(
@@ -40,5 +45,11 @@ def configure(settings: Settings) -> None:
     root.handlers = [handler]
     root.setLevel(settings.log_level)
     detailed = settings.log_level == "DEBUG"
+    # It tells of each connection that an outage broke; whoever needed one says so in words of its own.
+    logging.getLogger("sqlalchemy.pool").setLevel("DEBUG" if detailed else "CRITICAL")
+    # Of a collector that is away it tells each try; that a batch was lost is enough.
+    logging.getLogger("opentelemetry").setLevel("DEBUG" if detailed else "ERROR")
+    # Whole addresses, in which there may be secrets, are among what httpx tells.
+    logging.getLogger("httpx").setLevel("WARNING")
     for noisy in ("uvicorn.access", "uvicorn.error", "celery", "kombu", "amqp", "alembic", "asyncio"):
         logging.getLogger(noisy).setLevel("DEBUG" if detailed else "WARNING")

@@ -12,12 +12,34 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ValidationError
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
+from starlette.routing import Match
+from starlette.types import Scope
+
+from service.database import database_unavailable
+from service.postgresql import UNTRANSLATABLE, error_code
+from service.storage import StorageUnavailable
+from service.traces.current import current_request
 
 MEDIA_TYPE = "application/problem+json"
+RETRY_SECONDS = 5
+"""After how long it is worth trying again where something does not answer."""
+METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+
+HEADERS = {
+    401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},
+    405: {"Allow": {"description": "The methods on offer.", "required": True, "schema": {"type": "string"}}},
+    416: {"Content-Range": {"description": "How long the file is.", "required": True, "schema": {"type": "string"}}},
+    429: {"Retry-After": {"description": "Seconds.", "required": True, "schema": {"type": "integer"}}},
+}
+"""What comes with a problem of some status."""
+
+
+PHRASES = {460: "Checksum Mismatch"}
+"""Of statuses that HTTP itself does not know (460 is of the tus protocol)."""
 
 
 class FieldError(BaseModel):
@@ -40,6 +62,8 @@ class ProblemDocument(BaseModel):
     detail: str
     """What to do."""
     errors: list[FieldError] | None = None
+    request_id: str | None = None
+    """Of the request, as in the service's log."""
 
 
 class Problem(Exception):
@@ -61,13 +85,16 @@ class Problem(Exception):
         self.headers = dict(headers or {})
 
     def response(self) -> JSONResponse:
+        request = current_request()
+        request.problem = self.code
         document = ProblemDocument(
             type=f"urn:galatea:problem:{self.code}",
-            title=HTTPStatus(self.status).phrase,
+            title=phrase(self.status),
             status=self.status,
             code=self.code,
             detail=self.detail,
             errors=self.errors or None,
+            request_id=request.id,
         )
         return JSONResponse(
             document.model_dump(exclude_none=True), self.status, headers=self.headers, media_type=MEDIA_TYPE
@@ -90,6 +117,12 @@ def invalid(error: ValidationError, code: str, prefix: str = "") -> Problem:
     return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}", errors)
 
 
+def invalid_request(error: RequestValidationError) -> Problem:
+    """The 422 problem for a request whose parts are not as the OpenAPI document says."""
+    errors = field_errors(error.errors())
+    return Problem(422, "invalid_request", f"{errors[0].pointer}: {errors[0].detail}", errors)
+
+
 def install(app: FastAPI) -> None:
     """Make every error of the application a problem document."""
 
@@ -99,11 +132,14 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def validation(request: Request, error: RequestValidationError) -> JSONResponse:
-        errors = field_errors(error.errors())
-        return Problem(422, "invalid_request", f"{errors[0].pointer}: {errors[0].detail}", errors).response()
+        return invalid_request(error).response()
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:
+        if error.status_code == 400 and isinstance(error.__cause__, ValueError):  # FastAPI's, of a body that is no text
+            return Problem(422, "invalid_json", "The body is not valid JSON.").response()
+        if error.status_code == 405:
+            error.headers = {"Allow": ", ".join(_methods(app, request.scope))}
         code = {404: "not_found", 405: "method_not_allowed"}.get(error.status_code, f"http_{error.status_code}")
         detail = {
             404: "There is nothing at this address.",
@@ -116,16 +152,40 @@ def install(app: FastAPI) -> None:
         return Response(status_code=400)  # nobody is there to read it
 
     @app.exception_handler(OSError)
-    @app.exception_handler(OperationalError)
-    async def storage(request: Request, error: OSError | OperationalError) -> JSONResponse:
+    @app.exception_handler(SQLAlchemyError)
+    async def storage(request: Request, error: OSError | SQLAlchemyError) -> JSONResponse:
         if getattr(error, "errno", None) in (ENOSPC, EDQUOT) or "disk is full" in str(error):
             return disk_full().response()
+        if isinstance(error, StorageUnavailable) or database_unavailable(error):
+            structlog.get_logger().warning("unavailable", path=request.url.path, reason=str(error).splitlines()[0])
+            return unavailable().response()
+        if error_code(getattr(error, "orig", None)) == UNTRANSLATABLE:
+            return Problem(422, "invalid_request", "A text holds a character that cannot be kept (NUL).").response()
         return await unexpected(request, error)
 
     @app.exception_handler(Exception)
     async def unexpected(request: Request, error: Exception) -> JSONResponse:
         structlog.get_logger().error("unexpected_error", path=request.url.path, exc_info=error)
         return Problem(500, "internal_error", "Something went wrong inside the service; its log says what.").response()
+
+
+def unavailable() -> Problem:
+    """The database or the storage cannot be reached."""
+    return Problem(
+        503,
+        "unavailable",
+        "The database or the storage of the service does not answer: send the request again in a while.",
+        headers={"Retry-After": str(RETRY_SECONDS)},
+    )
+
+
+def _methods(app: FastAPI, scope: Scope) -> list[str]:
+    """The methods that an address offers, by whichever routes."""
+
+    def offered(method: str) -> bool:
+        return any(route.matches({**scope, "method": method})[0] is Match.FULL for route in app.router.routes)
+
+    return [method for method in METHODS if offered(method)]
 
 
 def disk_full() -> Problem:
@@ -141,4 +201,16 @@ def disk_full() -> Problem:
 def responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """The problem answers of an endpoint, for the OpenAPI document."""
     content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/ProblemDocument"}}}
-    return {status: {"description": HTTPStatus(status).phrase, "content": content} for status in statuses}
+    return {
+        status: {
+            "description": phrase(status),
+            "content": content,
+            **({"headers": HEADERS[status]} if status in HEADERS else {}),
+        }
+        for status in statuses
+    }
+
+
+def phrase(status: int) -> str:
+    """What a status means, in a word or two."""
+    return PHRASES.get(status) or HTTPStatus(status).phrase

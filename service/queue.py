@@ -1,4 +1,7 @@
-"""The queue: hints to the workers that a job waits. It may forget them; SQL is the truth and the sweep sends again."""
+"""The queue: hints to the workers that a job waits. It may forget them; SQL is the truth and the sweep sends again.
+
+A message makes a worker look, and no more: which job of that kind it takes is decided in SQL (`leases.claim_next`).
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,7 @@ def _queue(kind: str) -> KombuQueue:
 
 
 class Queue:
-    """Sends messages that carry a job's id and nothing else."""
+    """Sends messages that carry a job's id and kind, and nothing else."""
 
     def __init__(self, settings: Settings, kinds: Iterable[str]):
         url = settings.redis_url or f"unix://{socket_path(settings.data_dir)}"
@@ -68,7 +71,7 @@ class Queue:
     def send(self, job_id: str, kind: str) -> bool:
         """Tell the workers that a job waits; False if the queue cannot be reached now."""
         try:
-            self.celery.send_task(TASK, args=[job_id], queue=_queue(kind), retry=False, ignore_result=True)
+            self.celery.send_task(TASK, args=[job_id, kind], queue=_queue(kind), retry=False, ignore_result=True)
         except (OperationalError, redis.RedisError, OSError) as error:
             structlog.get_logger().warning("message_not_sent", job=job_id, reason=str(error))
             return False

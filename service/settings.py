@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from ipaddress import IPv4Network, IPv6Network, ip_network
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, SecretStr, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from engine.media.limits import Limits
+from service import postgresql
+from service.loopback import is_loopback
 
 ROOT = Path(__file__).parent.parent
 MEGABYTE = 1_000_000
@@ -26,17 +29,43 @@ class Settings(BaseSettings):
 
     data_dir: Path = Field(Path("~/.local/share/galatea"), description="Where everything is kept.")
     database_url: str | None = Field(None, description="Where jobs are recorded; a file in DATA_DIR if not set.")
+    database_connections: int = Field(20, ge=2, description="The most connections of one process to PostgreSQL.")
     redis_url: str | None = Field(None, description="A Redis of your own; the embedded one if not set.")
+    storage_url: str | None = Field(None, description="Where files and artifacts lie; a folder in DATA_DIR if not set.")
+    storage_endpoint: str | None = Field(None, description="The address of an S3 service other than Amazon's.")
+    storage_region: str | None = Field(None, description="Its region; AWS_REGION if not set.")
+    storage_access_key: SecretStr | None = Field(None, description="Its access key; AWS_ACCESS_KEY_ID if not set.")
+    storage_secret_key: SecretStr | None = Field(
+        None, description="The secret that belongs to it; AWS_SECRET_ACCESS_KEY if not set."
+    )
 
     host: str = Field("127.0.0.1", description="The address `galatea serve` binds; only loopback needs no key.")
     port: int = Field(8000, ge=0, le=65535, description="Its port; 0 takes a free one.")
+    require_keys: bool = Field(False, description="Ask for a key on loopback too; elsewhere it always is.")
+    requests_per_minute: int = Field(
+        600, ge=1, description="The most requests a minute of a key without a limit of its own."
+    )
+    jobs_at_once: int = Field(20, ge=0, description="The most jobs under way of such a key.")
+    uploads_at_once: int = Field(20, ge=0, description="The most unfinished uploads of a key.")
+    stored_mb: int = Field(20_000, ge=0, description="The most that files and results of such a key may take.")
+    link_hours: float = Field(1, gt=0, description="How long the signed links in a job are good.")
+    cors_origins: Annotated[list[str], NoDecode] = Field(
+        [], description="Origins, separated by commas, of web pages that may call the API with a key."
+    )
     trusted_proxies: Annotated[list[IPv4Network | IPv6Network], NoDecode] = Field(
         [], description="Networks, separated by commas, of proxies that may pass requests on."
     )
+    allowed_networks: Annotated[list[IPv4Network | IPv6Network], NoDecode] = Field(
+        [], description="Networks, separated by commas, that addresses given by users may lead to beside public ones."
+    )
+    public_url: str | None = Field(None, description="The service's own address, for links in what it sends.")
     web_dir: Path = Field(ROOT / "web" / "dist", description="The built web page.")
     wait_seconds: float = Field(60, ge=0, description="The longest that `Prefer: wait` holds an answer back.")
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field("INFO", description="How much is logged.")
     log_format: Literal["console", "json"] = Field("console", description="How it is written.")
+    traces_url: str | None = Field(
+        None, description="Where traces are sent to (OTLP over HTTP), such as http://collector:4318/v1/traces."
+    )
 
     image_mb: float = Field(100, gt=0, description="The largest picture that is accepted.")
     image_megapixels: float = Field(40, gt=0, le=178, description="The most pixels of a picture.")
@@ -45,34 +74,66 @@ class Settings(BaseSettings):
     video_megapixels: float = Field(8.9, gt=0, description="The most pixels of a video's frame.")
     video_megapixels_per_second: float = Field(300, gt=0, description="The most pixels a second of a video.")
     video_frames: int = Field(21_600, gt=0, description="The most frames of a video.")
+    upload_hours: float = Field(
+        24, gt=0, description="How long an unfinished upload waits for more before it is erased."
+    )
     upload_files: int = Field(200, gt=0, description="The most files in one request.")
+    fetch_seconds: float = Field(300, gt=0, description="The longest that fetching one input by its address may take.")
     disk_reserve_mb: float = Field(500, ge=0, description="Free space below which nothing new is accepted (507).")
     cache_mb: float = Field(2000, gt=0, description="The space for analyses that jobs share.")
+    job_days: float = Field(0, ge=0, description="How long an ended job is kept with its media; 0 keeps it for good.")
     file_hours: float = Field(24, gt=0, description="How long an uploaded file waits for a job before it is erased.")
 
+    webhook_connect_seconds: float = Field(5, gt=0, description="How long a receiver may take to be reached.")
+    webhook_seconds: float = Field(15, gt=0, le=300, description="How long an attempt at a webhook may take in all.")
+    webhook_concurrency: int = Field(8, ge=1, description="Attempts that one worker makes at once.")
+    webhook_days: float = Field(30, ge=4, description="How long what was delivered, or not, is kept.")
+
+    mark_synthetic: bool = Field(
+        True, description="Whether results say of themselves, for machines to read, that they are synthetic."
+    )
     concurrency: int = Field(1, ge=1, description="Jobs that one worker runs at once.")
     job_seconds: float = Field(3600, gt=0, description="The longest a job may work.")
     job_memory_mb: float = Field(6000, gt=0, description="The most memory of a job.")
     job_file_mb: float = Field(4000, gt=0, description="The largest file a job may write.")
-    child_jobs: int = Field(50, ge=1, description="Jobs after which a job process is replaced by a fresh one.")
-    child_memory_mb: float = Field(1500, gt=0, description="Memory kept between jobs above which it is replaced.")
-    lease_seconds: float = Field(30, ge=2, description="How long a silent worker keeps its job.")
+    worker: bool = Field(True, description="Whether `galatea serve` keeps a worker of its own.")
+    worker_kinds: Annotated[list[str], NoDecode] = Field(
+        [], description="The job kinds that this machine's worker serves, separated by commas; all if not set."
+    )
+    job_cpu_seconds: float = Field(7200, ge=1, description="The most computing of a job, all cores together.")
+    job_cores: int = Field(0, ge=0, description="Cores that a job may use; 0 is all.")
+    job_user: str = Field("nobody", description="Who jobs work as where the worker is root; empty: root.")
+    lease_seconds: float = Field(30, ge=2, le=900, description="How long a silent worker keeps its job.")
     sweep_seconds: float = Field(5, gt=0, description="How often lost messages and expired leases are looked for.")
     kinds: Annotated[list[str], NoDecode] = Field(
         ["engine.kinds:KINDS"],
         description="The job kinds on offer, `module:attribute` (a `Kind`, or a mapping of them), separated by commas.",
     )
 
-    @field_validator("trusted_proxies", mode="before")
+    @field_validator("trusted_proxies", "allowed_networks", mode="before")
     @classmethod
     def _networks(cls, value: object) -> object:
         listed = _listed(value)
         return [ip_network(part, strict=False) for part in listed] if isinstance(listed, list) else listed
 
-    @field_validator("kinds", mode="before")
+    @field_validator("kinds", "cors_origins", "worker_kinds", mode="before")
     @classmethod
     def _names(cls, value: object) -> object:
         return _listed(value)
+
+    @field_validator("traces_url")
+    @classmethod
+    def _collector(cls, value: str | None) -> str | None:
+        if value and not value.startswith(("http://", "https://")):
+            raise ValueError("it must begin with http:// or https://")
+        return value or None
+
+    @field_validator("public_url")
+    @classmethod
+    def _own_address(cls, value: str | None) -> str | None:
+        if value is not None and not value.startswith(("http://", "https://")):
+            raise ValueError("it must begin with http:// or https://")
+        return value.rstrip("/") if value is not None else None
 
     @field_validator("data_dir", "web_dir")
     @classmethod
@@ -81,10 +142,30 @@ class Settings(BaseSettings):
 
     @field_validator("database_url")
     @classmethod
-    def _sqlite(cls, value: str | None) -> str | None:
-        if value is not None and not value.startswith("sqlite:///"):
-            raise ValueError("only sqlite:///PATH is supported")
+    def _database(cls, value: str | None) -> str | None:
+        if value is not None and postgresql.speaks(value):
+            postgresql.address(value)
+        elif value is not None and not value.startswith("sqlite:///"):
+            raise ValueError("use sqlite:///PATH or postgresql://USER:PASSWORD@HOST/NAME")
         return value
+
+    @field_validator("storage_url")
+    @classmethod
+    def _bucket(cls, value: str | None) -> str | None:
+        if value is not None and not re.fullmatch(r"s3://[a-z0-9][a-z0-9.-]+(/[\w./-]*)?", value):
+            raise ValueError("use s3://BUCKET or s3://BUCKET/PREFIX")
+        return value
+
+    @model_validator(mode="after")
+    def _both_halves(self) -> Settings:
+        if (self.storage_access_key is None) != (self.storage_secret_key is None):
+            raise ValueError("GALATEA_STORAGE_ACCESS_KEY and GALATEA_STORAGE_SECRET_KEY: set both or neither")
+        return self
+
+    @property
+    def keys_required(self) -> bool:
+        """Whether every caller needs a key."""
+        return self.require_keys or not is_loopback(self.host)
 
     @property
     def database(self) -> str:

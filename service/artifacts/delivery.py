@@ -10,10 +10,11 @@ from email.utils import format_datetime
 from urllib.parse import quote
 
 from starlette.responses import Response, StreamingResponse
+from starlette.types import Send
 
 from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
-from service.problems import Problem
-from service.storage import Storage
+from service.problems import Problem, unavailable
+from service.storage import Storage, StorageUnavailable
 
 
 @dataclass(frozen=True)
@@ -91,8 +92,27 @@ def _multipart(
     return _stream(parts(), 206, answer)
 
 
+class _Begun(StreamingResponse):
+    """Sends nothing before the storage has answered: what cannot be read is a problem, not a body that breaks off."""
+
+    async def stream_response(self, send: Send) -> None:
+        pieces = aiter(self.body_iterator)
+        try:
+            first = await anext(pieces, b"")
+        except StorageUnavailable as error:
+            raise unavailable() from error
+
+        async def whole() -> AsyncIterator[str | bytes | memoryview]:
+            yield first
+            async for piece in pieces:
+                yield piece
+
+        self.body_iterator = whole()
+        await super().stream_response(send)
+
+
 def _stream(content: AsyncIterator[bytes], status: int, headers: dict[str, str]) -> StreamingResponse:
-    return StreamingResponse(content, status_code=status, headers=headers)
+    return _Begun(content, status_code=status, headers=headers)
 
 
 def _disposition(name: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from datetime import datetime
+from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 
 MOST_RANGES = 16
@@ -82,6 +82,7 @@ def range_applies(if_range: str | None, etag: str, modified: datetime) -> bool:
 
 def _date(text: str | None) -> datetime | None:
     try:
-        return parsedate_to_datetime(text) if text else None
-    except ValueError:
+        moment = parsedate_to_datetime(text) if text else None
+    except (ValueError, OverflowError):
         return None
+    return moment.replace(tzinfo=UTC) if moment is not None and moment.tzinfo is None else moment  # “-0000”

@@ -26,6 +26,8 @@ def get(session: Session, job_id: str, name: str) -> Artifact | None:
 def replace(session: Session, artifact: Artifact) -> str | None:
     """Publish an artifact; the storage key of the older one of the same name is free then and is returned."""
     older = get(session, artifact.job_id, artifact.name)
+    if older is not None and older.id == artifact.id:
+        return None  # it had been recorded, and only the database's answer got lost
     if older is not None:
         session.execute(delete(Artifact).where(Artifact.id == older.id))
     session.add(artifact)

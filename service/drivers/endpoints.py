@@ -2,78 +2,67 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from engine.media.sniff import VIDEO_TYPES
 from service.artifacts.delivery import deliver
+from service.auth.caller import Reader, Submitter
 from service.context import InContext
 from service.disk import require_space
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
-from service.files import service as files
-from service.files.endpoints import require_multipart
-from service.files.intake import Form
-from service.problems import Problem, responses
+from service.kept import service as keeping
+from service.kept.request import body, keep_body
+from service.kept.shelves import DRIVERS
+from service.problems import responses
 
 router = APIRouter(prefix="/drivers", tags=["drivers"])
 
-UPLOAD: dict[str, Any] = {
-    "requestBody": {
-        "required": True,
-        "content": {
-            "multipart/form-data": {
-                "schema": {
-                    "type": "object",
-                    "required": ["name", "file"],
-                    "properties": {"name": {"type": "string"}, "file": {"type": "string", "format": "binary"}},
-                }
-            }
-        },
-    }
-}
-
 
 @router.get("", operation_id="list_drivers")
-def list_drivers(context: InContext) -> DriverList:
+def list_drivers(caller: Reader, context: InContext) -> DriverList:
     """The drivers that a job can name: the built-in performances, then the user's own."""
-    return DriverList(items=service.all_drivers(context))
+    return DriverList(items=service.all_drivers(context, caller.owner))
 
 
 @router.post(
     "",
     status_code=201,
     operation_id="create_driver",
-    openapi_extra=UPLOAD,
+    openapi_extra=body("video/*"),
     responses=responses(409, 413, 415, 422, 507),
 )
-async def create_driver(request: Request, response: Response, context: InContext) -> DriverOut:
+async def create_driver(request: Request, response: Response, caller: Submitter, context: InContext) -> DriverOut:
     """Keep a driving video under a name."""
-    require_multipart(request)
-    require_space(context.settings)
-    async with Form(request, context.settings, most_files=1) as form:
-        name = form.fields.get("name", "")
-        service.require_free_name(context, name)
-        if not form.files:
-            raise Problem(422, "file_missing", "Send the video as a part of the multipart body.")
-        if form.files[0].content_type not in VIDEO_TYPES:
-            raise Problem(415, "input_wrong_media", f"A driver is a video; this is {form.files[0].content_type}.")
-        file = await run_sync(files.keep, context, form.files[0])
-        try:
-            driver = await run_sync(service.keep, context, name, file)
-        finally:
-            await run_sync(files.erase_unused, context, [file.id])
+    name = await keep_body(request, context, caller, DRIVERS)
     response.headers["Location"] = f"/v1/drivers/{name}"
-    return driver
+    return await run_sync(service.one_driver, context, caller.owner, name)
+
+
+@router.get("/{name}", operation_id="get_driver", responses=responses(404))
+def get_driver(name: str, caller: Reader, context: InContext) -> DriverOut:
+    """What is known of a driver."""
+    return service.one_driver(context, caller.owner, name)
+
+
+@router.post(
+    "/{name}/moments",
+    status_code=202,
+    operation_id="search_driver",
+    responses=responses(404, 409, 422, 507),
+)
+def search_driver(name: str, caller: Submitter, context: InContext) -> DriverOut:
+    """Search one of the user's own drivers for moments again. A new driver is searched by itself."""
+    require_space(context.settings)
+    keeping.look_again(context, DRIVERS, caller.owner, name)
+    return service.one_driver(context, caller.owner, name)
 
 
 @router.delete("/{name}", status_code=204, operation_id="delete_driver", responses=responses(404, 409))
-def delete_driver(name: str, context: InContext) -> None:
+def delete_driver(name: str, caller: Submitter, context: InContext) -> None:
     """Erase one of the user's own drivers. Jobs that use it keep its video until they are deleted."""
-    service.delete(context, name)
+    keeping.delete(context, DRIVERS, caller.owner, name)
 
 
 @router.head("/{name}/video", include_in_schema=False)
@@ -83,7 +72,33 @@ def delete_driver(name: str, context: InContext) -> None:
     response_class=Response,
     responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
 )
-def get_driver_video(name: str, request: Request, context: InContext) -> Response:
+def get_driver_video(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The video itself: whole, or the ranges asked for."""
-    stored, storage = service.stored(context, name)
+    stored, storage = service.stored(context, caller.owner, name)
+    return deliver(stored, storage, request.headers, request.method == "HEAD")
+
+
+@router.head("/{name}/poster", include_in_schema=False)
+@router.get(
+    "/{name}/poster",
+    operation_id="get_driver_poster",
+    response_class=Response,
+    responses={304: {"description": "Not modified"}, **responses(404, 416)},
+)
+def get_driver_poster(name: str, request: Request, caller: Reader, context: InContext) -> Response:
+    """A small picture (JPEG) that shows what happens in it; of one's own drivers, the face at rest."""
+    stored, storage = service.poster(context, caller.owner, name)
+    return deliver(stored, storage, request.headers, request.method == "HEAD")
+
+
+@router.head("/{name}/moments/{moment}/poster", include_in_schema=False)
+@router.get(
+    "/{name}/moments/{moment}/poster",
+    operation_id="get_moment_poster",
+    response_class=Response,
+    responses={304: {"description": "Not modified"}, **responses(404, 416)},
+)
+def get_moment_poster(name: str, moment: str, request: Request, caller: Reader, context: InContext) -> Response:
+    """A small picture (JPEG) of a moment at its height."""
+    stored, storage = service.moment_poster(context, caller.owner, name, moment)
     return deliver(stored, storage, request.headers, request.method == "HEAD")

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-
-from sqlalchemy import ForeignKey, String
+from sqlalchemy import String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, UTCDateTime
+from service.kept.models import Kept
 
 
-class Driver(Base):
+class Driver(Kept):
     """A driving video that a user keeps under a name."""
 
     __tablename__ = "drivers"
 
-    name: Mapped[str] = mapped_column(String(64), primary_key=True)
-    file_id: Mapped[str] = mapped_column(ForeignKey("files.id"), index=True)
-    created_at: Mapped[datetime] = mapped_column(UTCDateTime)
+    look_job: Mapped[str | None] = mapped_column("moments_job", String(36), index=True)

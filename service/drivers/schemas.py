@@ -7,9 +7,32 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from engine.performances import Performance
-from service.drivers.models import Driver
+from engine.performances import Performance, State
+from engine.performances.catalogue import Strength
+from service.drivers.moments import Moments, Portion, portions
 from service.files.models import File
+from service.kept.looks import Look, LookStatus
+from service.kept.models import Kept
+
+
+class MomentOut(BaseModel):
+    """A portion of a driver that holds a state. A job can name it as its driver: `driver/moment`."""
+
+    name: str
+    state: State
+    strength: Strength
+    start: float
+    end: float
+    """Seconds from the beginning of the video; the face is at rest at both."""
+    seconds: float
+    apex: float
+    """When the state is at its height, in seconds from the beginning of the video."""
+    score: float
+    """How sure it is, in [0, 1]."""
+    url: str
+    """Where the video is, as a media fragment: players show the portion alone."""
+    poster: str
+    """Where a small picture of it is."""
 
 
 class DriverOut(BaseModel):
@@ -19,13 +42,25 @@ class DriverOut(BaseModel):
     source: Literal["built-in", "own"]
     url: str
     """Where the video is."""
+    poster: str | None = None
+    """Where a small picture of it is; null where there is none."""
     title: str | None = None
+    state: State | None = None
+    """What it shows: one of the states that a reactive portrait can be in."""
+    emotion: str | None = None
+    strength: Strength | None = None
     seconds: float | None = None
     loops: bool | None = None
     """Whether the last frame leads into the first."""
     size: int | None = None
     content_type: str | None = None
     created_at: datetime | None = None
+    moments: list[MomentOut] = []
+    """The portions of one's own driver that hold emotions and gestures, in the order of the states, the best first."""
+    moments_status: LookStatus = "none"
+    """How far the search for them is; `none`: there was no search."""
+    moments_job: str | None = None
+    """The job that searches: its events tell how far it is, its error why it failed."""
 
     @classmethod
     def built_in(cls, performance: Performance) -> DriverOut:
@@ -33,14 +68,18 @@ class DriverOut(BaseModel):
             name=performance.name,
             source="built-in",
             url=f"/v1/drivers/{performance.name}/video",
+            poster=f"/v1/drivers/{performance.name}/poster",
             title=performance.title,
+            state=performance.state,
+            emotion=performance.emotion,
+            strength=performance.strength,
             seconds=performance.seconds,
             loops=performance.loops,
             content_type="video/mp4",
         )
 
     @classmethod
-    def own(cls, driver: Driver, file: File) -> DriverOut:
+    def own(cls, driver: Kept, file: File, look: Look[Moments]) -> DriverOut:
         return cls(
             name=driver.name,
             source="own",
@@ -48,7 +87,21 @@ class DriverOut(BaseModel):
             size=file.size,
             content_type=file.content_type,
             created_at=driver.created_at,
+            poster=f"/v1/drivers/{driver.name}/poster" if look.status == "ready" else None,
+            seconds=look.document.seconds if look.document is not None else None,
+            moments=[_shown(driver, portion) for portion in portions(look)],
+            moments_status=look.status,
+            moments_job=driver.look_job if look.status != "none" else None,
         )
+
+
+def _shown(driver: Kept, portion: Portion) -> MomentOut:
+    address = f"/v1/drivers/{driver.name}"
+    return MomentOut(
+        **portion.model_dump(),
+        url=f"{address}/video#t={portion.start:g},{portion.end:g}",
+        poster=f"{address}/moments/{portion.name}/poster",
+    )
 
 
 class DriverList(BaseModel):

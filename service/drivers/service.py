@@ -1,97 +1,91 @@
-"""What clients can do with drivers."""
+"""What clients can see of drivers; keeping and erasing them is as with all that is kept (`service.kept`)."""
 
 from __future__ import annotations
 
-import re
 from datetime import UTC, datetime
-
-from sqlalchemy.exc import IntegrityError
+from pathlib import Path
 
 from engine.run import content_hash
+from service.artifacts import repository as artifacts
 from service.artifacts.delivery import Stored
-from service.clock import now
 from service.context import Context
-from service.drivers import repository
-from service.drivers.models import Driver
+from service.drivers import moments
 from service.drivers.schemas import DriverOut
 from service.files import repository as files
-from service.files.models import File
-from service.files.service import erase_unused
-from service.ids import is_id
+from service.kept import repository
+from service.kept.models import Kept
+from service.kept.service import missing
+from service.kept.shelves import DRIVERS
 from service.kinds import library
 from service.problems import Problem
 from service.storage import Storage
 
-NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
-LIBRARY = "performances"
-"""The built-in drivers."""
 
-RESERVED = ("auto",)
-"""Names with a meaning of their own where a driver is named."""
-
-
-def all_drivers(context: Context) -> list[DriverOut]:
-    """The built-in performances and the user's own drivers."""
+def all_drivers(context: Context, owner: str) -> list[DriverOut]:
+    """The built-in performances and the user's own drivers. One that was kept before the library had a performance of
+    its name goes before it."""
     with context.database.read() as session:
-        own = repository.with_files(session)
-    return [*map(DriverOut.built_in, library.performances()), *(DriverOut.own(driver, file) for driver, file in own)]
+        own = repository.with_files(session, DRIVERS, owner)
+    found = moments.of_drivers(context, [driver for driver, _ in own])
+    hidden = {driver.name for driver, _ in own}
+    built_in = [DriverOut.built_in(one) for one in library.performances() if one.name not in hidden]
+    return [*built_in, *(DriverOut.own(driver, file, found[driver.name]) for driver, file in own)]
 
 
-def require_free_name(context: Context, name: str) -> None:
-    """Raise a problem if no driver can have this name."""
-    if NAME.fullmatch(name) is None or is_id(name):
-        raise Problem(
-            422,
-            "invalid_name",
-            "A driver's name has 1 to 63 of the characters a-z, 0-9, - and _, a letter or digit first.",
-        )
-    with context.database.read() as session:
-        if name in RESERVED or name in library.names(LIBRARY) or repository.get(session, name) is not None:
-            raise _taken(name)
+def one_driver(context: Context, owner: str, name: str) -> DriverOut:
+    """The driver of that name."""
+    for driver in all_drivers(context, owner):
+        if driver.name == name:
+            return driver
+    raise missing(DRIVERS)
 
 
-def keep(context: Context, name: str, file: File) -> DriverOut:
-    """Keep a file as a driver."""
-    driver = Driver(name=name, file_id=file.id, created_at=now())
-    try:
-        with context.database.write() as session:
-            session.add(driver)
-    except IntegrityError as error:
-        raise _taken(name) from error
-    return DriverOut.own(driver, file)
-
-
-def delete(context: Context, name: str) -> None:
-    """Erase one of the user's own drivers."""
-    if name in library.names(LIBRARY):
-        raise Problem(409, "driver_built_in", "Built-in performances cannot be deleted.")
-    with context.database.write() as session:
-        driver = repository.get(session, name)
-        if driver is None:
-            raise _missing()
-        repository.erase(session, name)
-    erase_unused(context, [driver.file_id])
-
-
-def stored(context: Context, name: str) -> tuple[Stored, Storage]:
+def stored(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
     """A driver's video, and where it lies: in the package, or in the service's storage."""
-    if name in library.names(LIBRARY):
-        path = library.item(LIBRARY, name)
-        status = path.stat()
-        modified = datetime.fromtimestamp(status.st_mtime, UTC)
-        built_in = Stored(path.name, path.name, "video/mp4", status.st_size, content_hash(path), modified)
-        return built_in, Storage(path.parent)
     with context.database.read() as session:
-        driver = repository.get(session, name)
-        file = files.get(session, driver.file_id) if driver is not None else None
-    if file is None:
-        raise _missing()
-    return file.stored, context.storage
+        driver = repository.get(session, DRIVERS, owner, name)
+        file = files.get(session, owner, driver.file_id) if driver is not None else None
+    if file is not None:
+        return file.stored, context.storage
+    if name in DRIVERS.built_in:
+        return _installed(library.item(DRIVERS.library, name), "video/mp4")
+    raise missing(DRIVERS)
 
 
-def _taken(name: str) -> Problem:
-    return Problem(409, "name_taken", f"There is a driver “{name}” already: choose another name or delete that one.")
+def poster(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
+    """The small picture that shows a driver; of the user's own, the search for moments takes it: nothing is decoded
+    outside of jobs."""
+    with context.database.read() as session:
+        driver = repository.get(session, DRIVERS, owner, name)
+    if driver is None and name in DRIVERS.built_in:
+        return _installed(library.picture(DRIVERS.library, name), "image/jpeg")
+    return _picture(context, driver, moments.POSTER)
 
 
-def _missing() -> Problem:
-    return Problem(404, "driver_not_found", "There is no driver of this name.")
+def moment_poster(context: Context, owner: str, name: str, moment: str) -> tuple[Stored, Storage]:
+    """The small picture that shows one moment of a driver of the user's own."""
+    with context.database.read() as session:
+        driver = repository.get(session, DRIVERS, owner, name)
+    if driver is not None:
+        look = moments.of_drivers(context, [driver])[name]
+        if moment not in [one.name for one in moments.portions(look)]:
+            raise moments.missing(name, moment)
+    return _picture(context, driver, f"{moment}.jpg")
+
+
+def _picture(context: Context, driver: Kept | None, artifact: str) -> tuple[Stored, Storage]:
+    if driver is None:
+        raise missing(DRIVERS)
+    with context.database.read() as session:
+        found = artifacts.get(session, driver.look_job, artifact) if driver.look_job is not None else None
+    if found is None:
+        raise Problem(404, "poster_not_found", "There is no picture of this driver (yet): show the video instead.")
+    return found.stored, context.storage
+
+
+def _installed(path: Path, content_type: str) -> tuple[Stored, Storage]:
+    status = path.stat()
+    modified = datetime.fromtimestamp(status.st_mtime, UTC)
+    return Stored(path.name, path.name, content_type, status.st_size, content_hash(path), modified), Storage(
+        path.parent
+    )

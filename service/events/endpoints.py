@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Query
 from sse_starlette import EventSourceResponse
 from starlette.responses import Response
 
+from service.auth.caller import Reader
 from service.context import InContext
 from service.events import repository
 from service.events.stream import follow
+from service.events.watch import InWatch
 from service.jobs.models import Status
 from service.jobs.service import found
 from service.problems import Problem, responses
@@ -18,6 +20,7 @@ from service.problems import Problem, responses
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 
 HEARTBEAT_SECONDS = 15
+AN_EVENT_ID: dict[str, Any] = {"pattern": "^[0-9]{1,18}$"}
 
 
 @router.get(
@@ -35,20 +38,27 @@ HEARTBEAT_SECONDS = 15
 )
 def follow_job(
     job_id: str,
+    caller: Reader,
     context: InContext,
-    last_event_id: Annotated[str | None, Header(description="Resume after this event.")] = None,
-    after: Annotated[str | None, Query(description="The same, for clients that cannot set headers.")] = None,
+    watch: InWatch,
+    last_event_id: Annotated[
+        str | None, Header(description="Resume after this event.", json_schema_extra=AN_EVENT_ID)
+    ] = None,
+    after: Annotated[
+        str | None, Query(description="The same, for clients that cannot set headers.", json_schema_extra=AN_EVENT_ID)
+    ] = None,
 ) -> Response:
     """The job's events from the beginning, or after `Last-Event-ID`; the stream ends after the final one."""
-    given = last_event_id or after or "0"
-    if not (given.isascii() and given.isdigit() and len(given) < 19):
+    given = [value for value in (last_event_id, after, "0") if value is not None]
+    if not all(value.isascii() and value.isdigit() and len(value) < 19 for value in given):
         raise Problem(422, "invalid_event_id", "Last-Event-ID must be the id of an event of this job.")
+    seen = int(given[0])
     with context.database.read() as session:
-        job = found(session, job_id)
-        rest = repository.after(session, job_id, int(given), limit=1)
+        job = found(session, caller.owner, job_id)
+        rest = repository.after(session, job_id, seen, limit=1)
     if Status(job.status).final and not rest:
         # A browser connects again whenever a stream ends; this answer tells it to stop.
         return Response(status_code=204)
     return EventSourceResponse(
-        follow(context, job_id, int(given)), ping=HEARTBEAT_SECONDS, headers={"Cache-Control": "no-store"}
+        follow(context, watch, job_id, seen), ping=HEARTBEAT_SECONDS, headers={"Cache-Control": "no-store"}
     )

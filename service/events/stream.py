@@ -6,32 +6,31 @@ import json
 from collections.abc import AsyncIterator
 from typing import Any
 
-import anyio
 from anyio.to_thread import run_sync
 
 from service.context import Context
 from service.events import repository
 from service.events.models import Event
+from service.events.watch import Watch
 from service.jobs import repository as jobs
 from service.jobs.models import Status
 
-POLL_SECONDS = 0.25
 
-
-async def follow(context: Context, job_id: str, after: int) -> AsyncIterator[dict[str, Any]]:
+async def follow(context: Context, watch: Watch, job_id: str, after: int) -> AsyncIterator[dict[str, Any]]:
     """The job's events that came after one, as the fields of a server-sent event. Ends after the final one, or when
     the job is deleted."""
-    while True:
-        events, there = await run_sync(_look, context, job_id, after)
-        for event in events:
-            after = event.id
-            yield {"id": str(event.id), "event": event.type, "data": json.dumps(event.data)}
-            if final(event):
+    with watch.follow(job_id) as follower:
+        while True:
+            events, there = await run_sync(_look, context, job_id, after)
+            for event in events:
+                after = event.id
+                yield {"id": str(event.id), "event": event.type, "data": json.dumps(event.data)}
+                if final(event):
+                    return
+            if not there:
                 return
-        if not there:
-            return
-        if not events:
-            await anyio.sleep(POLL_SECONDS)
+            if not events:
+                await follower.wait()
 
 
 def final(event: Event) -> bool:

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.artifacts.delivery import deliver
+from service.auth.caller import Caller, Reader, Submitter
 from service.context import Context, InContext
 from service.files import repository, service
 from service.files.intake import Form
@@ -27,7 +28,9 @@ UPLOAD: dict[str, Any] = {
                     "type": "object",
                     "required": ["file"],
                     "properties": {"file": {"type": "string", "format": "binary"}},
-                }
+                    "additionalProperties": False,
+                },
+                "encoding": {"file": {"contentType": "image/*, video/*, text/x-bvh, model/gltf-binary"}},
             }
         },
     }
@@ -41,21 +44,22 @@ UPLOAD: dict[str, Any] = {
     openapi_extra=UPLOAD,
     responses=responses(413, 415, 422, 507),
 )
-async def create_file(request: Request, response: Response, context: InContext) -> FileOut:
+async def create_file(request: Request, response: Response, caller: Submitter, context: InContext) -> FileOut:
     """Upload one file. It is erased after a while if no job uses it."""
     require_multipart(request)
     async with Form(request, context.settings, most_files=1) as form:
+        form.require_only(fields=(), files=("file",))
         if not form.files:
             raise Problem(422, "file_missing", "Send the file as a part of the multipart body.")
-        file = await run_sync(service.keep, context, form.files[0])
+        file = await run_sync(service.keep, context, caller.owner, form.files[0])
     response.headers["Location"] = f"/v1/files/{file.id}"
     return FileOut.of(file)
 
 
 @router.get("/{file_id}", operation_id="get_file", responses=responses(404))
-def get_file(file_id: str, context: InContext) -> FileOut:
+def get_file(file_id: str, caller: Reader, context: InContext) -> FileOut:
     """What is known of a file."""
-    return FileOut.of(_found(context, file_id))
+    return FileOut.of(_found(context, caller, file_id))
 
 
 @router.head("/{file_id}/content", include_in_schema=False)
@@ -65,9 +69,10 @@ def get_file(file_id: str, context: InContext) -> FileOut:
     response_class=Response,
     responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
 )
-def get_file_content(file_id: str, request: Request, context: InContext) -> Response:
+def get_file_content(file_id: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The file itself: whole, or the ranges asked for."""
-    return deliver(_found(context, file_id).stored, context.storage, request.headers, request.method == "HEAD")
+    stored = _found(context, caller, file_id).stored
+    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
 
 
 def require_multipart(request: Request) -> None:
@@ -76,9 +81,9 @@ def require_multipart(request: Request) -> None:
         raise Problem(415, "body_type_unsupported", "Send the body as multipart/form-data.")
 
 
-def _found(context: Context, file_id: str) -> File:
+def _found(context: Context, caller: Caller, file_id: str) -> File:
     with context.database.read() as session:
-        file = repository.get(session, file_id)
+        file = repository.get(session, caller.owner, file_id)
     if file is None:
         raise Problem(404, "file_not_found", "There is no such file: it was erased, or it never was.")
     return file

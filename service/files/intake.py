@@ -19,16 +19,14 @@ from fastapi import Request
 from python_multipart.exceptions import MultipartParseError
 from python_multipart.multipart import MultipartParser, parse_options_header
 
-from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, sniff_bytes
 from service.disk import require_space
+from service.files.door import HEAD_BYTES, largest_mb, recognise, shown_name, too_large
 from service.ids import new_id
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
 
 FIELD_BYTES = 1_000_000
 """The most bytes of parts that are not files, taken together; also of a JSON body."""
-
-HEAD_BYTES = 4096
 
 
 @dataclass
@@ -54,7 +52,7 @@ class Received:
             if len(self._head) < HEAD_BYTES:
                 return
             data = self._recognise()
-        limit = settings.image_mb if self.content_type in IMAGE_TYPES - VIDEO_TYPES else settings.video_mb
+        limit = largest_mb(settings, self.content_type)
         if self.size > limit * MEGABYTE:
             raise too_large(f"“{self.name}”", limit)
         if self._file is None:
@@ -78,29 +76,9 @@ class Received:
         self.path.unlink(missing_ok=True)
 
     def _recognise(self) -> bytes:
-        found = sniff_bytes(self._head)
-        if found is None or found not in IMAGE_TYPES | VIDEO_TYPES:
-            raise Problem(
-                415,
-                "media_type_unsupported",
-                f"“{self.name}” is no picture or video that can be read"
-                + (f" ({found})" if found else "")
-                + ": send JPEG, PNG, WebP, HEIC, AVIF or GIF, or MP4, MOV, WebM, MKV or AVI.",
-            )
-        family = self.declared.split("/")[0]
-        if family in ("image", "video", "audio", "text") and family != found.split("/")[0] and found != "image/gif":
-            raise Problem(
-                415,
-                "media_type_mismatch",
-                f"“{self.name}” is declared as {self.declared} but holds {found}: send it under its own type.",
-            )
-        self.content_type = found
+        self.content_type = recognise(self._head, self.name, self.declared)
         head, self._head = self._head, b""
         return head
-
-
-def too_large(what: str, limit_mb: float) -> Problem:
-    return Problem(413, "file_too_large", f"{what} is larger than {limit_mb:g} MB, the most that is accepted.")
 
 
 class Form:
@@ -138,6 +116,12 @@ class Form:
             self._discard()
             raise
         return self
+
+    def require_only(self, fields: Sequence[str], files: Sequence[str]) -> None:
+        """Raise a 422 problem for a part that the endpoint does not know."""
+        for name in (*(set(self.fields) - set(fields)), *({file.part for file in self.files} - set(files))):
+            known = " and ".join(f"“{one}”" for one in (*fields, *files))
+            raise Problem(422, "unknown_part", f"The part “{name[:80]}” is not known here: send {known}.")
 
     async def __aexit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -225,12 +209,3 @@ class Form:
 
     def _on_end(self) -> None:
         self._ended = True
-
-
-def shown_name(name: str) -> str:
-    """A file's name as it may be shown: the last part of its path, without control characters, at most 255 long.
-
-    It never becomes a path: files lie under ids.
-    """
-    last = name.replace("\\", "/").rsplit("/", 1)[-1]
-    return "".join(c for c in last if c.isprintable()).strip()[:255] or "unnamed"

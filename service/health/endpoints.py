@@ -8,6 +8,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, generate_l
 from sqlalchemy import text
 from sqlalchemy.exc import SQLAlchemyError
 
+from service.auth.caller import Admin
 from service.context import Context, InContext
 from service.disk import free_mb
 from service.health.metrics import ServiceCollector
@@ -27,6 +28,7 @@ def readyz(context: InContext) -> JSONResponse:
     checks = {
         "database": _database(context),
         "redis": context.queue.reachable(),
+        "storage": context.storage.reachable(),
         "disk": free_mb(context.settings) >= context.settings.disk_reserve_mb,
     }
     ready = all(checks.values())
@@ -34,7 +36,7 @@ def readyz(context: InContext) -> JSONResponse:
 
 
 @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
-def metrics(context: InContext) -> PlainTextResponse:
+def metrics(caller: Admin, context: InContext) -> PlainTextResponse:
     """Figures for Prometheus."""
     registry = CollectorRegistry()
     registry.register(ServiceCollector(context))

@@ -1,22 +1,35 @@
-"""What the names in a job's `inputs` mean: uploaded files, the user's own drivers, built-in performances."""
+"""What the names in a job's `inputs` mean: uploaded files, addresses to fetch, the user's own drivers and motions,
+built-in ones."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from pydantic import TypeAdapter, ValidationError
 from sqlalchemy.orm import Session
 
-from engine.kind import Input, Kind
-from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES
-from service.drivers import repository as drivers
+from engine.kind import AUTO, Input, Kind
+from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
+from service.files.models import File
 from service.ids import is_id
-from service.kinds import library
+from service.kept import repository as kept
+from service.kept.shelves import SHELVES, Shelf
+from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
+from service.uploads import repository as uploads
 
-MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES}
+MOST_OWN = 6
+"""How many of the user's own drivers `auto` looks at: looking at one costs a second or two."""
+
+MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPES}
+
+
+Value = str | list[str] | None
+"""What can be given for an input; null is nothing."""
+_VALUE: TypeAdapter[Value] = TypeAdapter(Value)
 
 
 @dataclass
@@ -36,61 +49,184 @@ class Refused(Exception):
         self.detail = detail
 
 
-def resolve(session: Session, kind: Kind, given: Mapping[str, str | list[str]]) -> Resolved:
-    """Look up everything that is given. Raises a 422 problem that lists every wrong input."""
-    resolved = Resolved()
+@dataclass(frozen=True)
+class _Lookup:
+    """Where things are looked up, and for whom."""
+
+    session: Session
+    owner: str
+    allowed: Sequence[Network]
+    used: set[str]
+    """Takes up the ids of the files that were found."""
+
+
+def resolve(
+    session: Session,
+    owner: str,
+    kind: Kind,
+    options: Mapping[str, object],
+    given: Mapping[str, Value],
+    allowed: Sequence[Network] = (),
+    revised: Mapping[str, Any] | None = None,
+) -> Resolved:
+    """Look up everything that is given to a job with these options; `allowed` are networks that addresses may lead to
+    beside the public ones. Of a revision, `revised` are the parent's sources: what is given is given as corrections,
+    and the other sources stay.
+
+    Raises a 422 problem that lists every wrong input.
+    """
+    chosen = kind.options.model_validate(options)
+    place = "/inputs" if revised is None else "/corrections"
+    stays = {name: source for name, source in (revised or {}).items() if name not in given}
+    resolved = Resolved(stays, _files_in(stays))
+    lookup = _Lookup(session, owner, allowed, resolved.file_ids)
     errors = []
     offered = {item.name: item for item in kind.inputs}
     for name in given:
         if name not in offered:
             names = ", ".join(offered)
-            errors.append(_error(name, "unknown_input", f"{kind.name} has no input “{name}”; it has {names}."))
+            errors.append(_error(name, "unknown_input", f"{kind.name} has no input “{name}”; it has {names}.", place))
     for item in kind.inputs:
         try:
-            if (source := _source(session, item, given.get(item.name), resolved.file_ids)) is not None:
+            source = _source(lookup, item, given.get(item.name))
+            if source is not None:
                 resolved.sources[item.name] = source
+            elif item.needed(chosen) and item.name not in resolved.sources:
+                detail = f"The input “{item.name}” is missing: {item.description}"
+                errors.append(_error(item.name, "missing_input", detail))
         except Refused as refused:
-            errors.append(_error(item.name, refused.code, refused.detail))
+            errors.append(_error(item.name, refused.code, refused.detail, place))
     if errors:
         raise Problem(422, errors[0].code, errors[0].detail, errors)
     return resolved
 
 
-def _source(session: Session, item: Input, value: str | list[str] | None, used: set[str]) -> Any:
+def named(session: Session, owner: str, kind: Kind, given: dict[str, Value]) -> dict[str, str]:
+    """Of what is given, the names of something built in (`Input.named_by`): the options that they stand for. They are
+    nothing that an input is read from: `given` has null in their place. What the owner keeps under such a name goes
+    before it."""
+    names = {}
+    for item in kind.inputs:
+        value = given.get(item.name)
+        if item.named_by is None or item.library is None or not isinstance(value, str):
+            continue
+        shelf = SHELVES[item.library]
+        if value in shelf.built_in and kept.get(session, shelf, owner, value) is None:
+            names[item.named_by] = value
+            given[item.name] = None
+    return names
+
+
+def split_corrections(kind: Kind, corrections: Mapping[str, object]) -> tuple[dict[str, object], dict[str, Value]]:
+    """Those corrections that are options, and those that are inputs. Raises a 422 problem."""
+    inputs = {item.name for item in kind.inputs if item.corrects}
+    options: dict[str, object] = {}
+    given: dict[str, Value] = {}
+    for name, value in corrections.items():
+        if name not in inputs:
+            if name not in kind.correctable:
+                names = ", ".join(correctable(kind)) or "nothing"
+                raise _refused(name, "unknown_correction", f"{kind.name} lets {names} be corrected.")
+            options[name] = value
+            continue
+        try:
+            given[name] = _VALUE.validate_python(value)
+        except ValidationError:
+            detail = f"“{name}” is a file: give its id, an address, or null."
+            raise _refused(name, "invalid_request", detail) from None
+    return options, given
+
+
+def correctable(kind: Kind) -> list[str]:
+    """The names of all that a revision may correct: options, then inputs."""
+    return [*kind.correctable, *(item.name for item in kind.inputs if item.corrects)]
+
+
+def _refused(name: str, code: str, detail: str) -> Problem:
+    return Problem(422, code, detail, [_error(name, code, detail, "/corrections")])
+
+
+def _files_in(sources: Mapping[str, Any]) -> set[str]:
+    """The ids of all files that a job reads from."""
+    found = set()
+    for source in sources.values():
+        for one in source if isinstance(source, list) else [source]:
+            found |= _files_in(one["candidates"]) if "candidates" in one else {one["file"]} if "file" in one else set()
+    return found
+
+
+def _source(lookup: _Lookup, item: Input, value: Value) -> Any:
     if value is None or value == []:
-        if item.required:
-            raise Refused("missing_input", f"The input “{item.name}” is missing: {item.description}")
         return None
     if isinstance(value, list) and not item.many:
         if len(value) != 1:
             raise Refused("too_many_files", f"The input “{item.name}” takes one file.")
         value = value[0]
     if isinstance(value, list):
-        return [_one(session, item, one, used) for one in value]
-    return [_one(session, item, value, used)] if item.many else _one(session, item, value, used)
+        return [_one(lookup, item, one) for one in value]
+    return [_one(lookup, item, value)] if item.many else _one(lookup, item, value)
 
 
-def _one(session: Session, item: Input, value: str, used: set[str]) -> dict[str, str]:
+def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
+    session, owner = lookup.session, lookup.owner
+    shelf = SHELVES[item.library] if item.library is not None else None
+    if shelf is not None and item.auto and value == AUTO:
+        return _candidates(lookup, shelf)
     if "://" in value:
-        raise Refused("url_unsupported", f"“{item.name}” is an address: upload the file and give its id instead.")
+        return _address(item, value, lookup.allowed)
     file_id = value
     if not is_id(value):
-        if item.library is None:
+        if shelf is None:
             raise Refused("unknown_file", f"“{item.name}” is not the id of a file: upload it first.")
-        own = drivers.get(session, value)
+        own = kept.get(session, shelf, owner, value)
         if own is None:
-            if value not in library.names(item.library):
-                raise Refused("unknown_driver", f"There is no driver “{value[:80]}”: GET /v1/drivers lists them.")
+            if value not in shelf.built_in or item.named_by is not None:
+                detail = f"There is no {shelf.noun} “{value[:80]}”: GET {shelf.address} lists them."
+                raise Refused(f"unknown_{shelf.noun}", detail)
             return {"library": item.library, "name": value}
         file_id = own.file_id
-    file = files.get(session, file_id)
-    if file is None:
-        raise Refused("unknown_file", f"There is no file {value} for “{item.name}”: it was erased, or never was.")
-    if item.media in MEDIA_TYPES and file.content_type not in MEDIA_TYPES[item.media]:
-        raise Refused("input_wrong_media", f"“{item.name}” must be of type {item.media}; this is {file.content_type}.")
-    used.add(file.id)
+    file = held_file(session, owner, file_id, item.name)
+    require_media(item, file.content_type)
+    lookup.used.add(file.id)
     return {"file": file.id}
 
 
-def _error(name: str, code: str, detail: str) -> FieldError:
-    return FieldError(pointer=f"/inputs/{name}", code=code, detail=detail)
+def held_file(session: Session, owner: str, file_id: str, what: str) -> File:
+    """The owner's file, which nobody erases until this transaction ends. Raises `Refused`."""
+    file = files.held(session, owner, file_id)
+    if file is None:
+        if (upload := uploads.get(session, owner, file_id)) is not None:
+            come = f"{upload.received} of {upload.length or 'unknown'} bytes have come"
+            raise Refused("upload_unfinished", f"The upload {file_id} for “{what}” is not finished: {come}.")
+        raise Refused("unknown_file", f"There is no file {file_id[:80]} for “{what}”: it was erased, or never was.")
+    return file
+
+
+def _address(item: Input, url: str, allowed: Sequence[Network]) -> dict[str, str]:
+    """An address that the worker fetches. Only what can be seen of it is judged here."""
+    try:
+        require_callable(url, allowed)
+    except AddressRefused as refused:
+        raise Refused("input_url_refused", f"“{item.name}”: {refused}") from refused
+    return {"url": url}
+
+
+def require_media(item: Input, content_type: str) -> None:
+    """Raise `Refused` if an input cannot be of this media type."""
+    if item.media in MEDIA_TYPES and content_type not in MEDIA_TYPES[item.media]:
+        raise Refused("input_wrong_media", f"“{item.name}” must be of type {item.media}; this is {content_type}.")
+
+
+def _candidates(lookup: _Lookup, shelf: Shelf) -> dict[str, Any]:
+    """What `auto` chooses from: the built-in library, then what the user keeps beside it, the newest first."""
+    candidates: dict[str, dict[str, str]] = {one: {"library": shelf.library, "name": one} for one in shelf.built_in}
+    own = kept.with_files(lookup.session, shelf, lookup.owner)
+    for one, _ in sorted(own, key=lambda pair: pair[0].created_at, reverse=True)[:MOST_OWN]:
+        if (file := files.held(lookup.session, lookup.owner, one.file_id)) is not None:
+            candidates[one.name] = {"file": file.id}
+            lookup.used.add(file.id)
+    return {"candidates": candidates}
+
+
+def _error(name: str, code: str, detail: str, place: str = "/inputs") -> FieldError:
+    return FieldError(pointer=f"{place}/{name}", code=code, detail=detail)

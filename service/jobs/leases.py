@@ -1,21 +1,24 @@
 """The course of a job, as workers change it: claimed by a lease, renewed by a heartbeat, fenced by a token.
 
 Each function is one guarded UPDATE and returns whether it still applied. A worker whose lease was lost (the
-job was canceled or erased, or another worker took over) can change nothing any more.
+job was canceled or erased, or another worker took over) can change nothing any more. The UPDATE comes first in its
+transaction: it locks the job's row, so that what follows in the same transaction stands on firm ground.
+
+How long a lease lasts is measured by the database's clock alone: the clocks of the machines may differ.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import timedelta
 from typing import Any
 
-from sqlalchemy import case, select, update
-from sqlalchemy.orm import Session
+from sqlalchemy import ColumnElement, Select, case, func, or_, select, update
+from sqlalchemy.orm import Session, aliased
 
-from service.clock import now
+from service.database import SET_BACK_SECONDS, moment_in
 from service.events import repository as events
+from service.figures import counters
 from service.jobs.models import Job, Status
 
 MOST_FRUITLESS_ATTEMPTS = 3
@@ -32,16 +35,15 @@ class Lease:
 
 def claim(session: Session, job_id: str, owner: str, seconds: float) -> Lease | None:
     """Take a queued job; None if it is not queued (any more), so that a message delivered twice runs once."""
-    moment = now()
     taken = session.execute(
         update(Job)
         .where(Job.id == job_id, Job.status == Status.QUEUED)
         .values(
             status=Status.RUNNING,
-            started_at=case((Job.started_at.is_(None), moment), else_=Job.started_at),
+            started_at=case((Job.started_at.is_(None), moment_in()), else_=Job.started_at),
             lease_owner=owner,
             lease_token=Job.lease_token + 1,
-            lease_expires_at=moment + timedelta(seconds=seconds),
+            lease_expires_at=moment_in(seconds),
             attempts=Job.attempts + 1,
             fruitless_attempts=Job.fruitless_attempts + 1,
         )
@@ -53,6 +55,28 @@ def claim(session: Session, job_id: str, owner: str, seconds: float) -> Lease | 
     return Lease(job_id, int(token or 0), seconds)
 
 
+def claim_next(session: Session, kind: str, owner: str, seconds: float) -> Lease | None:
+    """Take the queued job of a kind whose turn it is; None if none is queued.
+
+    The highest priority comes first; among equals the key of which the fewest jobs run, so that a long list of one
+    key does not hold up the others; then whoever came first.
+    """
+    while (job_id := session.scalar(_in_turn(kind))) is not None:
+        if (lease := claim(session, job_id, owner, seconds)) is not None:
+            return lease  # otherwise another worker was faster
+    return None
+
+
+def _in_turn(kind: str) -> Select[tuple[str]]:
+    waits = (Job.status == Status.QUEUED) & (Job.kind == kind)
+    urgent = select(func.min(Job.priority)).where(waits).scalar_subquery()
+    firsts = select(func.min(Job.id)).where(waits, Job.priority == urgent).group_by(Job.owner)
+    other = aliased(Job)
+    running = select(func.count(other.id)).where(other.owner == Job.owner, other.status == Status.RUNNING)
+    in_turn = running.correlate(Job).scalar_subquery()
+    return select(Job.id).where(Job.id.in_(firsts)).order_by(in_turn, Job.id).limit(1)
+
+
 def holds(session: Session, lease: Lease) -> bool:
     """Whether the lease still stands; reads only."""
     query = select(Job.id).where(Job.id == lease.job_id, Job.lease_token == lease.token, Job.status == Status.RUNNING)
@@ -61,7 +85,7 @@ def holds(session: Session, lease: Lease) -> bool:
 
 def change(session: Session, lease: Lease, **values: Any) -> bool:
     """Change columns of the job if the lease still stands, and renew the lease."""
-    values.setdefault("lease_expires_at", now() + timedelta(seconds=lease.seconds))
+    values.setdefault("lease_expires_at", moment_in(lease.seconds))
     changed = session.execute(
         update(Job)
         .where(Job.id == lease.job_id, Job.lease_token == lease.token, Job.status == Status.RUNNING)
@@ -72,7 +96,7 @@ def change(session: Session, lease: Lease, **values: Any) -> bool:
 
 def report(session: Session, lease: Lease, progress: dict[str, Any]) -> bool:
     """Record progress."""
-    if not change(session, lease, progress=progress, progress_at=now()):
+    if not change(session, lease, progress=progress, progress_at=moment_in()):
         return False
     events.append(session, lease.job_id, "progress", progress)
     return True
@@ -88,18 +112,32 @@ def succeed(session: Session, lease: Lease) -> bool:
     return _finish(session, lease, Status.SUCCEEDED, progress=progress, error=None)
 
 
-def fail(session: Session, lease: Lease, code: str, detail: str, correctable: Sequence[str] = ()) -> bool:
-    error = {"code": code, "detail": detail, "correctable": list(correctable)}
+def fail(
+    session: Session,
+    lease: Lease,
+    code: str,
+    detail: str,
+    correctable: Sequence[str] = (),
+    found: Mapping[str, Any] | None = None,
+) -> bool:
+    error = {"code": code, "detail": detail, "correctable": list(correctable), "found": dict(found or {})}
     return _finish(session, lease, Status.FAILED, error=error)
 
 
-def give_back(session: Session, lease: Lease, reason: str, counts: bool = True) -> Status | None:
+def give_back(
+    session: Session, lease: Lease, reason: str, counts: bool = True, only_expired: bool = False
+) -> Status | None:
     """End an attempt that did not end by itself: the job is queued again, or fails after three fruitless ones.
 
-    `counts=False` where the attempt is not to blame (the worker was told to stop). Returns the job's new
-    status, None if the lease was lost.
+    `counts=False` where the attempt is not to blame (the worker was told to stop); `only_expired` where the worker
+    may have renewed its lease in the meantime. Returns the job's new status, None if the lease was lost (or stands).
     """
-    fruitless = session.scalar(select(Job.fruitless_attempts).where(Job.id == lease.job_id)) or 0
+    mine = select(Job.fruitless_attempts).where(Job.id == lease.job_id, Job.lease_token == lease.token)
+    if only_expired:
+        mine = mine.where(_over())
+    fruitless = session.scalar(mine.with_for_update())
+    if fruitless is None:
+        return None
     if counts and fruitless >= MOST_FRUITLESS_ATTEMPTS:
         detail = f"Tried {fruitless} times without getting any further. The last time: {reason}"
         return Status.FAILED if fail(session, lease, "attempts_exhausted", detail) else None
@@ -107,7 +145,7 @@ def give_back(session: Session, lease: Lease, reason: str, counts: bool = True) 
         session,
         lease,
         status=Status.QUEUED,
-        enqueued_at=now(),
+        enqueued_at=moment_in(),
         lease_owner=None,
         lease_expires_at=None,
         fruitless_attempts=fruitless if counts else max(fruitless - 1, 0),
@@ -120,8 +158,13 @@ def give_back(session: Session, lease: Lease, reason: str, counts: bool = True) 
 
 def expired(session: Session) -> list[tuple[str, Lease]]:
     """The running jobs whose worker has fallen silent: their kinds and leases."""
-    query = select(Job).where(Job.status == Status.RUNNING, Job.lease_expires_at < now())
+    query = select(Job).where(Job.status == Status.RUNNING, _over())
     return [(job.kind, Lease(job.id, job.lease_token, 0.0)) for job in session.scalars(query)]
+
+
+def _over() -> ColumnElement[bool]:
+    """Whether a lease has ended, or was given before the clock was set back: it would hold its job for too long."""
+    return or_(Job.lease_expires_at < moment_in(), Job.lease_expires_at > moment_in(SET_BACK_SECONDS))
 
 
 def cancel(session: Session, job_id: str) -> bool:
@@ -129,17 +172,36 @@ def cancel(session: Session, job_id: str) -> bool:
     canceled = session.execute(
         update(Job)
         .where(Job.id == job_id, Job.status.in_([Status.QUEUED, Status.RUNNING]))
-        .values(status=Status.CANCELED, finished_at=now(), lease_owner=None, lease_expires_at=None)
+        .values(status=Status.CANCELED, finished_at=moment_in(), lease_owner=None, lease_expires_at=None)
     )
     if not canceled.rowcount:  # type: ignore[attr-defined]
         return False
     events.append(session, job_id, "status", {"status": Status.CANCELED})
+    _count(session, job_id, Status.CANCELED, "")
     return True
 
 
 def _finish(session: Session, lease: Lease, status: Status, **values: Any) -> bool:
-    ended = change(session, lease, status=status, finished_at=now(), lease_owner=None, lease_expires_at=None, **values)
+    values |= {"status": status, "finished_at": moment_in(), "lease_owner": None, "lease_expires_at": None}
+    ended = change(session, lease, **values)
     if ended:
         data = {"status": status} | ({"error": values["error"]} if values.get("error") else {})
         events.append(session, lease.job_id, "status", data)
+        _count(session, lease.job_id, status, (values.get("error") or {}).get("code", ""))
     return ended
+
+
+def count_stages(session: Session, lease: Lease, seconds: Mapping[str, float]) -> None:
+    """Count how long the stages of a job took that has just succeeded."""
+    kind = _kind(session, lease.job_id)
+    for stage, spent in sorted(seconds.items()):  # in one order, so that two that end at once cannot block each other
+        counters.add(session, "galatea_stage_seconds", kind, stage, amount=spent)
+        counters.add(session, "galatea_stage_runs", kind, stage)
+
+
+def _count(session: Session, job_id: str, status: Status, code: str) -> None:
+    counters.add(session, "galatea_jobs_ended", _kind(session, job_id), status.value, code)
+
+
+def _kind(session: Session, job_id: str) -> str:
+    return session.scalar(select(Job.kind).where(Job.id == job_id)) or ""

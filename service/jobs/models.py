@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from datetime import datetime
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 from typing import Any
 
-from sqlalchemy import JSON, ForeignKey, Index, String
+from sqlalchemy import JSON, ForeignKey, Index, SmallInteger, String
 from sqlalchemy.orm import Mapped, mapped_column
 
 from service.database import Base, UTCDateTime
+from service.traces.tracer import TRACEPARENT_CHARACTERS
 
 
 class Status(StrEnum):
@@ -26,28 +27,54 @@ class Status(StrEnum):
         return self not in (Status.QUEUED, Status.RUNNING)
 
 
+class Priority(IntEnum):
+    """Which jobs of a kind come first: the smaller."""
+
+    HIGH = 1
+    NORMAL = 2
+    LOW = 3
+
+
 class Job(Base):
     """One job."""
 
     __tablename__ = "jobs"
     __table_args__ = (
         Index("jobs_by_status", "status", "kind", "enqueued_at"),
+        Index("jobs_in_turn", "status", "kind", "priority", "id"),
         Index("jobs_by_kind", "kind", "id"),
+        Index("jobs_by_tree", "tree", "id"),
+        Index("jobs_by_owner", "owner", "status"),
     )
 
     id: Mapped[str] = mapped_column(String(36), primary_key=True)
+    owner: Mapped[str] = mapped_column(ForeignKey("keys.id"))
     kind: Mapped[str] = mapped_column(String(64))
     status: Mapped[str] = mapped_column(String(16))
+    priority: Mapped[int] = mapped_column(SmallInteger, default=Priority.NORMAL)
+    revision_of: Mapped[str | None] = mapped_column(String(36))
+    """The job that this one corrects; it may have been erased since."""
+    tree: Mapped[str] = mapped_column(String(36), default=lambda context: context.get_current_parameters()["id"])
+    """The job that was revised first, or this one: a tree shares its stored stages."""
     inputs: Mapped[dict[str, Any]] = mapped_column(JSON)
     """As the client gave them: file ids and names of drivers."""
     sources: Mapped[dict[str, Any]] = mapped_column(JSON)
-    """As the worker needs them: `{"file": id}` or `{"library": ..., "name": ...}`, a list where many."""
+    """As the worker needs them: `{"file": id}`, `{"library": ..., "name": ...}` or `{"url": ...}` until that was fetched; a list
+    where many."""
     options: Mapped[dict[str, Any]] = mapped_column(JSON)
     notes: Mapped[dict[str, Any]] = mapped_column("metadata", JSON)
     """The client's own metadata."""
     progress: Mapped[dict[str, Any]] = mapped_column(JSON)
     progress_at: Mapped[datetime | None] = mapped_column(UTCDateTime)
+    webhook_url: Mapped[str | None] = mapped_column(String(2000))
+    """An address of its own to be told."""
+    webhook_events: Mapped[list[str] | None] = mapped_column(JSON(none_as_null=True))
+    """Of what; null for its end alone."""
     error: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
+    request: Mapped[str | None] = mapped_column(String(64))
+    """The id of the request that submitted it."""
+    trace: Mapped[str | None] = mapped_column(String(TRACEPARENT_CHARACTERS))
+    """That request's span, as a `traceparent`: what is done for the job belongs to the same trace, wherever it is done."""
     created_at: Mapped[datetime] = mapped_column(UTCDateTime)
     started_at: Mapped[datetime | None] = mapped_column(UTCDateTime)
     finished_at: Mapped[datetime | None] = mapped_column(UTCDateTime)
@@ -78,6 +105,7 @@ class IdempotencyKey(Base):
 
     __tablename__ = "idempotency_keys"
 
+    owner: Mapped[str] = mapped_column(ForeignKey("keys.id"), primary_key=True)
     key: Mapped[str] = mapped_column(String(255), primary_key=True)
     fingerprint: Mapped[str] = mapped_column(String(64))
     job_id: Mapped[str] = mapped_column(ForeignKey("jobs.id", ondelete="CASCADE"), index=True)

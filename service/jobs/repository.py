@@ -4,20 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime, timedelta
+from typing import Any
 
-from sqlalchemy import delete, func, select, update
+from sqlalchemy import delete, func, or_, select, update
 from sqlalchemy.orm import Session
 
 from service.clock import now
+from service.database import SET_BACK_SECONDS, moment_in
 from service.jobs.models import IdempotencyKey, Job, JobFile, Status
+from service.kept.shelves import SHELVES
 
 
 def get(session: Session, job_id: str) -> Job | None:
     return session.get(Job, job_id)
 
 
+def held(session: Session, job_id: str) -> Job | None:
+    """A job that nobody else changes or erases until this transaction ends."""
+    return session.get(Job, job_id, with_for_update=True, populate_existing=True)
+
+
 def page(
     session: Session,
+    owner: str,
     limit: int,
     before_id: str | None = None,
     statuses: Sequence[Status] = (),
@@ -25,8 +34,8 @@ def page(
     created_after: datetime | None = None,
     created_before: datetime | None = None,
 ) -> Sequence[Job]:
-    """Jobs, newest first. Ids grow with time, so that one of them marks a place in the list."""
-    query = select(Job).order_by(Job.id.desc()).limit(limit)
+    """An owner's jobs, newest first. Ids grow with time, so that one of them marks a place in the list."""
+    query = select(Job).where(Job.owner == owner).order_by(Job.id.desc()).limit(limit)
     if before_id is not None:
         query = query.where(Job.id < before_id)
     if statuses:
@@ -45,13 +54,18 @@ def files_of(session: Session, job_id: str) -> Sequence[str]:
     return session.scalars(select(JobFile.file_id).where(JobFile.job_id == job_id)).all()
 
 
+def tree(session: Session, root: str) -> Sequence[Job]:
+    """A job and its revisions, oldest first."""
+    return session.scalars(select(Job).where(Job.tree == root).order_by(Job.id)).all()
+
+
 def erase(session: Session, job_id: str) -> None:
     """Erase a job with its events, artifacts and keys (what they point at in the storage is another matter)."""
     session.execute(delete(Job).where(Job.id == job_id))
 
 
-def idempotency_key(session: Session, key: str) -> IdempotencyKey | None:
-    return session.get(IdempotencyKey, key)
+def idempotency_key(session: Session, owner: str, key: str) -> IdempotencyKey | None:
+    return session.get(IdempotencyKey, (owner, key))
 
 
 def forget_idempotency_keys(session: Session, older_than: timedelta) -> None:
@@ -63,16 +77,55 @@ def count_by_kind_and_status(session: Session) -> dict[tuple[str, str], int]:
     return {(kind, status): count for kind, status, count in session.execute(query)}
 
 
-def queued(session: Session, kind: str) -> Sequence[Job]:
-    """The jobs of a kind that wait, oldest message first."""
-    query = select(Job).where(Job.status == Status.QUEUED, Job.kind == kind).order_by(Job.enqueued_at)
-    return session.scalars(query.limit(1000)).all()
+def oldest_queued(session: Session) -> dict[str, datetime]:
+    """Since when the oldest queued job of each kind has waited."""
+    query = select(Job.kind, func.min(Job.created_at)).where(Job.status == Status.QUEUED).group_by(Job.kind)
+    return dict(session.execute(query).tuples().all())
+
+
+def ends(session: Session, ids: Sequence[str]) -> dict[str, tuple[Status, dict[str, Any] | None]]:
+    """Where those of these jobs stand that there are, and why they failed."""
+    query = select(Job.id, Job.status, Job.error).where(Job.id.in_(ids))
+    return {one: (Status(status), error) for one, status, error in session.execute(query)}
+
+
+def queued(session: Session, kind: str, seconds: float) -> Sequence[Job]:
+    """The jobs of a kind whose message was sent so long ago (or before the clock was set back) and that still wait,
+    oldest message first."""
+    overdue = or_(Job.enqueued_at < moment_in(-seconds), Job.enqueued_at > moment_in(SET_BACK_SECONDS))
+    query = select(Job).where(Job.status == Status.QUEUED, Job.kind == kind, overdue)
+    return session.scalars(query.order_by(Job.enqueued_at).limit(1000)).all()
+
+
+def running(session: Session, ids: Sequence[str]) -> set[str]:
+    """Those of these jobs that a worker has."""
+    return set(session.scalars(select(Job.id).where(Job.id.in_(ids), Job.status == Status.RUNNING)))
+
+
+def count_queued(session: Session, kind: str) -> int:
+    query = select(func.count()).where(Job.status == Status.QUEUED, Job.kind == kind)
+    return session.scalar(query) or 0
+
+
+def ended_before(session: Session, moment: datetime, most: int) -> Sequence[Job]:
+    """Some jobs that ended before a moment, oldest first. What was found in something that a user keeps is kept
+    as long as that."""
+    query = select(Job).where(Job.finished_at < moment)
+    for shelf in SHELVES.values():
+        look_job = shelf.table.look_job
+        query = query.where(Job.id.not_in(select(look_job).where(look_job.is_not(None))))
+    return session.scalars(query.order_by(Job.finished_at).limit(most)).all()
 
 
 def mark_enqueued(session: Session, job_id: str) -> None:
-    session.execute(update(Job).where(Job.id == job_id).values(enqueued_at=now()))
+    session.execute(update(Job).where(Job.id == job_id).values(enqueued_at=moment_in()))
 
 
 def known(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids are jobs."""
     return set(session.scalars(select(Job.id).where(Job.id.in_(ids))))
+
+
+def with_folder(session: Session, ids: Sequence[str]) -> set[str]:
+    """Which of these ids still need their folder: they are jobs, or there are revisions of them."""
+    return known(session, ids) | set(session.scalars(select(Job.tree).where(Job.tree.in_(ids))))

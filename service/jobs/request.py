@@ -1,77 +1,105 @@
-"""Reading the body of POST /jobs: JSON, or a form that carries the files themselves."""
+"""Reading the body of POST /jobs and of POST /jobs/{id}/revisions: JSON, or a form that carries the files themselves."""
 
 from __future__ import annotations
 
-import json
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from anyio.to_thread import run_sync
 from fastapi import Request
 from pydantic import ValidationError
 
+from service.asked import JSON_TYPES, parse_json, read_json
+from service.auth.caller import Caller
 from service.context import Context
 from service.files import service as files
-from service.files.intake import FIELD_BYTES, Form
+from service.files.intake import Form
 from service.files.models import File
 from service.jobs.models import Job
-from service.jobs.schemas import JobIn
-from service.jobs.service import submit
+from service.jobs.schemas import JobIn, RevisionIn
+from service.jobs.service import revise, submit
 from service.problems import Problem, invalid
 
-JSON_PARTS = ("inputs", "options", "metadata")
-TEXT_PARTS = ("kind", "webhook_url")
+JSON_PARTS = ("options", "metadata", "webhook_events")
+TEXT_PARTS = ("kind", "webhook_url", "priority")
+
+Asked = TypeVar("Asked", JobIn, RevisionIn)
+Accept = Callable[[Asked, Mapping[str, Sequence[File]]], tuple[Job, bool]]
+"""What is done with a body and the files that came with it."""
 
 
-async def submit_body(request: Request, context: Context, key: str | None) -> tuple[Job, bool]:
+async def submit_body(request: Request, context: Context, caller: Caller, key: str | None) -> tuple[Job, bool]:
     """Submit what the request's body asks for (see `submit`)."""
+
+    def accept(asked: JobIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
+        return submit(context, caller.owner, asked, uploaded, key)
+
+    return await _accepted(request, context, caller, JobIn, "inputs", accept)
+
+
+async def revise_body(
+    request: Request, context: Context, caller: Caller, job_id: str, key: str | None
+) -> tuple[Job, bool]:
+    """Submit a job again as the request's body asks for (see `revise`)."""
+
+    def accept(asked: RevisionIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
+        return revise(context, caller.owner, job_id, asked, uploaded, key)
+
+    return await _accepted(request, context, caller, RevisionIn, "corrections", accept)
+
+
+def require_priority(caller: Caller, priority: str | None) -> None:
+    """Raise a 403 problem where a caller asks to come before all others without being allowed to."""
+    if priority == "high" and "admin" not in caller.scopes:
+        raise Problem(
+            403,
+            "priority_not_allowed",
+            "The priority “high” takes a key with the scope “admin”: use such a key, or submit the job as “normal”.",
+        )
+
+
+async def _accepted(
+    request: Request, context: Context, caller: Caller, model: type[Asked], named: str, accept: Accept[Asked]
+) -> tuple[Job, bool]:
+    """Read a body; in a form, every part that is none of the others belongs to the object `named`."""
     content_type = request.headers.get("content-type", "").lower()
     if content_type.startswith("multipart/form-data"):
-        return await _submit_form(request, context, key)
-    if content_type.split(";")[0].strip() not in ("", "application/json"):
+        return await _accepted_form(request, context, caller, model, named, accept)
+    if content_type.split(";")[0].strip() not in JSON_TYPES:
         raise Problem(415, "body_type_unsupported", "Send the body as application/json or multipart/form-data.")
-    body = b""
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > FIELD_BYTES:
-            raise Problem(413, "request_too_large", f"The JSON body may have {FIELD_BYTES} bytes at most.")
-    return await run_sync(submit, context, _job_in(_json(body, "The body")), {}, key)
+    asked = _validated(model, await read_json(request))
+    require_priority(caller, asked.priority)
+    return await run_sync(accept, asked, {})
 
 
-async def _submit_form(request: Request, context: Context, key: str | None) -> tuple[Job, bool]:
+async def _accepted_form(
+    request: Request, context: Context, caller: Caller, model: type[Asked], named: str, accept: Accept[Asked]
+) -> tuple[Job, bool]:
     async with Form(request, context.settings, context.settings.upload_files) as form:
-        document: dict[str, Any] = {name: _json(form.fields[name], name) for name in JSON_PARTS if name in form.fields}
+        parts = (named, *JSON_PARTS)
+        document: dict[str, Any] = {name: parse_json(form.fields[name], name) for name in parts if name in form.fields}
         document |= {name: form.fields[name] for name in TEXT_PARTS if name in form.fields}
         # Any other text part names an input, so that `-F driver=idle` works beside `-F image=@photo.jpg`.
-        texts = {name: text for name, text in form.fields.items() if name not in (*JSON_PARTS, *TEXT_PARTS)}
-        if texts and isinstance(document.setdefault("inputs", {}), dict):
-            document["inputs"] |= texts
-        asked = _job_in(document)
+        texts = {name: text for name, text in form.fields.items() if name not in (*parts, *TEXT_PARTS)}
+        if texts and isinstance(document.setdefault(named, {}), dict):
+            document[named] |= texts
+        asked = _validated(model, document)
+        require_priority(caller, asked.priority)
         uploaded: dict[str, list[File]] = {}
         ids: list[str] = []
         try:
             for received in form.files:
-                file = await run_sync(files.keep, context, received)
+                file = await run_sync(files.keep, context, caller.owner, received)
                 uploaded.setdefault(received.part, []).append(file)
                 ids.append(file.id)
-            return await run_sync(submit, context, asked, uploaded, key)
+            return await run_sync(accept, asked, uploaded)
         finally:
             # Those that no job uses: the job was refused, or an earlier request had made it.
             await run_sync(files.erase_unused, context, ids)
 
 
-def _json(text: str | bytes, what: str) -> Any:
+def _validated(model: type[Asked], document: Any) -> Asked:
     try:
-        return json.loads(text, parse_constant=_no_number)
-    except (ValueError, RecursionError):
-        raise Problem(422, "invalid_json", f"{what} is not valid JSON.") from None
-
-
-def _no_number(name: str) -> None:
-    raise ValueError(f"{name} is no JSON")
-
-
-def _job_in(document: Any) -> JobIn:
-    try:
-        return JobIn.model_validate(document)
+        return model.model_validate(document)
     except ValidationError as error:
         raise invalid(error, "invalid_request") from error

@@ -4,27 +4,57 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal, cast
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from pydantic import BaseModel, Field, JsonValue
 
+from service.artifacts.links import Signer
 from service.artifacts.models import Artifact
 from service.artifacts.schemas import ArtifactOut
+from service.asked import ASKED
 from service.clock import now
-from service.jobs.models import Job, Status
+from service.jobs.models import Job, Priority, Status
+from service.webhooks.schemas import Events, Url
+
+PriorityName = Literal["high", "normal", "low"]
 
 
 class JobIn(BaseModel):
     """What a client asks for."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ASKED
 
     kind: str
     inputs: dict[str, str | list[str]] = {}
-    """Input names to file ids or names of drivers; a list where an input takes many."""
+    """Input names to file ids, https addresses or names of drivers; a list where an input takes many."""
     options: dict[str, JsonValue] = {}
-    webhook_url: str | None = None
+    webhook_url: Url | None = None
+    """An address that is told of this job, signed with the secret of the caller's key (`GET /key`)."""
+    webhook_events: Events | None = None
+    """What it is told; of the job's end alone if not given."""
     metadata: dict[str, JsonValue] = Field({}, max_length=100)
+    priority: PriorityName = "normal"
+    """Waiting jobs of a kind are taken in this order; among equals, each key has its turn."""
+
+
+class RevisionIn(BaseModel):
+    """What is to be different."""
+
+    model_config = ASKED
+
+    corrections: dict[str, JsonValue] = {}
+    """What was found wrongly, by the names that the kind offers (`GET /kinds`); of inputs, file ids or https addresses,
+    and null takes one back."""
+    options: dict[str, JsonValue] = {}
+    """Options to change; null takes one back to its default. The others stay as they were."""
+    webhook_url: Url | None = None
+    """Null keeps the job's own."""
+    webhook_events: Events | None = None
+    """Null keeps the job's own."""
+    metadata: dict[str, JsonValue] | None = Field(None, max_length=100)
+    """Null keeps the job's own."""
+    priority: PriorityName | None = None
+    """Null keeps the job's own."""
 
 
 class Progress(BaseModel):
@@ -43,6 +73,8 @@ class JobError(BaseModel):
     detail: str
     correctable: list[str] = []
     """The corrections that could mend it."""
+    found: dict[str, JsonValue] = {}
+    """What helps with that: for a portrait the boxes of its `faces` (x, y, width, height in pixels of the picture)."""
 
 
 class JobOut(BaseModel):
@@ -51,6 +83,7 @@ class JobOut(BaseModel):
     id: str
     kind: str
     status: Status
+    priority: PriorityName
     progress: Progress
     inputs: dict[str, str | list[str]]
     options: dict[str, JsonValue]
@@ -60,22 +93,29 @@ class JobOut(BaseModel):
     created_at: datetime
     started_at: datetime | None
     finished_at: datetime | None
+    revision_of: str | None
+    """The job that this one revises."""
+    tree: str
+    """The job that was revised first, or this one."""
 
     @classmethod
-    def of(cls, job: Job, artifacts: Sequence[Artifact]) -> JobOut:
+    def of(cls, job: Job, artifacts: Sequence[Artifact], signer: Signer | None = None) -> JobOut:
         return cls(
             id=job.id,
             kind=job.kind,
             status=Status(job.status),
+            priority=cast(PriorityName, Priority(job.priority).name.lower()),
             progress=_progress(job),
             inputs=job.inputs,
             options=job.options,
-            artifacts={artifact.name: ArtifactOut.of(artifact) for artifact in artifacts},
+            artifacts={artifact.name: ArtifactOut.of(artifact, signer) for artifact in artifacts},
             error=JobError.model_validate(job.error) if job.error else None,
             metadata=job.notes,
             created_at=job.created_at,
             started_at=job.started_at,
             finished_at=job.finished_at,
+            revision_of=job.revision_of,
+            tree=job.tree,
         )
 
 
@@ -85,6 +125,12 @@ class JobPage(BaseModel):
     items: list[JobOut]
     next_cursor: str | None
     """Give it as `cursor` to get the next page; null on the last one."""
+
+
+class JobTree(BaseModel):
+    """A job and all its revisions, oldest first; `revision_of` says which revises which."""
+
+    items: list[JobOut]
 
 
 def _progress(job: Job) -> Progress:

@@ -4,144 +4,284 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
+import structlog
 from pydantic import ValidationError
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from engine.kind import Kind
 from service.artifacts import repository as artifacts
+from service.artifacts.links import Signer
+from service.auth import repository as keys
+from service.auth.quotas import require_job
 from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.files import repository as files
 from service.files.models import File
+from service.files.service import forget
 from service.ids import new_id
-from service.jobs import leases, repository
-from service.jobs.inputs import resolve
-from service.jobs.models import IdempotencyKey, Job, JobFile, Status
-from service.jobs.schemas import JobIn, JobOut
+from service.jobs import leases, repository, stages
+from service.jobs.inputs import Value, named, resolve, split_corrections
+from service.jobs.models import IdempotencyKey, Job, JobFile, Priority, Status
+from service.jobs.portions import choose_portions
+from service.jobs.schemas import JobIn, JobOut, JobTree, RevisionIn
 from service.problems import Problem, invalid
+from service.traces.current import current_request
+from service.webhooks.service import require_address
 
 METADATA_BYTES = 16_000
 
 
-def submit(context: Context, asked: JobIn, uploaded: Mapping[str, Sequence[File]], key: str | None) -> tuple[Job, bool]:
+def submit(
+    context: Context, owner: str, asked: JobIn, uploaded: Mapping[str, Sequence[File]], key: str | None
+) -> tuple[Job, bool]:
     """Accept a job. Returns it, and whether an earlier request with the same key had made it.
 
     `uploaded` are files that came with the request, by input name. Raises `Problem`.
     """
-    kind, options = _checked(context, asked)
-    fingerprint = _fingerprint(asked, uploaded)
+    kind = _kind(context, asked.kind)
+    _check(context, asked)
+    given: dict[str, Value] = dict(asked.inputs)
+    with context.database.read() as session:
+        built_in = named(session, owner, kind, given)
+    options = _options(kind, {**asked.options, **built_in})
+    given |= {name: [file.id for file in came] for name, came in uploaded.items()}
+    portions = choose_portions(context, owner, kind, options, given)
+    document = _document(asked)
+    document["uploaded"] = {name: [file.sha256 for file in came] for name, came in sorted(uploaded.items())}
+
+    def make(session: Session) -> Job:
+        meant, trimmed = portions()
+        job = _new_job(owner, kind, trimmed, asked.metadata)
+        _be_told(job, asked.webhook_url, asked.webhook_events)
+        job.priority = _priority(asked.priority)
+        resolved = resolve(session, owner, kind, trimmed, meant, context.settings.allowed_networks)
+        job.inputs, job.sources = _shown(kind, given), resolved.sources
+        _insert(session, job, resolved.file_ids)
+        return job
+
+    return _accept(context, owner, key, document, make)
+
+
+def revise(
+    context: Context,
+    owner: str,
+    job_id: str,
+    asked: RevisionIn,
+    uploaded: Mapping[str, Sequence[File]],
+    key: str | None,
+) -> tuple[Job, bool]:
+    """Accept a revision: a job with other options, or with other files in place of what the work found, which reuses
+    the stages that they leave as they were; all else is the parent's.
+
+    `uploaded` are files that came with the request, by the names of corrections. Returns the job, and whether an
+    earlier request with the same key had made it. Raises `Problem`.
+    """
+    with context.database.read() as session:
+        parent = found(session, owner, job_id)
+        kind = _kind(context, parent.kind)
+        _check(context, asked)
+        came = {name: [file.id for file in files] for name, files in uploaded.items()}
+        corrected, given = split_corrections(kind, {**asked.corrections, **came})
+        corrected |= named(session, owner, kind, given)
+    if not Status(parent.status).final:
+        raise Problem(409, "job_not_finished", f"The job is {parent.status}: wait for its end, or cancel it first.")
+    wanted = {**parent.options, **asked.options, **corrected}
+    options = _options(kind, {name: value for name, value in wanted.items() if value is not None})
+    document = {"revision_of": job_id, **_document(asked)}
+    if uploaded:
+        document["uploaded"] = {name: [file.sha256 for file in files] for name, files in sorted(uploaded.items())}
+
+    def make(session: Session) -> Job:
+        parent = held(session, owner, job_id)
+        job = _new_job(owner, kind, options, parent.notes if asked.metadata is None else asked.metadata)
+        _be_told(job, asked.webhook_url or parent.webhook_url, asked.webhook_events or parent.webhook_events)
+        job.priority = _priority(asked.priority) if asked.priority is not None else parent.priority
+        job.revision_of, job.tree = parent.id, parent.tree
+        resolved = resolve(session, owner, kind, options, given, context.settings.allowed_networks, parent.sources)
+        job.inputs, job.sources = _shown(kind, {**parent.inputs, **given}), resolved.sources
+        _insert(session, job, resolved.file_ids)
+        return job
+
+    return _accept(context, owner, key, document, make)
+
+
+def _accept(
+    context: Context, owner: str, key: str | None, document: Mapping[str, object], make: Callable[[Session], Job]
+) -> tuple[Job, bool]:
+    """Make a job unless a request with the same key did, and send its message."""
+    fingerprint = hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
     try:
         with context.database.write() as session:
-            if key is not None and (earlier := _earlier(session, key, fingerprint)) is not None:
+            if key is not None and (earlier := _earlier(session, owner, key, fingerprint)) is not None:
                 return earlier, True
-            job = _insert(session, kind, asked, options, uploaded)
+            require_job(session, context.settings, owner)
+            job = make(session)
             if key is not None:
-                session.add(IdempotencyKey(key=key, fingerprint=fingerprint, job_id=job.id, created_at=now()))
+                session.add(
+                    IdempotencyKey(owner=owner, key=key, fingerprint=fingerprint, job_id=job.id, created_at=now())
+                )
     except IntegrityError:
         # On a database with several writers, the same key may have been taken in this very moment.
         with context.database.read() as session:
-            if key is None or (earlier := _earlier(session, key, fingerprint)) is None:
+            if key is None or (earlier := _earlier(session, owner, key, fingerprint)) is None:
                 raise
             return earlier, True
+    current_request().span.set_attribute("galatea.job", job.id)
+    structlog.get_logger().info("job_accepted", job=job.id, kind=job.kind)
     context.queue.send(job.id, job.kind)
     return job, False
 
 
-def cancel(context: Context, job_id: str) -> None:
+def cancel(context: Context, owner: str, job_id: str) -> None:
     """Cancel a job; its worker stops within two seconds. Raises a 409 problem if it has ended otherwise."""
     with context.database.write() as session:
-        job = found(session, job_id)
+        job = held(session, owner, job_id)
         if not leases.cancel(session, job_id) and job.status != Status.CANCELED:
             raise Problem(409, "job_finished", f"The job has {job.status} already: there is nothing to cancel.")
 
 
-def delete(context: Context, job_id: str) -> None:
-    """Erase a job and its media; one that runs is stopped."""
+def delete(context: Context, owner: str, job_id: str) -> None:
+    """Erase a job and its media; one that runs is stopped. What a revision of it still uses stays."""
     with context.database.write() as session:
-        found(session, job_id)
+        root = held(session, owner, job_id).tree
         file_ids = repository.files_of(session, job_id)
-        keys = [artifact.key for artifact in artifacts.of_jobs(session, [job_id])[job_id]]
+        stored = [artifact.key for artifact in artifacts.of_jobs(session, [job_id])[job_id]]
         repository.erase(session, job_id)
-        keys += files.erase_unused(session, file_ids)
-    context.storage.delete(keys)
-    erase_folder(context, job_id)
+        erased = files.erase_unused(session, file_ids)
+        unneeded = {job_id, root} - repository.with_folder(session, [job_id, root])
+    context.storage.delete(stored)
+    forget(context, erased)
+    for one in unneeded:
+        stages.erase(context, one)
 
 
-def erase_folder(context: Context, job_id: str) -> None:
-    """Erase a job's stages and drafts."""
-    shutil.rmtree(context.settings.job_folder(job_id), ignore_errors=True)
-
-
-def found(session: Session, job_id: str) -> Job:
-    """The job, or a 404 problem."""
+def found(session: Session, owner: str, job_id: str) -> Job:
+    """The owner's job, or a 404 problem."""
     job = repository.get(session, job_id)
-    if job is None:
-        raise Problem(404, "job_not_found", "There is no such job: it was deleted, or it never was.")
+    if job is None or job.owner != owner:
+        raise _missing()
     return job
 
 
-def shown(context: Context, job_id: str) -> JobOut:
+def held(session: Session, owner: str, job_id: str) -> Job:
+    """The owner's job, locked until the transaction ends, or a 404 problem."""
+    job = repository.held(session, job_id)
+    if job is None or job.owner != owner:
+        raise _missing()
+    return job
+
+
+def shown(context: Context, owner: str, job_id: str) -> JobOut:
     """The job as the API shows it, or a 404 problem."""
     with context.database.read() as session:
-        return JobOut.of(found(session, job_id), artifacts.of_jobs(session, [job_id])[job_id])
+        job = found(session, owner, job_id)
+        return JobOut.of(job, artifacts.of_jobs(session, [job_id])[job_id], signer(context, session, owner))
 
 
-def _checked(context: Context, asked: JobIn) -> tuple[Kind, dict[str, object]]:
-    kind = context.kinds.get(asked.kind)
+def shown_tree(context: Context, owner: str, job_id: str) -> JobTree:
+    """A job with all its relations by revision, or a 404 problem."""
+    with context.database.read() as session:
+        jobs = repository.tree(session, found(session, owner, job_id).tree)
+        made = artifacts.of_jobs(session, [job.id for job in jobs])
+        signing = signer(context, session, owner)
+    return JobTree(items=[JobOut.of(job, made[job.id], signing) for job in jobs])
+
+
+def signer(context: Context, session: Session, owner: str) -> Signer | None:
+    """Signs the links in what an owner is shown."""
+    key = keys.get(session, owner)
+    return Signer.of(key, context.settings) if key is not None else None
+
+
+def _shown(kind: Kind, given: Mapping[str, Value]) -> dict[str, str | list[str]]:
+    """What is given to a job, as it shows it: one value where an input takes one, and nothing that is empty."""
+    many = {item.name: item.many for item in kind.inputs}
+    there = {name: value for name, value in given.items() if value is not None and value != []}
+    return {name: one[0] if isinstance(one, list) and not many[name] else one for name, one in there.items()}
+
+
+def _priority(name: str) -> int:
+    return Priority[name.upper()]
+
+
+def _document(asked: JobIn | RevisionIn) -> dict[str, Any]:
+    """What a request asks for, by which it is known again. What was never said is left out, so that a request that
+    came before an upgrade is the same after it."""
+    return asked.model_dump(mode="json", exclude=set() if "priority" in asked.model_fields_set else {"priority"})
+
+
+def _missing() -> Problem:
+    return Problem(404, "job_not_found", "There is no such job: it was deleted, or it never was.")
+
+
+def _kind(context: Context, name: str) -> Kind:
+    kind = context.kinds.get(name)
     if kind is None:
         names = ", ".join(context.kinds)
-        raise Problem(422, "unknown_kind", f"There is no job kind “{asked.kind[:80]}”: choose one of {names}.")
+        raise Problem(422, "unknown_kind", f"There is no job kind “{name[:80]}”: choose one of {names}.")
+    return kind
+
+
+def _check(context: Context, asked: JobIn | RevisionIn) -> None:
     if asked.webhook_url is not None:
-        raise Problem(
-            422, "webhooks_unsupported", "Webhooks are not offered: follow the job by its events, and leave this out."
-        )
+        require_address(asked.webhook_url, context.settings.allowed_networks, "/webhook_url")
+    try:
+        json.dumps(asked.model_dump(), ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        raise Problem(422, "invalid_json", "The request holds half a character (a lone surrogate).") from None
     if len(json.dumps(asked.metadata)) > METADATA_BYTES:
         raise Problem(422, "metadata_too_large", f"The metadata may take {METADATA_BYTES} bytes of JSON at most.")
+
+
+def _be_told(job: Job, url: str | None, types: Sequence[str] | None) -> None:
+    """Have an address told of a new job."""
+    if types is not None and url is None:
+        raise Problem(422, "webhook_url_missing", "There are webhook_events but no webhook_url: give both, or neither.")
+    job.webhook_url, job.webhook_events = url, list(types) if types is not None else None
+
+
+def _options(kind: Kind, given: Mapping[str, object]) -> dict[str, object]:
     try:
-        options = kind.options.model_validate(asked.options)
+        return kind.options.model_validate(given).model_dump(mode="json", exclude_unset=True)
     except ValidationError as error:
         raise invalid(error, "invalid_options", "/options") from error
-    return kind, options.model_dump(mode="json", exclude_unset=True)
 
 
-def _insert(
-    session: Session, kind: Kind, asked: JobIn, options: Mapping[str, object], uploaded: Mapping[str, Sequence[File]]
-) -> Job:
-    given: dict[str, str | list[str]] = dict(asked.inputs)
-    given |= {name: [file.id for file in came] for name, came in uploaded.items()}
-    resolved = resolve(session, kind, given)
-    many = {item.name: item.many for item in kind.inputs}
-    shown_inputs = {n: v[0] if isinstance(v, list) and not many[n] else v for n, v in given.items() if v != []}
+def _new_job(owner: str, kind: Kind, options: dict[str, object], metadata: dict[str, Any]) -> Job:
     moment = now()
-    job = Job(
+    request = current_request()
+    return Job(
         id=new_id(),
+        owner=owner,
         kind=kind.name,
         status=Status.QUEUED,
-        inputs=shown_inputs,
-        sources=resolved.sources,
-        options=dict(options),
-        notes=asked.metadata,
+        options=options,
+        notes=metadata,
         progress={},
+        request=request.id,
+        trace=request.traceparent,
         created_at=moment,
         enqueued_at=moment,
         lease_token=0,
         attempts=0,
         fruitless_attempts=0,
     )
+
+
+def _insert(session: Session, job: Job, file_ids: Iterable[str]) -> None:
     session.add(job)
     session.flush()
-    session.add_all(JobFile(job_id=job.id, file_id=file_id) for file_id in resolved.file_ids)
+    session.add_all(JobFile(job_id=job.id, file_id=file_id) for file_id in file_ids)
     events.append(session, job.id, "status", {"status": Status.QUEUED})
-    return job
 
 
-def _earlier(session: Session, key: str, fingerprint: str) -> Job | None:
-    record = repository.idempotency_key(session, key)
+def _earlier(session: Session, owner: str, key: str, fingerprint: str) -> Job | None:
+    record = repository.idempotency_key(session, owner, key)
     if record is None:
         return None
     if record.fingerprint != fingerprint:
@@ -150,11 +290,4 @@ def _earlier(session: Session, key: str, fingerprint: str) -> Job | None:
             "idempotency_key_reused",
             "This Idempotency-Key came with another request before: use a new key for a new job.",
         )
-    return found(session, record.job_id)
-
-
-def _fingerprint(asked: JobIn, uploaded: Mapping[str, Sequence[File]]) -> str:
-    """What makes two requests the same: all that is asked, with uploaded files by their content."""
-    document = asked.model_dump(mode="json")
-    document["uploaded"] = {name: [file.sha256 for file in came] for name, came in sorted(uploaded.items())}
-    return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
+    return found(session, owner, record.job_id)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
+from service.auth.caller import Reader
 from service.context import InContext
 from service.kinds.schemas import KindList, KindOut
 
@@ -11,6 +12,6 @@ router = APIRouter(prefix="/kinds", tags=["kinds"])
 
 
 @router.get("", operation_id="list_kinds")
-def list_kinds(context: InContext) -> KindList:
+def list_kinds(caller: Reader, context: InContext) -> KindList:
     """The job kinds, with the JSON schemas of their inputs and options."""
     return KindList(items=[KindOut.of(kind) for kind in context.kinds.values()])

@@ -19,3 +19,9 @@ def load_kinds(places: Sequence[str]) -> Mapping[str, Kind]:
                 raise TypeError(f"GALATEA_KINDS: {place} holds something that is no engine.kind.Kind")
             kinds[kind.name] = kind
     return kinds
+
+
+def require_known(names: Sequence[str], kinds: Mapping[str, Kind]) -> None:
+    """Raise ValueError where a worker is to serve a kind (`GALATEA_WORKER_KINDS`) that there is not."""
+    if unknown := sorted(set(names) - set(kinds)):
+        raise ValueError(f"GALATEA_WORKER_KINDS: there is no job kind {unknown[0]}; there are {', '.join(kinds)}.")

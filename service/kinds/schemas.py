@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from engine.kind import Kind
+from service.jobs.inputs import correctable
 
 
 class InputOut(BaseModel):
@@ -18,7 +19,14 @@ class InputOut(BaseModel):
     required: bool
     many: bool
     library: str | None
-    """Where set, the input may also be the name of an item of that library."""
+    """Where set, the input may also be the name of an item of that library, built-in or one's own: of `performances`
+    those that `GET /drivers` lists, or `auto`, by which what fits best is taken; of `motions` those of `GET /motions`."""
+    trimmed_by: str | None
+    """Where set, the input may also be a portion of a driver, `name/portion`: the option of this name is set to it."""
+    spared_by: str | None
+    """Where set, the option of this name makes a required input one that may be left out."""
+    corrects: bool
+    """Whether a revision may give it as a correction."""
 
 
 class KindOut(BaseModel):
@@ -31,6 +39,8 @@ class KindOut(BaseModel):
     """JSON Schema of a job's `inputs`."""
     options_schema: dict[str, Any]
     """JSON Schema of a job's `options`."""
+    correctable: list[str]
+    """Names of options and inputs that a revision may give as `corrections`."""
 
     @classmethod
     def of(cls, kind: Kind) -> KindOut:
@@ -45,10 +55,11 @@ class KindOut(BaseModel):
             inputs_schema={
                 "type": "object",
                 "properties": properties,
-                "required": [item.name for item in kind.inputs if item.required],
+                "required": [item.name for item in kind.inputs if item.required and item.spared_by is None],
                 "additionalProperties": False,
             },
             options_schema=kind.options.model_json_schema(),
+            correctable=correctable(kind),
         )
 
 

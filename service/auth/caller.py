@@ -1,0 +1,107 @@
+"""Who calls: by a key, by a session of the web page, or, where no key is needed, from this machine.
+
+Endpoints take `Reader`, `Submitter` or `Admin`, and so say what their caller must be allowed to do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from fastapi import Depends, Request
+
+from service.auth import repository
+from service.auth.models import LOCAL, Key
+from service.auth.rate import take_one
+from service.auth.sessions import COOKIE, key_of_session
+from service.clock import now
+from service.context import Context, InContext
+from service.problems import Problem
+
+Scope = Literal["read", "submit", "admin"]
+SCOPES: dict[Scope, str] = {
+    "read": "look at its own jobs, files, drivers and webhooks",
+    "submit": "upload, submit, change and erase them",
+    "admin": "manage keys, read the service's figures and let jobs come first",
+}
+
+
+@dataclass(frozen=True)
+class Caller:
+    """Whom a request comes from."""
+
+    owner: str
+    """The id of the key; what the request makes belongs to it."""
+    scopes: frozenset[str]
+
+    def require(self, scope: Scope) -> None:
+        """Raise a 403 problem if the caller may not do this."""
+        if scope not in self.scopes:
+            raise Problem(
+                403, "scope_missing", f"The key lacks the scope “{scope}” (to {SCOPES[scope]}): use one that has it."
+            )
+
+
+HERE = Caller(LOCAL, frozenset(SCOPES))
+"""Whoever is on this machine, where no key is needed."""
+
+
+def identify(request: Request, context: InContext) -> Caller:
+    """The caller of a request, counted against its rate. Raises 401 and 429 problems."""
+    token = _bearer(request)
+    session = request.cookies.get(COOKIE)
+    if token is None and session is None:
+        if context.settings.keys_required:
+            raise not_known("key_missing", "Send a key: `Authorization: Bearer KEY`. `galatea keys create` makes one.")
+        return HERE
+    with context.database.read() as reading:
+        key = repository.of_token(reading, token) if token is not None else key_of_session(reading, session or "")
+    if key is None:
+        if token is None and not context.settings.keys_required:
+            return HERE  # an old cookie of the page opens nothing, and shuts nothing either
+        raise not_known("key_unknown", "There is no such key: it was revoked, or it never was.")
+    if not repository.usable(key, now()):
+        raise not_known("key_expired", "The key has expired: use another one.")
+    take_one(context.queue.redis, key.id, key.requests_per_minute or context.settings.requests_per_minute)
+    _note_use(context, key)
+    return Caller(key.id, frozenset(key.scopes))
+
+
+InCaller = Annotated[Caller, Depends(identify)]
+
+
+def may(scope: Scope) -> Callable[[Caller], Caller]:
+    """A dependency: the caller, who must be allowed to do this."""
+
+    def allowed(caller: InCaller) -> Caller:
+        caller.require(scope)
+        return caller
+
+    return allowed
+
+
+Reader = Annotated[Caller, Depends(may("read"))]
+Submitter = Annotated[Caller, Depends(may("submit"))]
+Admin = Annotated[Caller, Depends(may("admin"))]
+
+
+def _bearer(request: Request) -> str | None:
+    given = request.headers.get("authorization")
+    if given is None:
+        return None
+    scheme, _, token = given.partition(" ")
+    if scheme.lower() != "bearer" or not token.strip():
+        raise not_known("key_malformed", "The Authorization header must read `Bearer KEY`.")
+    return token.strip()
+
+
+def not_known(code: str, detail: str) -> Problem:
+    """The 401 problem for a caller whose key is none that opens the service."""
+    return Problem(401, code, detail, headers={"WWW-Authenticate": 'Bearer realm="galatea"'})
+
+
+def _note_use(context: Context, key: Key) -> None:
+    if not repository.used_recently(key):
+        with context.database.write() as session:
+            repository.note_use(session, key.id)

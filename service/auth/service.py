@@ -1,0 +1,83 @@
+"""Making and revoking keys, and erasing what belongs to one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import timedelta
+
+from sqlalchemy.orm import Session
+
+from service.auth import repository
+from service.auth.models import LOCAL, Key
+from service.auth.schemas import KeyIn
+from service.auth.tokens import HINT_CHARACTERS, digest, new_link_secret, new_signing_secret, new_token
+from service.clock import now
+from service.context import Context
+from service.files import repository as files
+from service.files.service import forget
+from service.ids import new_id
+from service.jobs import repository as jobs
+from service.jobs.service import delete as delete_job
+from service.kept import repository as kept
+from service.kept.shelves import SHELVES
+from service.problems import Problem
+from service.uploads import repository as uploads
+from service.uploads import spool
+from service.webhooks import repository as webhooks
+
+
+def create(session: Session, asked: KeyIn) -> tuple[Key, str]:
+    """Make a key. Returns it with its token, which cannot be had again."""
+    token = new_token()
+    moment = now()
+    key = Key(
+        id=new_id(),
+        name=asked.name,
+        token_hash=digest(token),
+        hint=token[:HINT_CHARACTERS],
+        scopes=list(asked.scopes),
+        signing_secret=new_signing_secret(),
+        link_secret=new_link_secret(),
+        requests_per_minute=asked.requests_per_minute,
+        jobs_at_once=asked.jobs_at_once,
+        stored_mb=asked.stored_mb,
+        created_at=moment,
+        expires_at=None if asked.expires_in_days is None else moment + timedelta(days=asked.expires_in_days),
+    )
+    session.add(key)
+    return key, token
+
+
+def revoke(session: Session, key_id: str) -> Key:
+    """Make a key's token, its sessions and its signed links worthless. Raises a 404 problem if there is no such key.
+
+    What belongs to it stays; its jobs go on.
+    """
+    key = repository.get(session, key_id)
+    if key is None or key.id == LOCAL:
+        raise Problem(404, "key_not_found", "There is no such key.")
+    if key.revoked_at is None:
+        key.token_hash, key.link_secret, key.revoked_at = None, new_link_secret(), now()
+    return key
+
+
+def erase_all(context: Context, owner: str) -> None:
+    """Erase everything that belongs to a key: its jobs (running ones stop), drivers, motions, files, uploads
+    and webhooks."""
+    while job_ids := _some_jobs(context, owner):
+        for job_id in job_ids:
+            delete_job(context, owner, job_id)
+    with context.database.write() as session:
+        for shelf in SHELVES.values():
+            kept.erase_all(session, shelf, owner)
+        webhooks.erase_all(session, owner)
+        erased = files.erase_unused(session, owner=owner)
+        given_up = uploads.erase_all(session, owner)
+    forget(context, erased)
+    for upload_id in given_up:
+        spool.path(context.settings, upload_id).unlink(missing_ok=True)
+
+
+def _some_jobs(context: Context, owner: str) -> Sequence[str]:
+    with context.database.read() as session:
+        return [job.id for job in jobs.page(session, owner, limit=100)]

@@ -1,0 +1,44 @@
+"""Counting, in the same transaction as what is counted, so that no figure is lost or counted twice."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+from sqlalchemy import select, update
+from sqlalchemy.exc import IntegrityError
+from sqlalchemy.orm import Session
+
+from service.figures.models import Counter
+
+COUNTERS = {
+    "galatea_uploaded_bytes": ("Bytes of the files that were uploaded.", ("media",)),
+    "galatea_jobs_ended": ("Jobs that ended, with the code of their error.", ("kind", "status", "code")),
+    "galatea_stage_seconds": ("Seconds that stages of jobs that succeeded took.", ("kind", "stage")),
+    "galatea_stage_runs": ("How often they ran.", ("kind", "stage")),
+    "galatea_webhook_attempts": ("Attempts to deliver a webhook, with what came of them.", ("event", "outcome")),
+    "galatea_webhook_deliveries": ("Webhooks that were delivered.", ("event",)),
+    "galatea_webhook_seconds": ("Seconds between what they told of and their delivery.", ("event",)),
+}
+"""What is counted: the description and the labels."""
+
+
+def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
+    """Let a counter of `COUNTERS` grow, for the values of its labels in their order."""
+    assert len(labels) == len(COUNTERS[name][1])
+    key = json.dumps(["".join(filter(str.isprintable, label))[:50] for label in labels], ensure_ascii=False)
+    grow = update(Counter).where(Counter.name == name, Counter.labels == key).values(value=Counter.value + amount)
+    if session.execute(grow).rowcount:  # type: ignore[attr-defined]
+        return
+    try:
+        with session.begin_nested():
+            session.add(Counter(name=name, labels=key, value=amount))
+    except IntegrityError:  # another process began it in this very moment
+        session.execute(grow)
+
+
+def counted(session: Session) -> Iterator[tuple[str, list[str], float]]:
+    """All of them: name, values of the labels, value."""
+    for counter in session.scalars(select(Counter).order_by(Counter.name, Counter.labels)):
+        if counter.name in COUNTERS:
+            yield counter.name, json.loads(counter.labels), counter.value

@@ -1,0 +1,23 @@
+"""What the tables of kept files have in common."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from sqlalchemy import ForeignKey, String
+from sqlalchemy.orm import Mapped, mapped_column
+
+from service.database import Base, UTCDateTime
+
+
+class Kept(Base):
+    """A file that a user keeps under a name."""
+
+    __abstract__ = True
+
+    owner: Mapped[str] = mapped_column(ForeignKey("keys.id"), primary_key=True)
+    name: Mapped[str] = mapped_column(String(64), primary_key=True)
+    file_id: Mapped[str] = mapped_column(ForeignKey("files.id"), index=True)
+    look_job: Mapped[str | None] = mapped_column(String(36), index=True)
+    """The job that looks into it; it may have been erased since."""
+    created_at: Mapped[datetime] = mapped_column(UTCDateTime)

@@ -1,0 +1,75 @@
+"""The bodies by which something is kept: a form with the file itself, or JSON with the id of an uploaded one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from anyio.to_thread import run_sync
+from fastapi import Request
+from pydantic import BaseModel, ValidationError
+
+from service.asked import ASKED, JSON_TYPES, read_json
+from service.auth.caller import Caller
+from service.context import Context
+from service.disk import require_space
+from service.files import service as files
+from service.files.intake import Form
+from service.ids import LIKE_AN_ID
+from service.kept import service
+from service.kept.shelves import Shelf
+from service.problems import Problem, invalid
+
+
+class KeptIn(BaseModel):
+    """What is to be kept."""
+
+    model_config = ASKED
+
+    name: str
+    file: str
+
+
+def body(media_types: str) -> dict[str, Any]:
+    """What the OpenAPI document tells of such a body; `media_types` as they stand in an `Accept`."""
+    name = {"type": "string", "minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.pattern}$"}
+
+    def schema(file: dict[str, Any]) -> dict[str, Any]:
+        properties = {"name": name, "file": {"type": "string", **file}}
+        return {"type": "object", "required": ["name", "file"], "properties": properties, "additionalProperties": False}
+
+    form = {"schema": schema({"format": "binary"}), "encoding": {"file": {"contentType": media_types}}}
+    json = {"schema": schema({**LIKE_AN_ID, "description": "The id of an uploaded file."})}
+    return {"requestBody": {"required": True, "content": {"multipart/form-data": form, "application/json": json}}}
+
+
+async def keep_body(request: Request, context: Context, caller: Caller, shelf: Shelf) -> str:
+    """Keep what a request's body holds. Returns its name; raises `Problem`."""
+    require_space(context.settings)
+    content_type = request.headers.get("content-type", "").lower()
+    if content_type.startswith("multipart/form-data"):
+        return await _keep_form(request, context, caller.owner, shelf)
+    if content_type.split(";")[0].strip() not in JSON_TYPES:
+        raise Problem(415, "body_type_unsupported", "Send the body as multipart/form-data or application/json.")
+    try:
+        asked = KeptIn.model_validate(await read_json(request))
+    except ValidationError as error:
+        raise invalid(error, "invalid_request") from error
+    await run_sync(service.require_free_name, context, shelf, caller.owner, asked.name)
+    await run_sync(service.keep, context, shelf, caller.owner, asked.name, asked.file)
+    return asked.name
+
+
+async def _keep_form(request: Request, context: Context, owner: str, shelf: Shelf) -> str:
+    async with Form(request, context.settings, most_files=1) as form:
+        form.require_only(fields=("name",), files=("file",))
+        name = form.fields.get("name", "")
+        await run_sync(service.require_free_name, context, shelf, owner, name)
+        if not form.files:
+            raise Problem(422, "file_missing", f"Send {shelf.media} as the part “file” of the multipart body.")
+        service.require_media(shelf, form.files[0].content_type)
+        file = await run_sync(files.keep, context, owner, form.files[0])
+        try:
+            await run_sync(service.keep, context, shelf, owner, name, file.id)
+        finally:
+            await run_sync(files.erase_unused, context, [file.id])
+    return name

@@ -1,0 +1,71 @@
+"""Motions as the API shows them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Literal
+
+from pydantic import BaseModel
+
+from engine.motion.catalogue import BuiltInMotion
+from service.files.models import File
+from service.kept.looks import Look, LookStatus
+from service.kept.models import Kept
+from service.motions.checks import Check, MotionError, MotionJoint
+
+
+class MotionOut(BaseModel):
+    """A motion that a character's job can name."""
+
+    name: str
+    source: Literal["built-in", "own"]
+    title: str | None = None
+    seconds: float | None = None
+    loops: bool | None = None
+    """Whether the last frame leads into the first; null of one's own."""
+    url: str | None = None
+    """Where the file is; built-in motions have none: they are made for each character."""
+    size: int | None = None
+    content_type: str | None = None
+    created_at: datetime | None = None
+    fps: float | None = None
+    """Frames a second of the file."""
+    frames: int | None = None
+    joints: list[MotionJoint] = []
+    """The skeleton in the file."""
+    mapping: dict[str, str] = {}
+    """Which of its joints moves which of a character's: `{"LeftArm": "LeftShoulder"}`, a character's first. The option
+    `motion_joints` of a job says otherwise where this is wrong."""
+    missing: list[str] = []
+    """Joints of a character that must have one in the file, and for which none was found."""
+    error: MotionError | None = None
+    """What is wrong with it. Where joints are missing, the option `motion_joints` mends it; otherwise, another file."""
+    check_status: LookStatus = "none"
+    """How far the check of the file is; `none`: there was no check."""
+    check_job: str | None = None
+    """The job that checks."""
+
+    @classmethod
+    def built_in(cls, motion: BuiltInMotion) -> MotionOut:
+        return cls(name=motion.name, source="built-in", title=motion.title, seconds=motion.seconds, loops=motion.loops)
+
+    @classmethod
+    def own(cls, motion: Kept, file: File, look: Look[Check]) -> MotionOut:
+        error = MotionError.model_validate(look.error) if look.error is not None else None
+        return cls(
+            name=motion.name,
+            source="own",
+            url=f"/v1/motions/{motion.name}/file",
+            size=file.size,
+            content_type=file.content_type,
+            created_at=motion.created_at,
+            check_status=look.status,
+            check_job=motion.look_job if look.status != "none" else None,
+            **(dict(look.document) if look.document is not None else {"error": error}),
+        )
+
+
+class MotionList(BaseModel):
+    """All motions: the built-in ones first."""
+
+    items: list[MotionOut]

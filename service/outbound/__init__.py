@@ -1,0 +1,1 @@
+"""Calls to other hosts whose addresses users gave: webhooks, inputs by address."""

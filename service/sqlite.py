@@ -1,0 +1,76 @@
+"""SQLite: a file in write-ahead mode, for one machine.
+
+A writing transaction takes the write lock at once (`BEGIN IMMEDIATE`): one that reads first and writes later could
+otherwise find its snapshot stale and fail.
+"""
+
+from __future__ import annotations
+
+import fcntl
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import create_engine, event
+from sqlalchemy.engine import Connection, Engine, make_url
+from sqlalchemy.exc import TimeoutError
+
+from service.turns import Turns
+
+PATIENCE_SECONDS = 15
+"""How long a transaction waits for another to end."""
+
+
+def engine(url: str, connections: int) -> Engine:
+    """Connections to the file. (Their number is SQLAlchemy's own: a file has no server to be gentle with.)"""
+    made = create_engine(url, connect_args={"timeout": PATIENCE_SECONDS})
+
+    @event.listens_for(made, "connect")
+    def prepare(connection: Any, _: Any) -> None:
+        connection.isolation_level = None  # the transactions below are ours, not the driver's
+        for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON", "secure_delete=ON"):
+            connection.execute(f"PRAGMA {pragma}").close()
+
+    @event.listens_for(made, "begin")
+    def begin(connection: Connection) -> None:
+        writes = connection.get_execution_options().get("galatea_writes", False)
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+    return made
+
+
+def writers() -> Callable[[], AbstractContextManager[None]]:
+    """What a writing transaction is done within: those of one process take turns, as they came. SQLite itself would let
+    each ask again and again, and under load the unlucky ones for seconds."""
+    turns = Turns()
+
+    @contextmanager
+    def turn() -> Iterator[None]:
+        with turns.turn(PATIENCE_SECONDS) as came:
+            if not came:
+                raise TimeoutError("the database is locked: others write")
+            yield
+
+    return turn
+
+
+@contextmanager
+def alone(url: str) -> Iterator[Connection]:
+    """A connection for changing the tables; others who ask for one wait. Makes the file's folder."""
+    path = make_url(url).database or ""
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    opened = engine(url, 1)
+    with Path(f"{path}.upgrade").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with opened.connect() as connection:
+            # Tables are changed by making them anew; dropping the old one must not erase what points at it.
+            connection.connection.execute("PRAGMA foreign_keys=OFF")  # type: ignore[attr-defined]
+            yield connection
+    opened.dispose()
+
+
+def tidy(connection: Connection) -> None:
+    """Write the log back into the file and empty it, so that what was erased is nowhere on disk; if somebody is
+    reading at this moment, the next time does it."""
+    connection.connection.cursor().execute("PRAGMA wal_checkpoint(TRUNCATE)")

@@ -1,0 +1,1 @@
+"""Requests and jobs followed through all processes: their ids in the logs, and traces, if switched on."""
