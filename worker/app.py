@@ -6,20 +6,32 @@ import os
 import socket
 import threading
 import warnings
+from collections.abc import Callable
 from typing import Any
 
 import structlog
 from celery import signals
 from celery.platforms import SecurityWarning
+from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
+from service.database import database_unavailable
 from service.jobs import leases, repository
+from service.jobs.leases import Lease
+from service.jobs.models import Job
 from service.queue import TASK, queue_name
-from service.settings import Settings
+from service.storage import StorageUnavailable
+from service.traces.current import origin_logged
 from worker.attempt import Attempt
-from worker.children import WarmChildren
+from worker.children import Child, WarmChildren
 from worker.housekeeping import keep_house
+from worker.privileges import user_id
+from worker.spans import AttemptSpans
 from worker.sweep import sweep
+from worker.webhooks import Courier
+
+WEBHOOK_SECONDS = 0.5
+"""How often is looked for webhooks that are due."""
 
 LONGEST_FAREWELL = 5.0
 """Seconds in which running jobs are given back; then the worker ends, come what may."""
@@ -31,25 +43,41 @@ class Worker:
     def __init__(self, context: Context):
         self.context = context
         self.stopping = threading.Event()
-        self.children = WarmChildren(context.settings)
+        self.user = user_id(context.settings.job_user)
+        self.children = WarmChildren(context.settings, self.user)
+        self.courier = Courier(context)
         self.owner = f"{socket.gethostname()}:{os.getpid()}"
         context.queue.celery.task(name=TASK)(self.run_job)
 
-    def run_job(self, job_id: str) -> None:
-        """Run a job if it still waits; the message may be late, or come twice."""
+    def run_job(self, job_id: str, kind: str) -> None:
+        """Run the job of this kind whose turn it is: mostly not the one that the message tells of. The message may be
+        late, or come twice: then there may be none."""
         if self.stopping.is_set():
             return
-        with self.context.database.write() as session:
-            lease = leases.claim(session, job_id, self.owner, self.context.settings.lease_seconds)
-            job = repository.get(session, job_id) if lease is not None else None
-        if lease is None or job is None:
-            return
-        reuse = False
-        child = self.children.take()
+        child = self.children.take()  # before the lease, which would run while a process starts
+        reuse = True
         try:
-            reuse = Attempt(self.context, job, lease, child, self.stopping).run()
+            if (claimed := self._claim(kind)) is not None:
+                reuse = False
+                reuse = self._attempt(*claimed, child)
         finally:
             self.children.give_back(child, reuse)
+
+    def _attempt(self, job: Job, lease: Lease, child: Child) -> bool:
+        """Attempt a job; all that is logged meanwhile names it. Returns whether the process may be used again."""
+        spans = AttemptSpans(self.context.traces.tracer, job, lease)
+        with origin_logged(job.request, spans.trace_id, job=job.id, kind=job.kind, attempt=lease.token):
+            return Attempt(self.context, job, lease, child, self.stopping, spans, self.user).run()
+
+    def _claim(self, kind: str) -> tuple[Job, Lease] | None:
+        try:
+            with self.context.database.write() as session:
+                lease = leases.claim_next(session, kind, self.owner, self.context.settings.lease_seconds)
+                job = repository.get(session, lease.job_id) if lease is not None else None
+        except SQLAlchemyError as error:
+            structlog.get_logger().warning("job_not_claimed", reason=str(error).splitlines()[0])
+            return None  # the sweep sends another message
+        return (job, lease) if lease is not None and job is not None else None
 
     def run(self) -> None:
         """Work until SIGTERM or SIGINT; running jobs are given back to the queue then."""
@@ -57,10 +85,11 @@ class Worker:
         signals.setup_logging.connect(_leave_logging_alone, weak=False)
         # Running as root is the operator's choice; what is warned of (pickled messages) is not accepted here.
         warnings.simplefilter("ignore", SecurityWarning)
-        for task in (self._sweep, self._keep_house):
+        for task in (self._sweep, self._keep_house, self._deliver_webhooks):
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
-        queues = [queue_name(kind) for kind in self.context.kinds]
-        structlog.get_logger().info("worker_started", kinds=list(self.context.kinds), owner=self.owner)
+        kinds = self.context.settings.worker_kinds or list(self.context.kinds)
+        queues = [queue_name(kind) for kind in kinds]
+        structlog.get_logger().info("worker_started", kinds=kinds, owner=self.owner)
         worker = self.context.queue.celery.Worker(
             queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True, quiet=True
         )
@@ -77,27 +106,34 @@ class Worker:
             last.start()
 
     def _sweep(self) -> None:
-        while not self.stopping.wait(self.context.settings.sweep_seconds):
-            try:
-                sweep(self.context)
-            except Exception:
-                structlog.get_logger().exception("sweep_failed")
+        self._repeat(lambda: sweep(self.context), self.context.settings.sweep_seconds)
 
     def _keep_house(self) -> None:
-        while not self.stopping.wait(self.context.settings.sweep_seconds * 12):
+        self._repeat(lambda: keep_house(self.context), self.context.settings.sweep_seconds * 12)
+
+    def _deliver_webhooks(self) -> None:
+        self._repeat(self.courier.look, WEBHOOK_SECONDS)
+        self.courier.close()
+
+    def _repeat(self, task: Callable[[], object], seconds: float) -> None:
+        """Do something again and again until the worker stops, whatever becomes of it."""
+        log = structlog.get_logger().bind(task=threading.current_thread().name)
+        while not self.stopping.wait(seconds):
             try:
-                keep_house(self.context)
-            except Exception:
-                structlog.get_logger().exception("housekeeping_failed")
+                task()
+            except Exception as error:
+                if isinstance(error, StorageUnavailable) or database_unavailable(error):
+                    log.warning("task_put_off", reason=str(error).splitlines()[0])
+                else:
+                    log.exception("task_failed")
 
 
 def _leave_logging_alone(**_: Any) -> None:
     """Celery sets up its own logging unless somebody answers its signal."""
 
 
-def run(settings: Settings) -> None:
-    """Run a worker until it is told to stop."""
-    context = Context.open(settings)
+def run(context: Context) -> None:
+    """Run a worker until it is told to stop, then close what it worked with."""
     try:
         Worker(context).run()
     finally:

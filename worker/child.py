@@ -1,163 +1,206 @@
-"""The process that does the work: it waits for one job after another and runs the engine.
+"""The process that is ready before the job comes: it has loaded the engine, and forks for each job.
 
-It reads commands from its standard input and writes what happens to the file descriptor named in its arguments,
-both as JSON, one object a line. It knows no database, no queue and no storage; it gets paths and limits.
-A hostile input that takes it over or brings it down costs this process and nothing else.
+It reads commands from its standard input and writes what happens to the file descriptor named in its arguments, both
+as JSON, one object a line. The process that it forks confines itself to its one job before it opens a stranger's file
+(`worker.confinement`), and ends with it: a hostile input that takes it over or brings it down costs that job and
+nothing else. It knows no database, no queue and no storage; it gets paths and limits.
 """
 
 from __future__ import annotations
 
-import ctypes
 import json
 import os
-import queue
-import resource
+import selectors
+import signal
 import sys
-import tempfile
-import threading
-import traceback
-from collections.abc import Mapping
-from errno import EDQUOT, EFBIG, ENOSPC
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, NoReturn
 
-from engine.errors import Canceled, InputError
 from engine.kind import Kind
-from engine.media.limits import Limits
-from engine.run import Progress, Run
-from engine.store import StageStore
-from service.kinds import library
+from engine.perception.models import MATTING_SETTING
 from service.kinds.registry import load_kinds
+from worker.confinement import Limits, confine, limit, of_the_program
+from worker.rehearsal import load_compiled
 from worker.tether import die_with_parent
+from worker.work import Wire, failed, files_of, local, perform
 
-PR_SET_NO_NEW_PRIVS = 38
-NICENESS = 5
-"""The API stays quick while all cores work."""
-
-
-class Wire:
-    """The way back to the worker."""
-
-    def __init__(self, file: BinaryIO):
-        self._file = file
-        self._lock = threading.Lock()
-
-    def send(self, event: str, **data: Any) -> None:
-        with self._lock:
-            self._file.write(json.dumps({"event": event, **data}).encode() + b"\n")
-            self._file.flush()
+LONGEST_LINE = 1_000_000
+PIECE = 1 << 16
+PASSED_ON = ("progress", "stage", "stored", "artifact")
+"""What a job's process may say; the rest is this process's own to say."""
 
 
-class ReportingStore(StageStore):
-    """A store that tells the worker of each new stage: an attempt that stored one was not in vain."""
+class Commands:
+    """Lines from a file descriptor."""
 
-    def __init__(self, folder: Path, wire: Wire):
-        super().__init__(folder)
-        self._wire = wire
+    def __init__(self, descriptor: int):
+        self.descriptor = descriptor
+        self._rest = b""
 
-    def save(self, key: str, output: Any, notices: Any = ()) -> None:
-        super().save(key, output, notices)
-        self._wire.send("stored")
+    def read(self) -> list[dict[str, Any]]:
+        """The next ones; ends the process when the worker is gone or wants no more of it."""
+        data = os.read(self.descriptor, PIECE)
+        if not data:
+            os._exit(0)
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        return [json.loads(line) for line in lines]
 
 
-def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, canceled: threading.Event) -> dict[str, Any]:
-    """Run one job. Returns how it ended: `{"outcome": "succeeded" | "canceled"}`, or `failed` with code and detail;
-    `clean` where nothing unforeseen happened, so that this process can go on to the next job."""
-    out, temporary = Path(job["out"]), Path(job["temporary"])
-    os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
-    os.chdir(temporary)
+@dataclass(frozen=True)
+class Ready:
+    """What is there before the job comes: the kinds, what a job may do, where the program is read from."""
 
-    def report(progress: Progress) -> None:
-        wire.send("progress", stage=progress.stage, fraction=progress.fraction, message=progress.message)
+    kinds: Mapping[str, Kind]
+    limits: Limits
+    program: Sequence[Path]
 
+
+class JobProcess:
+    """A process that was forked for one job, and the two pipes to it."""
+
+    def __init__(self, job: Mapping[str, Any], ready: Ready, unneeded: Sequence[int]):
+        self.events, told = os.pipe()
+        orders, self._orders = os.pipe()
+        parent = os.getpid()
+        self.pid = os.fork()
+        if self.pid == 0:
+            for descriptor in (self.events, self._orders, *unneeded):
+                os.close(descriptor)
+            _work(job, ready, parent, told, orders)
+        os.close(told)
+        os.close(orders)
+        self._rest = b""
+
+    def cancel(self) -> None:
+        """Ask it to stop."""
+        with suppress(BrokenPipeError):
+            os.write(self._orders, b"x")
+
+    def kill(self) -> None:
+        os.kill(self.pid, signal.SIGKILL)  # it is not waited for yet: the number is still its own
+
+    def read(self) -> list[dict[str, Any]] | None:
+        """What it said; None once it says no more, or speaks nonsense."""
+        data = os.read(self.events, PIECE)
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        try:
+            said = [json.loads(line) for line in lines]
+        except (ValueError, RecursionError):
+            return None
+        whole = all(isinstance(event, dict) and "event" in event for event in said)
+        return said if data and whole and len(self._rest) < LONGEST_LINE else None
+
+    def end(self, cpu_seconds: int) -> str | None:
+        """Make sure that it has ended. Returns why it did where that was a signal: `time_limit`, or a sentence."""
+        _, status, usage = os.wait4(self.pid, 0)
+        os.close(self.events)
+        os.close(self._orders)
+        if not os.WIFSIGNALED(status):
+            return None if status == 0 else "the job's process ended unexpectedly"
+        if os.WTERMSIG(status) == signal.SIGXCPU or usage.ru_utime + usage.ru_stime > cpu_seconds:
+            return "time_limit"
+        return f"the job's process was ended by signal {os.WTERMSIG(status)}"
+
+
+def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: int) -> NoReturn:
+    """The life of a job's process."""
+    code = 1
     try:
-        kind = kinds[job["kind"]]
-        run = Run(
-            store=ReportingStore(Path(job["stages"]), wire),
-            shared=ReportingStore(Path(job["shared"]), wire),
-            on_progress=report,
-            canceled=canceled.is_set,
-            on_artifact=lambda path: wire.send("artifact", name=path.name),
-            limits=Limits(**job["limits"]),
-        )
-        inputs = {name: _local(source) for name, source in job["inputs"].items()}
-        kind.work(inputs, kind.options.model_validate(job["options"]), out, run)
-    except Canceled:
-        return {"outcome": "canceled", "clean": True}
-    except InputError as error:
-        return failed(error.code, error.detail, error.correctable) | {"clean": True}
-    except Exception as error:
-        traceback.print_exc()
-        return _unexpected(error)
-    return {"outcome": "succeeded", "clean": True}
+        wire = Wire(os.fdopen(told, "wb"))
+        readable = [path for source in job["inputs"].values() for path in files_of(local(source))]
+        changeable = [Path(job[name]) for name in ("out", "temporary", "stages", "shared")]
+        confine(parent, ready.limits, [*ready.program, *readable], changeable)
+        wire.send("end", **perform(job, ready.kinds, wire, orders))
+        code = 0
+    finally:
+        sys.stderr.flush()
+        sys.stdout.flush()
+        os._exit(code)
 
 
-def failed(code: str, detail: str, correctable: tuple[str, ...] = ()) -> dict[str, Any]:
-    return {"outcome": "failed", "code": code, "detail": detail, "correctable": list(correctable)}
+def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int) -> dict[str, Any]:
+    """Pass on what the job's process says and what it is told, until it ends. Returns how it ended."""
+    verdict: dict[str, Any] | None = None
+    killed = False
+    with selectors.DefaultSelector() as selector:
+        for descriptor in (process.events, commands.descriptor):
+            selector.register(descriptor, selectors.EVENT_READ)
+        talking = True
+        while talking:
+            for key, _ in selector.select():
+                if key.fd == commands.descriptor:
+                    for command in commands.read():
+                        process.cancel() if command["command"] == "cancel" else process.kill()
+                        killed = killed or command["command"] == "kill"
+                    continue
+                said = process.read()
+                talking = said is not None
+                for event in said or ():
+                    if event["event"] == "end":
+                        verdict = event
+                    elif event["event"] in PASSED_ON:
+                        wire.pass_on(event)
+    with suppress(ProcessLookupError):
+        if verdict is None and not killed:
+            _await_end(process)
+        process.kill()
+    why = process.end(cpu_seconds)
+    if why == "time_limit":
+        return failed("time_limit", f"The job computed for more than {cpu_seconds} seconds: send a shorter input.")
+    if verdict is None or "outcome" not in verdict:
+        return {"outcome": "crashed", "reason": why or "the job's process ended unexpectedly"}
+    return verdict
 
 
-def _local(source: Any) -> Any:
-    if isinstance(source, list):
-        return tuple(_local(one) for one in source)
-    return library.item(source["library"], source["name"]) if isinstance(source, dict) else Path(source)
-
-
-def _unexpected(error: BaseException) -> dict[str, Any]:
-    """What went wrong that is no `InputError`: out of memory or disk where it can be told, otherwise a bug."""
-    link: BaseException | None = error
-    while link is not None:
-        if isinstance(link, MemoryError) or getattr(link, "code", None) == -4:  # OpenCV's StsNoMem
-            return failed("out_of_memory", "The job needs more memory than a job may use: send a smaller input.")
-        number = getattr(link, "errno", None)
-        if number in (ENOSPC, EDQUOT):
-            return failed("disk_full", "The disk became full during the job: free space and submit it again.")
-        if number == EFBIG:
-            return failed("file_limit", "The job writes a larger file than a job may write: ask for a smaller result.")
-        link = link.__cause__ or link.__context__
-    return failed("internal_error", "The job met a fault of the program; the worker's log says which.")
-
-
-def confine(memory_bytes: int, file_bytes: int) -> None:
-    """Set the limits of this process: memory, size of files, no core dumps, no new privileges; the first to go when
-    the machine itself runs out of memory."""
-    resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (file_bytes, file_bytes))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    ctypes.CDLL(None).prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    Path("/proc/self/oom_score_adj").write_text("1000")
-    os.nice(NICENESS)
+def _await_end(process: JobProcess) -> None:
+    """Give a process that fell silent a moment to end by itself, so that its own reason is seen."""
+    with suppress(ChildProcessError), selectors.DefaultSelector() as selector:
+        ended = os.pidfd_open(process.pid)
+        selector.register(ended, selectors.EVENT_READ)
+        selector.select(1)
+        os.close(ended)
 
 
 def main() -> None:
-    """`python -m worker.child PARENT_PID WIRE_FD MEMORY_BYTES FILE_BYTES KIND...`"""
-    parent, wire_fd, memory_bytes, file_bytes = map(int, sys.argv[1:5])
+    """`python -m worker.child PARENT_PID WIRE_FD LIMITS SERVED PLACE...`: LIMITS is JSON, SERVED lists kinds by name, or is
+    empty for all of those in the places."""
+    parent, wire_fd = map(int, sys.argv[1:3])
+    limits = Limits(**json.loads(sys.argv[3]))
     die_with_parent(parent)
-    confine(memory_bytes, file_bytes)
-    commands = os.fdopen(os.dup(0), "rb")
+    limit(limits)
+    commands = Commands(os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     wire = Wire(os.fdopen(wire_fd, "wb"))
-    kinds = load_kinds(sys.argv[5:])
-    jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-    canceled = threading.Event()
-
-    def listen() -> None:
-        for line in commands:
-            command = json.loads(line)
-            if command["command"] == "cancel":
-                canceled.set()
-            else:
-                canceled.clear()
-                jobs.put(command)
-        os._exit(0)  # the worker is gone or wants no more of this process
-
-    threading.Thread(target=listen, daemon=True).start()
+    served = sys.argv[4].split(",") if sys.argv[4] else []
+    kinds = {name: kind for name, kind in load_kinds(sys.argv[5:]).items() if name in served or not served}
     for kind in kinds.values():
         if kind.prepare is not None:
             kind.prepare()
+    load_compiled(sys.argv[5:])
+    _compile_without_keeping()
+    models = [Path(os.environ[MATTING_SETTING])] if MATTING_SETTING in os.environ else []
+    ready = Ready(kinds, limits, [*of_the_program(), *models])
     wire.send("ready")
     while True:
-        job = jobs.get()
-        wire.send("end", **perform(job, kinds, wire, canceled))
+        for job in commands.read():
+            if job["command"] != "work":
+                continue  # a word to a job that has just ended
+            process = JobProcess(job, ready, [commands.descriptor, wire_fd])
+            wire.send("started", pid=process.pid)
+            verdict = follow(process, commands, wire, limits.cpu_seconds)
+            wire.pass_on(verdict | {"event": "end", "clean": True})
+
+
+def _compile_without_keeping() -> None:
+    """What a job compiles, it compiles for itself: compiled functions are kept as pickles, which a stranger's job must
+    not be able to leave for others. Those that are there already (`worker.rehearsal`) are used."""
+    if "numba" in sys.modules:
+        from numba.core.caching import CompileResultCacheImpl
+
+        CompileResultCacheImpl.check_cachable = lambda self, result: False
 
 
 if __name__ == "__main__":

@@ -12,12 +12,16 @@ import threading
 import time
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import asdict
 from signal import SIGKILL
 from typing import Any
 
 import structlog
 
+from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
+from worker.confinement import NICENESS, Limits
+from worker.rehearsal import rehearse
 
 LONGEST_LINE = 1_000_000
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -28,11 +32,12 @@ class ChildLost(Exception):
 
 
 class Child:
-    """One process that runs jobs, one after another (see `worker.child`)."""
+    """One process that forks another for each job, one after another (see `worker.child`)."""
 
-    def __init__(self, settings: Settings):
-        self.jobs = 0
+    def __init__(self, settings: Settings, user: int | None = None, turn: int = 0):
+        """`user` is who its jobs work as; by its `turn` several processes share the cores evenly."""
         self._ended = False
+        self._job: int | None = None
         self._log = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115  (open as long as the process lives)
         read_end, write_end = os.pipe()
         try:
@@ -43,17 +48,20 @@ class Child:
                     "worker.child",
                     str(os.getpid()),
                     str(write_end),
-                    str(int(settings.job_memory_mb * MEGABYTE)),
-                    str(int(settings.job_file_mb * MEGABYTE)),
+                    json.dumps(asdict(_limits(settings, user))),
+                    ",".join(settings.worker_kinds),
                     *settings.kinds,
                 ],
                 stdin=subprocess.PIPE,
                 stdout=self._log,
                 stderr=self._log,
                 pass_fds=[write_end],
-                env=_environment(),
+                env=_environment(settings),
                 start_new_session=True,
             )
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, NICENESS)  # from its first import on
+            if settings.job_cores:
+                os.sched_setaffinity(self._process.pid, _cores(settings, turn))
         except BaseException:
             os.close(read_end)
             raise
@@ -68,6 +76,10 @@ class Child:
     @property
     def pid(self) -> int:
         return self._process.pid
+
+    def lives(self) -> bool:
+        """Whether it has not ended."""
+        return self._process.poll() is None
 
     def send(self, command: Mapping[str, Any]) -> None:
         """Give it a command. Raises `ChildLost`."""
@@ -92,12 +104,27 @@ class Child:
             said = [json.loads(line, parse_constant=_no_number) for line in lines]
         except ValueError as error:
             raise ChildLost("the job's process spoke nonsense") from error
-        return [event for event in said if isinstance(event, dict)]
+        for event in said:
+            if event["event"] in ("started", "end"):
+                self._job = event.get("pid")
+        return said
+
+    def end_job(self, patience: float) -> bool:
+        """End the job that runs, now. Returns whether it is over, so that the next one may come."""
+        deadline = time.monotonic() + patience
+        try:
+            self.send({"command": "kill"})
+            while time.monotonic() < deadline:
+                if any(event["event"] == "end" for event in self.receive(0.1)):
+                    return True
+        except ChildLost:
+            pass
+        return False
 
     def memory_mb(self) -> float:
-        """The memory that it holds, without the files that it only maps."""
+        """The memory that its job holds, without the files that it only maps."""
         try:
-            with open(f"/proc/{self.pid}/statm") as statm:  # noqa: PTH123  (read several times a second)
+            with open(f"/proc/{self._job or self.pid}/statm") as statm:  # noqa: PTH123  (read several times a second)
                 _, resident, shared = statm.read().split()[:3]
         except (OSError, ValueError):
             return 0.0
@@ -145,38 +172,41 @@ class WarmChildren:
     that started it.
     """
 
-    def __init__(self, settings: Settings):
+    def __init__(self, settings: Settings, user: int | None = None):
         self._settings = settings
+        self._user = user
         self._changed = threading.Condition()
         self._idle: list[Child] = []
         self._busy: set[Child] = set()
         self._closed = False
+        self._started = 0
         threading.Thread(target=self._keep_warm, name="warm-children", daemon=True).start()
 
     def take(self) -> Child:
         """A process for one job, waiting for it to be started."""
         with self._changed:
-            self._changed.wait_for(lambda: self._idle or self._closed)
-            if self._closed:
-                raise ChildLost("the worker is stopping")
-            child = self._idle.pop()
-            self._busy.add(child)
-            return child
+            while True:
+                self._changed.wait_for(lambda: self._idle or self._closed)
+                if self._closed:
+                    raise ChildLost("the worker is stopping")
+                child = self._idle.pop()
+                if child.lives():
+                    self._busy.add(child)
+                    return child
+                child.kill()
+                self._changed.notify_all()
 
     def give_back(self, child: Child, reuse: bool) -> None:
-        """Return a process after its job. It is ended unless it may be used again and has not grown old or large."""
-        child.jobs += 1
-        young = child.jobs < self._settings.child_jobs
-        keep = reuse and young and child.memory_mb() < self._settings.child_memory_mb
-        if keep:
+        """Return a process after its job. It is ended unless it may be used again."""
+        if reuse:
             child.log_tail()
         else:
             child.kill()
         with self._changed:
             self._busy.discard(child)
-            if keep and not self._closed:
+            if reuse and not self._closed:
                 self._idle.append(child)
-            elif keep:
+            elif reuse:
                 child.kill()
             self._changed.notify_all()
 
@@ -190,6 +220,7 @@ class WarmChildren:
             self._changed.notify_all()
 
     def _keep_warm(self) -> None:
+        rehearse(self._settings)
         while True:
             with self._changed:
                 self._changed.wait_for(
@@ -198,7 +229,8 @@ class WarmChildren:
                 if self._closed:
                     break
             try:
-                child = Child(self._settings)
+                child = Child(self._settings, self._user, self._started)
+                self._started += 1
             except OSError:
                 structlog.get_logger().exception("child_not_started")
                 time.sleep(1)
@@ -212,10 +244,33 @@ class WarmChildren:
         threading.Event().wait()  # the processes that are still busy are tethered to this thread
 
 
-def _environment() -> dict[str, str]:
-    """The worker's environment without its settings: passwords and addresses are not the engine's business."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+def _limits(settings: Settings, user: int | None) -> Limits:
+    return Limits(
+        memory_bytes=int(settings.job_memory_mb * MEGABYTE),
+        file_bytes=int(settings.job_file_mb * MEGABYTE),
+        cpu_seconds=int(settings.job_cpu_seconds),
+        user=user,
+    )
+
+
+def _cores(settings: Settings, turn: int) -> list[int]:
+    """The cores of a process by its turn."""
+    there = sorted(os.sched_getaffinity(0))
+    first = turn * settings.job_cores
+    return [there[(first + i) % len(there)] for i in range(min(settings.job_cores, len(there)))]
+
+
+def _environment(settings: Settings) -> dict[str, str]:
+    """The worker's environment without its settings: passwords and addresses are not the engine's business. A model
+    that the operator brings is."""
+    kept = {name: value for name, value in os.environ.items() if _is_the_engines(name)}
+    if settings.job_cores:
+        kept |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), str(settings.job_cores))
     return kept | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+
+
+def _is_the_engines(name: str) -> bool:
+    return not name.startswith(("GALATEA_", "AWS_", "PG", "OTEL_")) or name.startswith(MATTING_SETTING)
 
 
 def _no_number(name: str) -> None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
-import re
-import stat
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import BinaryIO
 
+from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.orm import Session
 
 from service.artifacts import repository
@@ -22,12 +21,11 @@ from service.ids import new_id
 from service.jobs import leases
 from service.jobs.leases import Lease
 from worker.content_types import content_type
+from worker.insist import insist
+from worker.plain_files import Refused, opened
 
-NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
-
-
-class Refused(Exception):
-    """What the process left is no artifact: a name that cannot be one, a link, a folder."""
+REPORT_BYTES, MOST_STAGES = 1_000_000, 40
+"""What is read of a report: the process that wrote it may be in a stranger's hands."""
 
 
 def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | None:
@@ -37,11 +35,19 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
     lease is lost. Raises `Refused`, OSError.
     """
     artifact, mark = _store(context, lease, path)
-    with context.database.write() as session:
-        held = leases.change(session, lease)
-        freed = _record(session, artifact) if held else artifact.key
+
+    def record() -> tuple[bool, str | None]:
+        with context.database.write() as session:
+            if not leases.change(session, lease):
+                return False, None
+            return True, _record(session, _copy(artifact))
+
+    held, freed = insist(record, lease.seconds)
+    if not held:
+        _erase_unrecorded(context, [artifact])
+        return None
     context.storage.delete([freed] if freed else [])
-    return mark if held else None
+    return mark
 
 
 def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[str, tuple[int, int]]) -> bool:
@@ -50,27 +56,55 @@ def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[st
     Returns False if the lease was lost: then nothing is published. Raises `Refused`, OSError.
     """
     artifacts = []
+
+    def record() -> list[str | None] | None:
+        with context.database.write() as session:
+            if not leases.change(session, lease):
+                return None
+            freed = [_record(session, _copy(artifact)) for artifact in artifacts]
+            leases.succeed(session, lease)
+            leases.count_stages(session, lease, seconds)
+            return freed
+
     try:
         for path in sorted(out.iterdir()):
             if published.get(path.name) != _mark(path.lstat()):
                 artifacts.append(_store(context, lease, path)[0])
-                with context.database.write() as session:
-                    leases.change(session, lease)
-        with context.database.write() as session:
-            held = leases.holds(session, lease)
-            freed = [_record(session, artifact) for artifact in artifacts] if held else []
-            held = held and leases.succeed(session, lease)
+        seconds = _stage_seconds(out)
+        freed = insist(record, lease.seconds)
     except BaseException:
-        context.storage.delete(artifact.key for artifact in artifacts)
+        _erase_unrecorded(context, artifacts)
         raise
-    context.storage.delete([key for key in freed if key] if held else [artifact.key for artifact in artifacts])
-    return held
+    if freed is None:
+        return _erase_unrecorded(context, artifacts)
+    context.storage.delete(key for key in freed if key)
+    return True
+
+
+def _erase_unrecorded(context: Context, artifacts: Sequence[Artifact]) -> bool:
+    """Erase what was stored in vain. Returns whether it was recorded after all: an answer of the database can get lost
+    although it has done what it was asked. While it cannot be asked, everything stays, and housekeeping sees to it."""
+    try:
+        with context.database.read() as session:
+            recorded = repository.known(session, [artifact.id for artifact in artifacts])
+    except SQLAlchemyError:
+        return False
+    context.storage.delete(artifact.key for artifact in artifacts if artifact.id not in recorded)
+    return len(artifacts) > 0 and len(recorded) == len(artifacts)
+
+
+def _stage_seconds(out: Path) -> dict[str, float]:
+    """How long the stages took, as the report says; nothing where it says nothing that can be believed."""
+    try:
+        with opened(out / "report.json") as file:
+            stages = json.loads(file.read(REPORT_BYTES))["stages"].items()
+        return {str(name): float(spent) for name, spent in list(stages)[:MOST_STAGES] if 0 <= float(spent) < 1e6}
+    except (Refused, OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return {}
 
 
 def _store(context: Context, lease: Lease, path: Path) -> tuple[Artifact, tuple[int, int]]:
-    if NAME.fullmatch(path.name) is None:
-        raise Refused(f"“{path.name}” cannot be the name of an artifact")
-    with _opened(path) as file:
+    with opened(path) as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
         status = os.fstat(file.fileno())
         artifact = Artifact(
@@ -87,16 +121,9 @@ def _store(context: Context, lease: Lease, path: Path) -> tuple[Artifact, tuple[
     return artifact, _mark(status)
 
 
-def _opened(path: Path) -> BinaryIO:
-    """The file itself, never what a link points at: the process that made it may be in a stranger's hands."""
-    try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-    except OSError as error:
-        raise Refused(f"“{path.name}” is not a plain file: {error.strerror}") from error
-    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-        os.close(descriptor)
-        raise Refused(f"“{path.name}” is not a plain file")
-    return os.fdopen(descriptor, "rb")
+def _copy(artifact: Artifact) -> Artifact:
+    """The same for another session: an attempt to record it may have failed in an earlier one."""
+    return Artifact(**{column.key: getattr(artifact, column.key) for column in Artifact.__table__.columns})
 
 
 def _mark(status: os.stat_result) -> tuple[int, int]:
@@ -105,6 +132,6 @@ def _mark(status: os.stat_result) -> tuple[int, int]:
 
 def _record(session: Session, artifact: Artifact) -> str | None:
     freed = repository.replace(session, artifact)
-    data = {"name": artifact.name, **ArtifactOut.of(artifact).model_dump()}
+    data = {"name": artifact.name, **ArtifactOut.of(artifact).model_dump(exclude_none=True)}
     events.append(session, artifact.job_id, "artifact", data)
     return freed

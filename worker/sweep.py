@@ -5,18 +5,15 @@ Any number of workers may sweep at once: every change is guarded, and a message 
 
 from __future__ import annotations
 
-from datetime import timedelta
-
 import redis
 import structlog
 
-from service.clock import now
 from service.context import Context
 from service.jobs import leases, repository
 from service.jobs.models import Status
 
-PATIENCE = timedelta(seconds=10)
-"""How long a message may be on its way before it can count as lost."""
+PATIENCE = 10.0
+"""Seconds: how long a message may be on its way before it can count as lost."""
 
 
 def sweep(context: Context) -> None:
@@ -31,7 +28,9 @@ def take_back_expired(context: Context) -> None:
         expired = leases.expired(session)
     for kind, lease in expired:
         with context.database.write() as session:
-            status = leases.give_back(session, lease, "its worker fell silent")
+            status = leases.give_back(session, lease, "its worker fell silent", only_expired=True)
+        if status is None:
+            continue  # it spoke again, or another sweep was faster
         structlog.get_logger().warning("lease_expired", job=lease.job_id, now=status)
         if status == Status.QUEUED:
             context.queue.send(lease.job_id, kind)
@@ -44,10 +43,10 @@ def send_lost(context: Context) -> None:
     """
     for kind in context.kinds:
         with context.database.read() as session:
-            queued = repository.queued(session, kind)
-        overdue = [job for job in queued if job.enqueued_at < now() - PATIENCE]
+            queued = repository.count_queued(session, kind)
+            overdue = repository.queued(session, kind, PATIENCE)
         try:
-            if not overdue or context.queue.waiting(kind) >= len(queued):
+            if not overdue or context.queue.waiting(kind) >= queued:
                 continue
         except redis.RedisError:
             continue  # nothing can be sent either

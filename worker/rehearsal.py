@@ -1,0 +1,106 @@
+"""Compiling before the first job: each kind does its work once on media of the project's own.
+
+Compiled functions are kept beside the modules that they are of. Jobs may use them but not leave any (`worker.child`),
+so somebody who is trusted must have been there before. Once for each state of the engine and each machine.
+
+`python -m worker.rehearsal KIND...`
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import pickle
+import platform
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import structlog
+
+import engine
+from service.kinds.registry import load_kinds
+from service.settings import Settings
+from worker.confinement import NICENESS
+from worker.tether import tethered
+
+NAME = "rehearsed"
+
+
+def rehearse(settings: Settings) -> None:
+    """Have it done where it was not done yet. Where it fails, jobs compile for themselves, each anew."""
+    if _mark(settings.kinds).exists():
+        return
+    log = structlog.get_logger()
+    log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
+    command = [sys.executable, "-m", "worker.rehearsal", *settings.kinds]
+    done = subprocess.run(  # noqa: S603  (our own program)
+        tethered(command), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL
+    )
+    if done.returncode != 0:
+        log.warning("rehearsal_failed", printed=done.stderr.decode(errors="replace")[-2000:])
+    log.info("rehearsal_ended")
+
+
+def load_compiled(kinds: Sequence[str]) -> None:
+    """Load what was compiled then, so that the jobs that are forked from this process find it there."""
+    mark = _mark(kinds)
+    if not mark.exists():
+        return
+    for module, name, signatures in pickle.loads(mark.read_bytes()):  # noqa: S301  (ours, as the functions' own files)
+        if module in sys.modules:
+            for signature in signatures:
+                getattr(sys.modules[module], name).compile(signature)
+
+
+def _mark(kinds: Sequence[str]) -> Path:
+    """The file that says that it was done for these kinds and this state of the engine on this machine."""
+    package = Path(engine.__file__).parent
+    state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()} {list(kinds)}".encode())
+    for path in sorted(package.rglob("*.py")):
+        state.update(f"{path} {path.stat().st_mtime_ns}".encode())
+    beside = package / "__pycache__"
+    folder = beside if os.access(beside, os.W_OK) else Path.home() / ".cache" / "galatea"
+    return folder / f"{NAME}-{state.hexdigest()[:16]}"
+
+
+def _processor() -> str:
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    return next((line for line in lines if line.startswith("model name")), platform.machine())
+
+
+def main() -> None:
+    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
+    for kind in load_kinds(sys.argv[1:]).values():
+        if kind.rehearse is not None:
+            with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
+                kind.rehearse(Path(folder))
+    mark = _mark(sys.argv[1:])
+    mark.parent.mkdir(parents=True, exist_ok=True)
+    draft = mark.with_suffix(f".{os.getpid()}")
+    draft.write_bytes(pickle.dumps(_compiled()))
+    draft.rename(mark)
+
+
+def _compiled() -> list[tuple[str, str, list[Any]]]:
+    """The functions that were compiled, by module and name, with the types of their arguments. Those that run on
+    several threads are left out: loading them starts the threads, and a process with threads must not fork."""
+    from numba.core.dispatcher import Dispatcher
+
+    return [
+        (module, name, list(value.signatures))
+        for module, loaded in list(sys.modules.items())
+        if module.startswith("engine.")
+        for name, value in vars(loaded).items()
+        if isinstance(value, Dispatcher)
+        and value.py_func.__module__ == module
+        and not value.targetoptions.get("parallel")
+    ]
+
+
+if __name__ == "__main__":
+    main()
