@@ -1,0 +1,99 @@
+"""Files up and down: with progress, and down again from where a broken line left off."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import httpx
+
+from galatea_client.errors import DownloadBroken
+from galatea_client.transport import Transport
+
+PIECE = 1 << 16
+PAUSE_SECONDS = 0.5
+
+OnProgress = Callable[[int, int], None]
+"""Called with the bytes that are through, and how many there are."""
+
+
+class Counted:
+    """An open file that tells how much of it has been read."""
+
+    def __init__(self, file: BinaryIO, size: int, progress: OnProgress | None):
+        self._file = file
+        self._size = size
+        self._progress = progress
+
+    def read(self, size: int = -1) -> bytes:
+        data = self._file.read(size)
+        if self._progress is not None:
+            self._progress(self._file.tell(), self._size)
+        return data
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        return self._file.seek(offset, whence)
+
+    def tell(self) -> int:
+        return self._file.tell()
+
+
+def send_file(
+    transport: Transport, operation: str, path: Path, progress: OnProgress | None, fields: dict[str, str] | None = None
+) -> httpx.Response:
+    """Send a file as a form, read from the disk as it goes."""
+    with path.open("rb") as file:
+        counted: Any = Counted(file, path.stat().st_size, progress)
+        timeout = httpx.Timeout(30.0, read=300.0, write=300.0)
+        return transport.call(operation, files={"file": (path.name, counted)}, data=fields or {}, timeout=timeout)
+
+
+def fetch(
+    transport: Transport, operation: str, path: dict[str, str], to: Path, size: int, sha256: str,
+    progress: OnProgress | None = None,
+) -> Path:  # fmt: skip
+    """Fetch what the service stores to the file `to`, which appears whole and with the right checksum, or not at all.
+
+    What an earlier attempt left beside it (`to` with `.part` added) is taken up by a `Range` request.
+    """
+    part = to.with_name(to.name + ".part")
+    failures = 0
+    while (have := part.stat().st_size if part.exists() else 0) != size:
+        if have > size:
+            part.unlink()
+            continue
+        headers = {"Range": f"bytes={have}-", "If-Range": f'"{sha256}"'} if have else {}
+        try:
+            with transport.stream(operation, path=path, headers=headers) as response:
+                _write(response, part, have if response.status_code == 206 else 0, size, progress)
+        except httpx.TransportError:
+            now = part.stat().st_size if part.exists() else 0
+            failures = 0 if now > have else failures + 1
+            if failures > transport.retries:
+                raise
+            time.sleep(PAUSE_SECONDS)
+            continue
+        if part.stat().st_size != size:
+            part.unlink()
+            raise DownloadBroken(f"{to.name} has another size now than the {size} bytes that were announced")
+    if not part.exists():
+        part.touch()
+    with part.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    if digest != sha256:
+        part.unlink()
+        raise DownloadBroken(f"{to.name} arrived with the checksum {digest} instead of {sha256}: fetch it again")
+    part.replace(to)
+    return to
+
+
+def _write(response: httpx.Response, part: Path, start: int, size: int, progress: OnProgress | None) -> None:
+    with part.open("ab") as file:
+        file.truncate(start)
+        for piece in response.iter_raw(PIECE):
+            file.write(piece)
+            if progress is not None:
+                progress(file.tell(), size)
