@@ -3,7 +3,8 @@ import { defineConfig } from 'vitest/config';
 
 // The tests stand in ../tests/web; what they import by name is installed here.
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
-const alias = { 'playwright-core': here('node_modules/playwright-core'), '@web': here('src') };
+const installed = (name: string): [string, string] => [name, here(`node_modules/${name}`)];
+const alias = { ...Object.fromEntries(['playwright-core', 'standardwebhooks', 'three', 'vite'].map(installed)), '@web': here('src') };
 const root = here('../tests/web');
 
 export default defineConfig({
@@ -17,7 +18,7 @@ export default defineConfig({
           root,
           include: ['browser/**/*.test.ts'],
           globalSetup: ['browser/service.ts'],
-          testTimeout: 180_000,
+          testTimeout: 600_000,
           hookTimeout: 180_000,
           fileParallelism: false,
         },

@@ -1,54 +1,46 @@
-/** The service's HTTP API, as far as this page uses it. */
+/** The service's HTTP API, as far as this page uses it; its types come from the service's own description. */
 
-export type Status = 'queued' | 'running' | 'succeeded' | 'failed' | 'canceled';
+import createClient from 'openapi-fetch';
+import type {
+  CharacterChanges,
+  CharacterOptions,
+  Frame,
+  Landmarks,
+  NewJob,
+  PortraitChanges,
+  PortraitOptions,
+  Report,
+  Skeleton,
+} from './kinds';
+import type { components, paths } from './openapi';
+import { tellLocked } from './session';
 
-export interface Progress {
-  stage: string | null;
-  fraction: number;
-  message: string;
-  eta_seconds: number | null;
-}
+export type * from './kinds';
 
-export interface Artifact {
-  url: string;
-  size: number;
-  sha256: string;
-  content_type: string;
-}
-
-export interface Failure {
-  code: string;
-  detail: string;
-}
-
-export interface PortraitOptions {
-  strength?: number;
-  follow?: Part[];
-  sound?: boolean;
-  trim?: [number, number] | null;
-}
-
-export type Part = 'eyes' | 'mouth' | 'brows' | 'head';
-
-export interface Job {
-  id: string;
-  kind: string;
-  status: Status;
-  progress: Progress;
-  inputs: Record<string, string | string[]>;
-  options: PortraitOptions & Record<string, unknown>;
-  artifacts: Record<string, Artifact>;
-  error: Failure | null;
-  metadata: Record<string, unknown>;
-  created_at: string;
-  started_at: string | null;
-  finished_at: string | null;
-}
-
-/** What a finished run says about itself; only what this page reads. */
-export interface Report {
-  warnings: { code: string; message: string }[];
-}
+type Schemas = components['schemas'];
+export type Status = Schemas['Status'];
+export type Progress = Schemas['Progress'];
+export type Artifact = Schemas['ArtifactOut'];
+export type Failure = Schemas['JobError'];
+export type Job = Schemas['JobOut'];
+export type JobPage = Schemas['JobPage'];
+/** A performance that a portrait can act out by name. */
+export type Driver = Schemas['DriverOut'];
+/** A motion that a character can do by name. */
+export type KeptMotion = Schemas['MotionOut'];
+/** A portion of one's own driver that holds an emotion or a gesture. */
+export type Moment = Schemas['MomentOut'];
+export type PublicLink = Schemas['LinkOut'];
+export type Shared = Schemas['SharedOut'];
+export type Key = Schemas['KeyOut'];
+export type NewKey = Schemas['NewKeyOut'];
+export type OwnKey = Schemas['OwnKeyOut'];
+export type Webhook = Schemas['WebhookOut'];
+export type NewWebhook = Schemas['NewWebhookOut'];
+export type WebhookEvent = Schemas['EventType'];
+export type WebhookSecret = Schemas['SecretOut'];
+export type Delivery = Schemas['DeliveryOut'];
+export type DeliveryDetail = Schemas['DeliveryDetail'];
 
 /** An answer of the service that is not a success, or no answer at all (`unreachable`). */
 export class Problem extends Error {
@@ -64,84 +56,237 @@ export class Problem extends Error {
 /** The problem that a response's body describes (RFC 9457), whatever its form. */
 export function problemFrom(status: number, body: string): Problem {
   try {
-    const document = JSON.parse(body) as Partial<Failure>;
-    if (document.code && document.detail) return new Problem(status, document.code, document.detail);
+    return problemOf(status, JSON.parse(body));
   } catch {
-    // A proxy in between may answer in HTML: its status is all there is to tell.
+    return problemOf(status, null);
   }
-  return new Problem(status, `http_${status}`, '');
 }
 
-async function request(path: string, init: RequestInit = {}): Promise<Response> {
-  let response: Response;
+function problemOf(status: number, document: unknown): Problem {
+  const { code, detail } = (document ?? {}) as Partial<Schemas['ProblemDocument']>;
+  // A proxy in between may answer in HTML: its status is all there is to tell.
+  return code && detail ? new Problem(status, code, detail) : new Problem(status, `http_${status}`, '');
+}
+
+const service = createClient<paths>();
+
+interface Answer<T> {
+  data?: T;
+  error?: unknown;
+  response: Response;
+}
+
+/** What the service answered; a `Problem` is thrown for everything but success. */
+async function answer<T>(asked: Promise<Answer<T>>): Promise<T> {
+  let answered: Answer<T>;
   try {
-    response = await fetch(path, init);
+    answered = await asked;
   } catch (cause) {
     if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
     throw new Problem(0, 'unreachable', '');
   }
-  if (!response.ok) throw problemFrom(response.status, await response.text());
-  return response;
+  const { data, error, response } = answered;
+  if (response.status === 401) tellLocked();
+  if (!response.ok) throw problemOf(response.status, error);
+  return data as T;
 }
 
-async function get<T>(path: string, signal?: AbortSignal): Promise<T> {
-  const response = await request(path, signal ? { signal } : {});
-  return (await response.json()) as T;
-}
+const aborted = (signal: AbortSignal | undefined) => (signal ? { signal } : {});
+const job = (id: string) => ({ path: { job_id: id } });
+
+export const getJob = (id: string, signal?: AbortSignal): Promise<Job> =>
+  answer(service.GET('/v1/jobs/{job_id}', { params: job(id), ...aborted(signal) }));
 
 const jobPath = (id: string): string => `/v1/jobs/${encodeURIComponent(id)}`;
 
-export const getJob = (id: string, signal?: AbortSignal): Promise<Job> => get(jobPath(id), signal);
 /** Where a job's events come from: all of them, or those after one that was seen. */
 export const eventsUrl = (id: string, after: string): string =>
   `${jobPath(id)}/events${after && `?after=${encodeURIComponent(after)}`}`;
 
-export async function cancelJob(id: string): Promise<void> {
-  await request(`${jobPath(id)}/cancel`, { method: 'POST' });
-}
+/** Where all results of a job are as one zip. */
+export const archiveUrl = (id: string): string => `${jobPath(id)}/archive`;
+
+export const cancelJob = (id: string): Promise<Job> =>
+  answer(service.POST('/v1/jobs/{job_id}/cancel', { params: job(id) }));
 
 export async function deleteJob(id: string): Promise<void> {
-  await request(jobPath(id), { method: 'DELETE' });
+  await answer(service.DELETE('/v1/jobs/{job_id}', { params: job(id) }));
 }
 
-/** A finished job's report. */
-export const getReport = (job: Job, signal?: AbortSignal): Promise<Report> => {
-  const artifact = job.artifacts['report.json'];
-  return artifact ? get(artifact.url, signal) : Promise.resolve({ warnings: [] });
-};
+/** What a portrait was made with. */
+export const portraitOptions = (of: Job): PortraitOptions => of.options as PortraitOptions;
 
-/** Order a portrait. A key makes the order safe to repeat: it is carried out once. */
-export async function createPortrait(
-  inputs: { image: string; driver: string },
-  options: PortraitOptions,
-  metadata: Record<string, string>,
-  key: string,
-): Promise<Job> {
-  const response = await request('/v1/jobs', {
-    method: 'POST',
-    headers: { 'Content-Type': 'application/json', 'Idempotency-Key': key },
-    body: JSON.stringify({ kind: 'portrait', inputs, options, metadata }),
-  });
-  return (await response.json()) as Job;
+/** What a character was made with. */
+export const characterOptions = (of: Job): CharacterOptions => of.options as CharacterOptions;
+
+/** The boxes of the people that a failed job has found. */
+export const foundPeople = (of: Job): Frame[] => (of.error?.found as { people?: Frame[] } | undefined)?.people ?? [];
+
+/** The boxes of the faces that a failed job has found, to choose another from. */
+export const foundFaces = (of: Job): Report['inputs']['faces'] =>
+  (of.error?.found as { faces?: Report['inputs']['faces'] } | undefined)?.faces ?? [];
+
+/** One of a job's artifacts that is JSON; null where it has none of that name. */
+async function artifact<T>(of: Job, name: string, signal?: AbortSignal): Promise<T | null> {
+  const url = of.artifacts[name]?.url;
+  if (!url) return null;
+  const response = fetch(url, aborted(signal));
+  return answer(
+    response.then(async (got) => {
+      const document = (await got.json()) as T;
+      return got.ok ? { data: document, response: got } : { error: document, response: got };
+    }),
+  );
 }
 
-export interface JobPage {
-  items: Job[];
-  next_cursor: string | null;
-}
+/** A finished job's report; null where the job left none. */
+export const getReport = (of: Job, signal?: AbortSignal): Promise<Report | null> => artifact(of, 'report.json', signal);
 
-/** The latest jobs, or those that come after a cursor. */
-export const listJobs = (cursor: string | null, signal?: AbortSignal): Promise<JobPage> =>
-  get(`/v1/jobs?limit=12${cursor ? `&cursor=${encodeURIComponent(cursor)}` : ''}`, signal);
+/** The landmarks of a job that succeeded; null where it left none. */
+export const getLandmarks = (of: Job, signal?: AbortSignal): Promise<Landmarks | null> =>
+  artifact(of, 'landmarks.json', signal);
 
-/** A performance that a portrait can act out by name. */
-export interface Driver {
-  name: string;
-  source: 'built-in' | 'own';
-  /** What it shows, in a few words. */
-  title?: string | null;
-  url: string;
-}
+/** The skeleton of a character; null where its job left none. */
+export const getSkeleton = (of: Job, signal?: AbortSignal): Promise<Skeleton | null> =>
+  artifact(of, 'skeleton.json', signal);
+
+/** Order something. A key makes the order safe to repeat: it is carried out once. */
+export const createJob = (body: NewJob, key: string): Promise<Job> =>
+  answer(service.POST('/v1/jobs', { params: { header: { 'idempotency-key': key } }, body }));
+
+/** A job again with other options. A key makes it safe to repeat. */
+export const reviseJob = (id: string, options: PortraitChanges, key: string): Promise<Job> =>
+  answer(
+    service.POST('/v1/jobs/{job_id}/revisions', {
+      params: { ...job(id), header: { 'idempotency-key': key } },
+      body: { options },
+    }),
+  );
+
+/** A character again, with something put right or otherwise. A key makes it safe to repeat. */
+export const reviseCharacter = (id: string, changes: CharacterChanges, key: string): Promise<Job> =>
+  answer(
+    service.POST('/v1/jobs/{job_id}/revisions', {
+      params: { ...job(id), header: { 'idempotency-key': key } },
+      body: changes as Schemas['RevisionIn'],
+    }),
+  );
+
+/** A job and all that was made of it, oldest first. */
+export const listRevisions = async (id: string, signal?: AbortSignal): Promise<Job[]> =>
+  (await answer(service.GET('/v1/jobs/{job_id}/revisions', { params: job(id), ...aborted(signal) }))).items;
+
+/** The kinds that make something. Searches for moments are jobs too, but what they find is shown with the driver. */
+const MAKING = ['portrait', 'character'];
+
+/** Jobs of one status or all, newest first: the latest, or those that come after a cursor. */
+export const listJobs = (
+  { size, status, cursor }: { size: number; status: Status | null; cursor: string | null },
+  signal?: AbortSignal,
+): Promise<JobPage> =>
+  answer(
+    service.GET('/v1/jobs', {
+      params: { query: { limit: size, kind: MAKING, ...(status && { status: [status] }), ...(cursor && { cursor }) } },
+      ...aborted(signal),
+    }),
+  );
 
 export const listDrivers = async (signal?: AbortSignal): Promise<Driver[]> =>
-  (await get<{ items: Driver[] }>('/v1/drivers', signal)).items;
+  (await answer(service.GET('/v1/drivers', aborted(signal)))).items;
+
+/** The motions that the service keeps for the user, those that can move somebody. */
+export const listOwnMotions = async (signal?: AbortSignal): Promise<KeptMotion[]> =>
+  (await answer(service.GET('/v1/motions', aborted(signal)))).items.filter(
+    ({ source, check_status, error }) => source === 'own' && check_status === 'ready' && !error,
+  );
+
+/** Keep a video as a driver of one's own; it is searched for moments then. */
+export const createDriver = (name: string, file: File): Promise<Driver> => {
+  const body = new FormData();
+  body.append('name', name);
+  body.append('file', file);
+  return answer(
+    service.POST('/v1/drivers', { body: { name, file: '' }, bodySerializer: () => body }),
+  );
+};
+
+/** The public links to a job, oldest first. */
+export const listLinks = async (id: string, signal?: AbortSignal): Promise<PublicLink[]> =>
+  (await answer(service.GET('/v1/jobs/{job_id}/links', { params: job(id), ...aborted(signal) }))).items;
+
+/** Open some artifacts of a job, or all, to whoever knows the link; for some hours, or until it is revoked. */
+export const createLink = (id: string, hours: number | null, artifacts: string[] | null): Promise<PublicLink> =>
+  answer(
+    service.POST('/v1/jobs/{job_id}/links', { params: job(id), body: { expires_in_hours: hours, artifacts } }),
+  );
+
+export async function revokeLink(id: string): Promise<void> {
+  await answer(service.DELETE('/v1/links/{link_id}', { params: { path: { link_id: id } } }));
+}
+
+/** What a public link opens. */
+export const getShared = (token: string, signal?: AbortSignal): Promise<Shared> =>
+  answer(service.GET('/v1/public/{token}', { params: { path: { token } }, ...aborted(signal) }));
+
+/** Give a key once; a cookie stands for it then. */
+export async function openSession(key: string): Promise<void> {
+  await answer(service.POST('/v1/session', { body: { key } }));
+}
+
+export async function closeSession(): Promise<void> {
+  await answer(service.DELETE('/v1/session'));
+}
+
+export const getOwnKey = (signal?: AbortSignal): Promise<OwnKey> => answer(service.GET('/v1/key', aborted(signal)));
+
+export const listKeys = async (signal?: AbortSignal): Promise<Key[]> =>
+  (await answer(service.GET('/v1/keys', aborted(signal)))).items;
+
+export const createKey = (name: string, scopes: ('read' | 'submit' | 'admin')[], days: number | null): Promise<NewKey> =>
+  answer(service.POST('/v1/keys', { body: { name, scopes, expires_in_days: days } }));
+
+export async function revokeKey(id: string): Promise<void> {
+  await answer(service.DELETE('/v1/keys/{key_id}', { params: { path: { key_id: id } } }));
+}
+
+const webhook = (id: string) => ({ path: { webhook_id: id } });
+const delivery = (id: string) => ({ path: { delivery_id: id } });
+
+export const listWebhooks = async (signal?: AbortSignal): Promise<Webhook[]> =>
+  (await answer(service.GET('/v1/webhooks', aborted(signal)))).items;
+
+/** Have an address told of jobs. The answer holds the secret that signs the messages. */
+export const createWebhook = (url: string, events: WebhookEvent[]): Promise<NewWebhook> =>
+  answer(service.POST('/v1/webhooks', { body: { url, events } }));
+
+export const enableWebhook = (id: string, enabled: boolean): Promise<Webhook> =>
+  answer(service.PATCH('/v1/webhooks/{webhook_id}', { params: webhook(id), body: { enabled } }));
+
+export async function deleteWebhook(id: string): Promise<void> {
+  await answer(service.DELETE('/v1/webhooks/{webhook_id}', { params: webhook(id) }));
+}
+
+export const getWebhookSecret = (id: string): Promise<WebhookSecret> =>
+  answer(service.GET('/v1/webhooks/{webhook_id}/secret', { params: webhook(id) }));
+
+/** A new secret; the old one signs beside it for a day. */
+export const rotateWebhookSecret = (id: string): Promise<WebhookSecret> =>
+  answer(service.POST('/v1/webhooks/{webhook_id}/secret/rotate', { params: webhook(id) }));
+
+export const testWebhook = (id: string): Promise<Delivery> =>
+  answer(service.POST('/v1/webhooks/{webhook_id}/test', { params: webhook(id) }));
+
+/** What was told, newest first: the latest, or what comes after a cursor. */
+export const listDeliveries = (cursor: string | null, signal?: AbortSignal): Promise<Schemas['DeliveryPage']> =>
+  answer(
+    service.GET('/v1/webhooks/deliveries', {
+      params: { query: { limit: 20, ...(cursor && { cursor }) } },
+      ...aborted(signal),
+    }),
+  );
+
+export const getDelivery = (id: string, signal?: AbortSignal): Promise<DeliveryDetail> =>
+  answer(service.GET('/v1/webhooks/deliveries/{delivery_id}', { params: delivery(id), ...aborted(signal) }));
+
+export const replayDelivery = (id: string): Promise<Delivery> =>
+  answer(service.POST('/v1/webhooks/deliveries/{delivery_id}/replay', { params: delivery(id) }));

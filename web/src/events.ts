@@ -47,7 +47,7 @@ export function follow(state: Followed, change: Change): Followed {
   }
 }
 
-function withStage(stages: string[], stage: string | null): string[] {
+function withStage(stages: string[], stage: string | null | undefined): string[] {
   return stage && !stages.includes(stage) ? [...stages, stage] : stages;
 }
 

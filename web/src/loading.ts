@@ -31,3 +31,21 @@ export function useLoaded<T>(load: (signal: AbortSignal) => Promise<T>, key: str
 
 export const asProblem = (error: unknown): Problem =>
   error instanceof Problem ? error : new Problem(0, 'unexpected', String(error));
+
+/** Something the visitor asked to be done: whether it is under way, and what went wrong. */
+export function useDoing() {
+  const [doing, setDoing] = useState(false);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const attempt = async (what: () => Promise<void>): Promise<void> => {
+    setDoing(true);
+    setProblem(null);
+    try {
+      await what();
+    } catch (error) {
+      setProblem(asProblem(error));
+    } finally {
+      setDoing(false);
+    }
+  };
+  return { doing, problem, attempt };
+}

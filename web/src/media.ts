@@ -1,13 +1,17 @@
-/** Which files may be a portrait, which a performance. The service looks closer; this is for a quick word. */
+/** Which files may be a picture, a performance, a motion. The service looks closer; this is for a quick word. */
 
 const pictures = /\.(jpe?g|png|webp|hei[cf]|bmp|tiff?|avif)$/i;
 const videos = /\.(mp4|m4v|mov|webm|mkv|gif)$/i;
+const motions = /\.(bvh|glb)$/i;
 
 export const pictureTypes = 'image/jpeg,image/png,image/webp,image/heic,image/heif,.heic,.heif';
 export const videoTypes = 'video/*,image/gif,.mkv,.mov';
+export const motionTypes = '.bvh,.glb,model/gltf-binary';
 
 export const isPicture = (file: File): boolean =>
   pictures.test(file.name) || (file.type.startsWith('image/') && file.type !== 'image/gif');
 
 export const isVideo = (file: File): boolean =>
   videos.test(file.name) || file.type.startsWith('video/') || file.type === 'image/gif';
+
+export const isMotion = (file: File): boolean => motions.test(file.name) || file.type === 'model/gltf-binary';

@@ -1,16 +1,37 @@
 /** Which page an address means. The part after `#` never reaches a server, so links work wherever the page lies. */
 
 import { useEffect, useState } from 'preact/hooks';
+import type { Status } from './api';
 
-export type Route = { page: 'studio' } | { page: 'job'; id: string };
+export type Route =
+  | { page: 'studio' }
+  | { page: 'character' }
+  | { page: 'job'; id: string }
+  | { page: 'history'; status: Status | null }
+  | { page: 'shared'; token: string }
+  | { page: 'keys' }
+  | { page: 'webhooks' };
+
+export const statuses: readonly Status[] = ['succeeded', 'running', 'queued', 'failed', 'canceled'];
 
 export function parseRoute(hash: string): Route {
-  const id = /^#\/jobs\/([^/?#]+)$/.exec(hash)?.[1];
-  return id ? { page: 'job', id: decodeURIComponent(id) } : { page: 'studio' };
+  const [, place = '', rest, beyond] = /^#\/([a-z]*)(?:\/([^/?#]+))?(.*)$/.exec(hash) ?? [];
+  const given = rest && !beyond ? decodeURIComponent(rest) : null;
+  if (place === 'jobs' && given) return { page: 'job', id: given };
+  if (place === 'shared' && given) return { page: 'shared', token: given };
+  if (place === 'history' && (!rest || !beyond)) {
+    return { page: 'history', status: statuses.find((status) => status === given) ?? null };
+  }
+  if ((place === 'character' || place === 'keys' || place === 'webhooks') && !rest) return { page: place };
+  return { page: 'studio' };
 }
 
 export const jobLink = (id: string): string => `#/jobs/${encodeURIComponent(id)}`;
+export const historyLink = (status: Status | null): string => (status ? `#/history/${status}` : '#/history');
 export const studioLink = '#/';
+export const characterLink = '#/character';
+export const keysLink = '#/keys';
+export const webhooksLink = '#/webhooks';
 
 export function useRoute(): Route {
   const [route, setRoute] = useState(() => parseRoute(location.hash));

@@ -1,31 +1,76 @@
-/** Sending a file. `fetch` cannot tell how much of a body has left, so this is an XMLHttpRequest. */
+/** Sending a file in a way that a pause, a broken line or a reload of the page cannot undo (tus 1.0). */
 
 import { Problem, problemFrom } from './api';
 
-/** Send one file; resolves to its id. `onProgress` is told how many of its bytes have been sent. */
-export function uploadFile(file: File, onProgress: (sent: number) => void, signal: AbortSignal): Promise<string> {
+/** Where uploading can be halted and taken up again; one for all files of an order. */
+export class Valve {
+  private shut = false;
+  private readonly listeners = new Set<(shut: boolean) => void>();
+
+  get closed(): boolean {
+    return this.shut;
+  }
+
+  set closed(shut: boolean) {
+    this.shut = shut;
+    for (const listener of this.listeners) listener(shut);
+  }
+
+  /** Calls back at each change; returns what ends that. */
+  watch(listener: (shut: boolean) => void): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+}
+
+/** Why sending is aborted when nobody wants to go on with it later; for other reasons, what has arrived is kept. */
+export const GIVEN_UP = 'given up';
+
+/** After so many milliseconds each, a broken line is tried again; then the visitor is told. */
+const RETRIES = [0, 1000, 3000, 5000];
+
+/**
+ * Send one file; resolves to its id. What was sent of it before, on this page or an earlier one, is not sent again.
+ * `onProgress` is told how many of its bytes have been sent.
+ */
+export async function uploadFile(
+  file: File,
+  onProgress: (sent: number) => void,
+  valve: Valve,
+  signal: AbortSignal,
+): Promise<string> {
+  const { Upload, DetailedError } = await import('tus-js-client');
   return new Promise((resolve, reject) => {
-    const request = new XMLHttpRequest();
-    const body = new FormData();
-    body.append('file', file, file.name);
-
-    request.upload.onprogress = (event) => {
-      // The body is the file and a few hundred bytes around it.
-      onProgress(Math.min(file.size, Math.round((event.loaded / event.total) * file.size)));
+    const end = (finish: () => void) => (): void => {
+      stopWatching();
+      finish();
     };
-    request.onload = () => {
-      if (request.status >= 200 && request.status < 300) {
-        onProgress(file.size);
-        resolve((JSON.parse(request.responseText) as { id: string }).id);
-      } else {
-        reject(problemFrom(request.status, request.responseText));
-      }
-    };
-    request.onerror = () => reject(new Problem(0, 'unreachable', ''));
-    request.onabort = () => reject(new DOMException('canceled', 'AbortError'));
-    signal.addEventListener('abort', () => request.abort(), { once: true });
-
-    request.open('POST', '/v1/files');
-    request.send(body);
+    const upload = new Upload(file, {
+      endpoint: '/v1/uploads',
+      metadata: { filename: file.name, filetype: file.type },
+      retryDelays: RETRIES,
+      removeFingerprintOnSuccess: true,
+      onProgress,
+      onSuccess: () => end(() => resolve(upload.url?.split('/').at(-1) ?? ''))(),
+      onError: (error) =>
+        end(() => {
+          const answer = error instanceof DetailedError ? error.originalResponse : null;
+          reject(answer ? problemFrom(answer.getStatus(), answer.getBody()) : new Problem(0, 'unreachable', ''));
+        })(),
+    });
+    const stopWatching = valve.watch((shut) => (shut ? void upload.abort() : upload.start()));
+    signal.addEventListener(
+      'abort',
+      end(() => {
+        upload.abort(signal.reason === GIVEN_UP).catch(() => undefined); // what cannot be erased now, the service erases after a while
+        reject(new DOMException('canceled', 'AbortError'));
+      }),
+      { once: true },
+    );
+    void upload.findPreviousUploads().then(([before]) => {
+      if (signal.aborted) return;
+      if (before) upload.resumeFromPreviousUpload(before);
+      if (!valve.closed) upload.start();
+    });
   });
 }

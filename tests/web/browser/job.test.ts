@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
-import { complaints, faceless, launch, open, order, portrait } from './page';
+import { complaints, faceless, launch, LONG, open, order, portrait } from './page';
 
 let browser: Browser;
 let done: string;
@@ -17,10 +17,10 @@ afterEach(async () => {
 describe('a job that succeeds', () => {
   it('shows its stages and a first impression on the way, then the result beside the performance', async () => {
     const page = await open(browser, `#/jobs/${done}`);
-    await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: 120_000 });
+    await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: LONG });
     await page.getByRole('img', { name: 'A first frame of the result' }).waitFor();
     expect(await page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
-    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: 120_000 });
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     expect(await page.getByRole('progressbar').count()).toBe(0);
     await page.getByText('Done', { exact: true }).first().waitFor();
   });
@@ -46,6 +46,11 @@ describe('a job that succeeds', () => {
     ]);
     expect(download.suggestedFilename()).toBe('animation.mp4');
     await page.getByText('All files').click();
+    const [archive] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('link', { name: 'Everything as one zip' }).click(),
+    ]);
+    expect(archive.suggestedFilename()).toBe(`portrait-${done}.zip`);
     const report = await page.getByRole('link', { name: 'report.json' }).getAttribute('href');
     expect(await (await fetch(inject('address') + report)).json()).toMatchObject({ kind: 'portrait' });
   });
@@ -67,6 +72,30 @@ describe('a job that succeeds', () => {
     await page.getByRole('radio').first().waitFor({ state: 'attached' });
     expect(await overflow()).toBeLessThanOrEqual(0);
   });
+
+  it('is made again with something changed, and the two lead to each other', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await page.getByText('Change something and make it again').click();
+    await page.getByLabel('Strength').fill('0.5');
+    await page.getByLabel('Head').uncheck();
+    await page.getByLabel('Calm frame of the performance').fill('3');
+    await page.getByRole('button', { name: 'Make it again' }).click();
+    await page.waitForURL((url) => !url.hash.endsWith(done));
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+    const revised = page.url().split('/').at(-1) ?? '';
+    const job = await (await fetch(`${inject('address')}/v1/jobs/${revised}`)).json();
+    expect(job.revision_of).toBe(done);
+    expect(job.options).toEqual({ strength: 0.5, follow: ['eyes', 'brows', 'mouth'], neutral_frame: 3 });
+    const report = await (await fetch(inject('address') + job.artifacts['report.json'].url)).json();
+    expect(report.stages.find_face + report.stages.track_driver).toBeLessThan(0.5); // taken from the tree
+    expect(report.inputs.neutral_frame).toBe(3);
+
+    const versions = page.getByRole('navigation', { name: 'Versions' });
+    await versions.getByRole('link', { name: '2' }).and(page.locator('[aria-current=page]')).waitFor();
+    await versions.getByRole('link', { name: '1' }).click();
+    await page.waitForURL((url) => url.hash.endsWith(done));
+    await versions.getByRole('link', { name: '1' }).and(page.locator('[aria-current=page]')).waitFor();
+  });
 });
 
 describe('a job that does not', () => {
@@ -74,7 +103,7 @@ describe('a job that does not', () => {
     const id = await order(faceless, 'happy');
     const page = await open(browser, `#/jobs/${id}`);
     const alert = page.getByRole('alert');
-    await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: 120_000 });
+    await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: LONG });
     const job = (await (await fetch(`${inject('address')}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
     expect(await alert.innerText()).toContain(job.error.detail);
     await page.getByRole('link', { name: 'Make another' }).waitFor();
@@ -89,7 +118,7 @@ describe('a job that does not', () => {
   it('is deleted only after a question', async () => {
     const id = await order(faceless, 'idle');
     const page = await open(browser, `#/jobs/${id}`);
-    await page.getByRole('button', { name: 'Delete' }).click({ timeout: 120_000 });
+    await page.getByRole('button', { name: 'Delete' }).click({ timeout: LONG });
     await page.getByRole('button', { name: 'Keep it' }).click();
     await page.getByRole('button', { name: 'Delete' }).click();
     await page.getByRole('button', { name: 'Delete for good' }).click();
@@ -113,7 +142,7 @@ describe('a broken line', () => {
     await page.evaluate(() => dispatchEvent(new Event('offline')));
     await page.getByText('The line to the service is interrupted').waitFor({ timeout: 60_000 });
     await page.context().setOffline(false);
-    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: 120_000 });
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     complaints.length = 0; // the browser reports the failed requests itself
   });
 });

@@ -19,16 +19,17 @@ const flags = [
   '--disable-sync',
 ];
 
-export const launch = (): Promise<Browser> =>
-  chromium.launch({ executablePath: process.env.GALATEA_CHROMIUM ?? '/usr/bin/chromium', args: flags });
+export const launch = (more: string[] = []): Promise<Browser> =>
+  chromium.launch({ executablePath: process.env.GALATEA_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...more] });
+
+/** What a few lines of Python print, in the environment of the service. */
+export const inPython = (lines: string, ...given: string[]): string =>
+  execFileSync(python, ['-c', lines, ...given], { cwd: root }).toString().trim();
 
 /** A portrait that comes with matplotlib. */
-export const portrait = execFileSync(python, [
-  '-c',
+export const portrait = inPython(
   'import matplotlib, pathlib; print(pathlib.Path(matplotlib.__file__).parent / "mpl-data/sample_data/grace_hopper.jpg")',
-])
-  .toString()
-  .trim();
+);
 
 /** A picture without a face, from the same place. */
 export const faceless = join(portrait, '../Minduka_Present_Blue_Pack.png');
@@ -46,17 +47,51 @@ export async function open(browser: Browser, hash = '', options: Parameters<Brow
 /** Errors that scripts and the network left in the console of the page that was opened last. */
 export const complaints: string[] = [];
 
+/** Asks the service as any other client would; JSON. */
+export const ask = async <T,>(path: string): Promise<T> => (await (await fetch(inject('address') + path)).json()) as T;
+
+/** A job's id, from the address of its page. */
+export const jobOf = (page: Page): string => page.url().split('/').at(-1) ?? '';
+
+/** Milliseconds: a job's time on a machine that has other work as well. */
+export const LONG = 400_000;
+
+/** Waits for a job's result on its page, and until its video has really played a little. */
+export async function played(page: Page): Promise<void> {
+  await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+  await page.waitForFunction(() => {
+    const video = document.querySelector('video');
+    return video && video.videoWidth > 0 && (video.currentTime > 0.2 || video.ended);
+  });
+}
+
 /** Order a portrait over the API, as any other client would; the job's id. */
-export async function order(image: string, driver: string): Promise<string> {
-  const address = inject('address');
+export const order = (image: string, driver: string | null, options: object = {}): Promise<string> =>
+  submit('portrait', { image: picture(image), ...(driver !== null && { driver }) }, options);
+
+/** Order a character likewise. */
+export const orderCharacter = (photo: string, options: object = {}): Promise<string> =>
+  submit('character', { photo: picture(photo) }, options);
+
+const picture = (path: string): File => new File([readFileSync(path)], path.split('/').at(-1) ?? '');
+
+async function submit(kind: string, inputs: Record<string, File | string>, options: object): Promise<string> {
   const body = new FormData();
-  body.append('kind', 'portrait');
-  body.append('image', new Blob([readFileSync(image)]), image.split('/').at(-1));
-  body.append('driver', driver);
-  const response = await fetch(`${address}/v1/jobs`, { method: 'POST', body });
+  body.append('kind', kind);
+  for (const [name, value] of Object.entries(inputs)) body.append(name, value);
+  body.append('options', JSON.stringify(options));
+  const response = await fetch(`${inject('address')}/v1/jobs`, { method: 'POST', body });
   expect(response.status, await response.clone().text()).toBe(202);
   return ((await response.json()) as { id: string }).id;
 }
+
+/** Writes a picture of the project's own that shows somebody whole, 450 by 600 pixels. */
+export const samplePerson = (path: string): string =>
+  inPython(
+    'import sys; from PIL import Image; from engine.character.sample import sample_picture as s; ' +
+      'Image.fromarray(s()).save(sys.argv[1])',
+    path,
+  );
 
 const mediaFolder = process.env.GALATEA_TEST_DATA ?? resolve(root, '../shared/data');
 

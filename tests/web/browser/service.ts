@@ -21,9 +21,9 @@ export default async function setup(project: TestProject): Promise<() => Promise
   const address = `http://127.0.0.1:${await freePort()}`;
   const output = openSync(log, 'w');
   const service = spawn(
-    join(root, '.venv/bin/galatea'),
-    ['serve', '--host', '127.0.0.1', '--port', new URL(address).port],
-    { env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data') }, stdio: ['ignore', output, output] },
+    join(root, '.venv/bin/python'),
+    ['-m', 'shell.main', 'serve', '--host', '127.0.0.1', '--port', new URL(address).port],
+    { cwd: root, env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data'), GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8' }, stdio: ['ignore', output, output] },
   );
   try {
     await untilReady(service, address, log);

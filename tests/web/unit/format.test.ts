@@ -9,7 +9,14 @@ describe('numbers in words', () => {
   });
 
   it('never promises less time than is left, and no zero', () => {
-    expect([0, 3.2, 59.9, 90, 3600, 4800].map(duration)).toEqual(['1 s', '4 s', '1 min', '2 min', '1 h', '1 h 20 min']);
+    expect([0, 3.2, 59.9, 90, 3600, 4800].map(duration)).toEqual([
+      '1 sec',
+      '4 sec',
+      '1 min',
+      '2 min',
+      '1 hr',
+      '1 hr 20 min',
+    ]);
   });
 
   it('says 100% only when it is done', () => {
@@ -18,7 +25,7 @@ describe('numbers in words', () => {
 
   it('keeps sizes short, without a jump between units', () => {
     expect([999, 1000, 999_499, 999_500, 9_949_999, 9_950_000].map(size)).toEqual([
-      '999 B',
+      '999 byte',
       '1 kB',
       '999 kB',
       '1.0 MB',

@@ -6,6 +6,7 @@ export function aJob(differs: Partial<Job> = {}): Job {
     id: '0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f',
     kind: 'portrait',
     status: 'running',
+    priority: 'normal',
     progress: { stage: null, fraction: 0, message: '', eta_seconds: null },
     inputs: { image: '0198c1d2-7b1a-7c3e-9c6d-000000000001', driver: 'happy' },
     options: {},
@@ -15,6 +16,8 @@ export function aJob(differs: Partial<Job> = {}): Job {
     created_at: '2025-06-15T12:00:00Z',
     started_at: '2025-06-15T12:00:01Z',
     finished_at: null,
+    revision_of: null,
+    tree: '0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f',
     ...differs,
   };
 }

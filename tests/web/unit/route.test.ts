@@ -1,4 +1,4 @@
-import { jobLink, parseRoute } from '@web/route';
+import { characterLink, historyLink, jobLink, parseRoute } from '@web/route';
 import { describe, expect, it } from 'vitest';
 
 describe('addresses', () => {
@@ -6,6 +6,15 @@ describe('addresses', () => {
     for (const id of ['0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f', 'a b/c']) {
       expect(parseRoute(jobLink(id))).toEqual({ page: 'job', id });
     }
+  });
+
+  it('finds the other pages', () => {
+    expect(parseRoute(historyLink(null))).toEqual({ page: 'history', status: null });
+    expect(parseRoute(historyLink('failed'))).toEqual({ page: 'history', status: 'failed' });
+    expect(parseRoute('#/history/nonsense')).toEqual({ page: 'history', status: null });
+    expect(parseRoute('#/shared/abc-_1')).toEqual({ page: 'shared', token: 'abc-_1' });
+    expect(parseRoute('#/keys')).toEqual({ page: 'keys' });
+    expect(parseRoute(characterLink)).toEqual({ page: 'character' });
   });
 
   it('takes everything else for the start page', () => {

@@ -1,6 +1,6 @@
 import { problemFrom } from '@web/api';
-import { isPicture, isVideo } from '@web/media';
-import { failureRemedy, failureTitle, plain } from '@web/strings';
+import { isMotion, isPicture, isVideo } from '@web/media';
+import { chooseLanguage, failureRemedy, failureTitle, plain } from '@web/strings';
 import { describe, expect, it } from 'vitest';
 
 describe('trouble in plain words', () => {
@@ -34,8 +34,28 @@ describe('what a file may be', () => {
     expect(isVideo(file('notes.txt', 'text/plain'))).toBe(false);
   });
 
+  it('knows a motion by its name: browsers have no type for most', () => {
+    expect([isMotion(file('Jump.BVH', '')), isMotion(file('walk.glb', 'model/gltf-binary'))]).toEqual([true, true]);
+    expect([isMotion(file('walk.fbx', '')), isPicture(file('walk.glb', 'model/gltf-binary'))]).toEqual([false, false]);
+  });
+
   it('takes a GIF for a performance: it moves', () => {
     const gif = file('a.gif', 'image/gif');
     expect([isPicture(gif), isVideo(gif)]).toEqual([false, true]);
+  });
+});
+
+describe('the language of the page', () => {
+  const offered = ['en', 'de', 'pt-BR'];
+
+  it('is the first wish that is offered, for another region too', () => {
+    expect(chooseLanguage(['fr', 'de-AT', 'en'], offered)).toBe('de');
+    expect(chooseLanguage(['pt-br'], offered)).toBe('pt-BR');
+    expect(chooseLanguage(['en-GB', 'de'], offered)).toBe('en');
+  });
+
+  it('is English where no wish is offered', () => {
+    expect(chooseLanguage(['pt-PT', 'ja'], offered)).toBe('en');
+    expect(chooseLanguage([], offered)).toBe('en');
   });
 });

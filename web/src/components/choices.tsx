@@ -3,6 +3,7 @@
 import { useId } from 'preact/hooks';
 import type { Part, PortraitOptions } from '../api';
 import { strings } from '../strings';
+import { Check } from './check';
 
 export const parts: readonly Part[] = ['eyes', 'brows', 'mouth', 'head'];
 
@@ -23,10 +24,31 @@ export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions 
   };
 }
 
+/** What a job was made with. */
+export function choicesOf(options: PortraitOptions): Choices {
+  return {
+    strength: options.strength ?? usual.strength,
+    follow: options.follow ? parts.filter((part) => options.follow?.includes(part)) : usual.follow,
+    sound: options.sound ?? usual.sound,
+  };
+}
+
 interface Props {
   value: Choices;
   mayHaveSound: boolean;
   onChange: (choices: Choices) => void;
+}
+
+/** The choices, folded away until somebody looks for them. */
+export function FoldedChoices(props: Props) {
+  return (
+    <details class="choices">
+      <summary>{strings.studio.options}</summary>
+      <div class="fields">
+        <ChoiceFields {...props} />
+      </div>
+    </details>
+  );
 }
 
 export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
@@ -36,68 +58,44 @@ export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
     onChange({ ...value, follow: parts.filter((p) => (p === part ? on : value.follow.includes(p))) });
 
   return (
-    <details class="choices">
-      <summary>{words.options}</summary>
-      <div class="fields">
-        <div class="field">
-          <label for={strength}>
-            {words.strength} <output>{Math.round(value.strength * 100)}%</output>
-          </label>
-          <input
-            id={strength}
-            type="range"
-            min="0"
-            max="1.5"
-            step="0.05"
-            value={value.strength}
-            aria-describedby={`${strength}-hint`}
-            aria-valuetext={`${Math.round(value.strength * 100)}%`}
-            onInput={(event) => onChange({ ...value, strength: event.currentTarget.valueAsNumber })}
-          />
-          <small id={`${strength}-hint`}>{words.strengthHint}</small>
-        </div>
-        <fieldset class="field">
-          <legend>{words.follow}</legend>
-          <div class="checks">
-            {parts.map((part) => (
-              <Check
-                key={part}
-                label={strings.parts[part]}
-                checked={value.follow.includes(part)}
-                // one part has to stay: nothing would move otherwise
-                disabled={value.follow.length === 1 && value.follow.includes(part)}
-                onChange={(on) => toggle(part, on)}
-              />
-            ))}
-          </div>
-        </fieldset>
-        {mayHaveSound && (
-          <div class="field">
-            <Check label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
-          </div>
-        )}
+    <>
+      <div class="field">
+        <label for={strength}>
+          {words.strength} <output>{Math.round(value.strength * 100)}%</output>
+        </label>
+        <input
+          id={strength}
+          type="range"
+          min="0"
+          max="1.5"
+          step="0.05"
+          value={value.strength}
+          aria-describedby={`${strength}-hint`}
+          aria-valuetext={`${Math.round(value.strength * 100)}%`}
+          onInput={(event) => onChange({ ...value, strength: event.currentTarget.valueAsNumber })}
+        />
+        <small id={`${strength}-hint`}>{words.strengthHint}</small>
       </div>
-    </details>
-  );
-}
-
-interface CheckProps {
-  label: string;
-  checked: boolean;
-  disabled?: boolean;
-  onChange: (on: boolean) => void;
-}
-
-function Check({ label, checked, disabled = false, onChange }: CheckProps) {
-  return (
-    <label class="check">
-      <input
-        type="checkbox"
-        checked={checked}
-        disabled={disabled}
-        onChange={(event) => onChange(event.currentTarget.checked)}
-      />
-      <span>{label}</span>
-    </label>
+      <fieldset class="field">
+        <legend>{words.follow}</legend>
+        <div class="checks">
+          {parts.map((part) => (
+            <Check
+              key={part}
+              label={strings.parts[part]}
+              checked={value.follow.includes(part)}
+              // one part has to stay: nothing would move otherwise
+              disabled={value.follow.length === 1 && value.follow.includes(part)}
+              onChange={(on) => toggle(part, on)}
+            />
+          ))}
+        </div>
+      </fieldset>
+      {mayHaveSound && (
+        <div class="field">
+          <Check label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
+        </div>
+      )}
+    </>
   );
 }

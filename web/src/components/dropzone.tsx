@@ -4,6 +4,8 @@ import { useEffect, useId, useMemo, useState } from 'preact/hooks';
 import { size } from '../format';
 import { strings } from '../strings';
 
+type Media = 'image' | 'video' | 'motion';
+
 interface Words {
   drop: string;
   browse: string;
@@ -16,7 +18,7 @@ interface Props {
   accept: string;
   accepts: (file: File) => boolean;
   words: Words;
-  media: 'image' | 'video';
+  media: Media;
   onFile: (file: File) => void;
 }
 
@@ -80,14 +82,14 @@ function Invitation({ words }: { words: Words }) {
   );
 }
 
-function Preview({ file, media }: { file: File; media: 'image' | 'video' }) {
+function Preview({ file, media }: { file: File; media: Media }) {
   const url = useObjectUrl(file);
   const [unshowable, setUnshowable] = useState<File | null>(null);
   const giveUp = (): void => setUnshowable(file);
   const moving = media === 'video' && file.type !== 'image/gif';
   return (
     <span class="held">
-      {unshowable === file ? (
+      {media === 'motion' ? null : unshowable === file ? (
         <span class="unshowable">{strings.studio.noPreview}</span>
       ) : moving ? (
         <video src={url} muted playsInline preload="metadata" onError={giveUp} aria-hidden="true" />

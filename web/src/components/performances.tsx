@@ -1,45 +1,93 @@
 /** The performances on offer, to choose one from: ours, the user's own, or a video at hand. */
 
-import { useRef } from 'preact/hooks';
-import type { Driver } from '../api';
+import { useState } from 'preact/hooks';
+import { createDriver, type Driver } from '../api';
+import { stem } from '../format';
+import { useDoing } from '../loading';
 import { isVideo, videoTypes } from '../media';
+import { AUTO, driverName } from '../names';
 import { plain, strings } from '../strings';
+import { Capture } from './capture';
+import { Card, shownOf, SymbolCard, symbols } from './card';
 import { Dropzone } from './dropzone';
+import { Trouble } from './trouble';
 
-export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File };
+/** By `reactive` there is no one performance: the portrait is to show many, on demand. */
+export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
 
 interface Props {
   drivers: Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
+  /** There is a driver more. */
+  onKept: () => void;
 }
+
+const STRENGTHS = ['normal', 'strong'] as const;
+type Strength = (typeof STRENGTHS)[number];
 
 const words = strings.studio;
 
-export function Performances({ drivers, chosen, onChoose }: Props) {
+export function Performances({ drivers, chosen, onChoose, onKept }: Props) {
+  const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;
-  const groups = [
-    { title: words.performances, members: drivers.filter((d) => d.source === 'built-in') },
-    { title: words.yours, members: drivers.filter((d) => d.source === 'own') },
-  ].filter((group) => group.members.length > 0);
+  const choose = (name: string): void => onChoose({ by: 'name', name });
+  const ours = drivers.filter((driver) => driver.source === 'built-in');
+  const own = drivers.filter((driver) => driver.source === 'own');
+  const cards = (members: Driver[]) =>
+    members.flatMap(shownOf).map((shown) => (
+      <Card key={shown.value} {...shown} checked={shown.value === name} onChoose={() => choose(shown.value)} />
+    ));
+  const change = (strength: Strength): void => {
+    setStrength(strength);
+    const before = ours.find((driver) => driver.name === name);
+    const now = ours.find((driver) => driver.state === before?.state && driver.strength === strength);
+    if (now) choose(now.name); // the same, played the other way
+  };
 
   return (
     <>
-      {groups.map(({ title, members }) => (
-        <fieldset class="performances" key={title}>
-          <legend>{title}</legend>
-          <div class="cards">
-            {members.map((driver) => (
-              <Card
-                key={driver.name}
-                driver={driver}
-                checked={driver.name === name}
-                onChoose={() => onChoose({ by: 'name', name: driver.name })}
-              />
+      {ours.length > 0 && (
+        <fieldset class="performances">
+          <legend>{words.performances}</legend>
+          <div class="strengths" role="radiogroup" aria-label={words.strengths}>
+            {STRENGTHS.map((one) => (
+              <label key={one}>
+                <input type="radio" name="strength" checked={one === strength} onChange={() => change(one)} />
+                <span>{words.strengthNames[one]}</span>
+              </label>
             ))}
           </div>
+          <div class="cards">
+            <SymbolCard
+              value={AUTO}
+              symbol={symbols.stars}
+              label={words.auto}
+              hint={words.autoHint}
+              checked={name === AUTO}
+              onChoose={() => choose(AUTO)}
+            />
+            <SymbolCard
+              value="reactive"
+              symbol={symbols.touch}
+              label={words.reactive}
+              hint={words.reactiveHint}
+              checked={chosen?.by === 'reactive'}
+              onChoose={() => onChoose({ by: 'reactive' })}
+            />
+            {cards(ours.filter((driver) => driver.strength === strength))}
+          </div>
         </fieldset>
-      ))}
+      )}
+      {own.length > 0 && (
+        <fieldset class="performances">
+          <legend>{words.yours}</legend>
+          <div class="cards">{cards(own)}</div>
+          {own.map((driver) => (
+            <Search key={driver.name} driver={driver} />
+          ))}
+        </fieldset>
+      )}
       <h3>{words.ownVideo}</h3>
       <Dropzone
         media="video"
@@ -54,41 +102,50 @@ export function Performances({ drivers, chosen, onChoose }: Props) {
         }}
         onFile={(file) => onChoose({ by: 'file', file })}
       />
+      {chosen?.by === 'file' && (
+        <Keep
+          file={chosen.file}
+          taken={drivers.map((driver) => driver.name)}
+          onKept={(kept) => {
+            onChoose({ by: 'name', name: kept });
+            onKept();
+          }}
+        />
+      )}
+      <Capture media="video" onFile={(file) => onChoose({ by: 'file', file })} />
     </>
   );
 }
 
-interface CardProps {
-  driver: Driver;
-  checked: boolean;
-  onChoose: () => void;
+/** How far the search for emotions in one's own driver is, where there is something to say. */
+function Search({ driver }: { driver: Driver }) {
+  const name = plain(driver.name);
+  if (driver.moments_status === 'pending') {
+    return (
+      <p class="hint" role="status" aria-busy="true">
+        {words.searching(name)}
+      </p>
+    );
+  }
+  if (driver.moments_status === 'failed') return <p class="hint">{words.notSearched(name)}</p>;
+  if (driver.moments_status === 'ready' && !driver.moments?.length) {
+    return <p class="hint">{words.nothingFound(name)}</p>;
+  }
+  return null;
 }
 
-/** Shows the performance's first frame; plays it while it is pointed at or has the focus. */
-function Card({ driver, checked, onChoose }: CardProps) {
-  const video = useRef<HTMLVideoElement>(null);
-  const play = (): void => {
-    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
-    void video.current?.play().catch(() => undefined); // a glance only: the name says the same
-  };
-  const rest = (): void => {
-    if (!video.current) return;
-    video.current.pause();
-    video.current.currentTime = 0;
-  };
+/** Makes a video at hand a driver of one's own, so that its emotions are found. */
+function Keep({ file, taken, onKept }: { file: File; taken: string[]; onKept: (name: string) => void }) {
+  const { doing, problem, attempt } = useDoing();
+  const keep = (): Promise<void> =>
+    attempt(async () => onKept((await createDriver(driverName(stem(file.name), taken), file)).name));
   return (
-    <label class={checked ? 'card checked' : 'card'} title={driver.title ?? undefined} onMouseEnter={play} onMouseLeave={rest}>
-      <input
-        type="radio"
-        name="performance"
-        value={driver.name}
-        checked={checked}
-        onChange={onChoose}
-        onFocus={play}
-        onBlur={rest}
-      />
-      <video ref={video} src={driver.url} muted loop playsInline preload="metadata" aria-hidden="true" tabIndex={-1} />
-      <span>{plain(driver.name)}</span>
-    </label>
+    <div class="keep">
+      <button type="button" class="button" disabled={doing} aria-busy={doing} onClick={() => void keep()}>
+        {doing ? words.keeping : words.keep}
+      </button>
+      <p class="hint">{words.keepHint}</p>
+      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+    </div>
   );
 }

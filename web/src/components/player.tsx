@@ -3,13 +3,18 @@
 import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { clock } from '../format';
-import { strings } from '../strings';
+import { plain, strings } from '../strings';
 import { apart, AT_REST, followerTime, TOLERANCE } from '../sync';
 
 interface Props {
+  /** What the whole is called, and what the result shows. */
+  label?: string;
+  alt?: string;
   result: string;
   poster: string | undefined;
   driver: string | null;
+  /** Which one the service has chosen, where it was asked to. */
+  chosen: string | null;
   /** Where in the performance the result begins, in seconds. */
   start: number;
   hasSound: boolean;
@@ -18,7 +23,8 @@ interface Props {
 const words = strings.player;
 const speeds = [1, 0.5, 0.25] as const;
 
-export function Player({ result, poster, driver, start, hasSound }: Props) {
+export function Player(props: Props) {
+  const { result, poster, driver, chosen, start, hasSound } = props;
   const leader = useRef<HTMLVideoElement>(null);
   const follower = useRef<HTMLVideoElement>(null);
   const [playing, setPlaying] = useState(false);
@@ -29,7 +35,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
   const [speed, setSpeed] = useState<number>(1);
   const [unplayable, setUnplayable] = useState(false);
   const [aspects, setAspects] = useState({ result: 1, driver: 1 });
-  useInStep(leader, follower, start, playing, setTime);
+  useInStep(leader, follower, driver, start, playing, setTime);
 
   useEffect(() => {
     for (const video of [leader.current, follower.current]) if (video) video.playbackRate = speed;
@@ -52,7 +58,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
   };
 
   return (
-    <section class="player" aria-label={words.label}>
+    <section class="player" aria-label={props.label ?? words.label}>
       <div class="pair">
         <figure style={{ '--aspect': aspects.result }}>
           <video
@@ -62,7 +68,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
             muted={muted}
             playsInline
             preload="auto"
-            aria-label={strings.job.resultAlt}
+            aria-label={props.alt ?? strings.job.resultAlt}
             onLoadedMetadata={(event) => {
               const video = event.currentTarget;
               setTotal(video.duration);
@@ -95,7 +101,7 @@ export function Player({ result, poster, driver, start, hasSound }: Props) {
                 onError={() => setUnplayable(true)}
               />
             )}
-            <figcaption>{strings.job.driver}</figcaption>
+            <figcaption>{chosen ? strings.job.driverChosen(plain(chosen)) : strings.job.driver}</figcaption>
           </figure>
         )}
       </div>
@@ -151,6 +157,7 @@ const aspectOf = (video: HTMLVideoElement): number => video.videoWidth / video.v
 function useInStep(
   leader: RefObject<HTMLVideoElement | null>,
   follower: RefObject<HTMLVideoElement | null>,
+  driver: string | null,
   start: number,
   playing: boolean,
   onTime: (time: number) => void,
@@ -187,5 +194,5 @@ function useInStep(
       follow?.removeEventListener('loadedmetadata', align);
       follow?.removeEventListener('seeked', align);
     };
-  }, [playing, start]);
+  }, [playing, start, driver]);
 }

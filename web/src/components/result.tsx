@@ -1,10 +1,12 @@
 /** A finished job: its video beside the performance, downloads, and what the run has to say. */
 
-import { type Artifact, getReport, type Job } from '../api';
-import { duration, size } from '../format';
+import { type Artifact, getReport, type Job, portraitOptions } from '../api';
+import { size } from '../format';
 import { useLoaded } from '../loading';
 import { performanceUrl } from '../names';
 import { strings } from '../strings';
+import { Files, Sharing, Took, Warnings } from './left';
+import { Living } from './living';
 import { Player } from './player';
 
 const words = strings.job;
@@ -19,39 +21,35 @@ function animation(job: Job): [string, Artifact] | null {
 export function Result({ job }: { job: Job }) {
   const report = useLoaded((signal) => getReport(job, signal), job.id);
   const found = animation(job);
-  const warnings = report.value?.warnings ?? [];
+  const profile = job.artifacts['profile.json'];
+  const bundle = job.artifacts['profile.zip'];
+  const main = bundle ? (['profile.zip', bundle] as const) : found;
 
   return (
     <div class="result">
-      {found ? <Animation job={job} artifact={found[1]} /> : <p>{words.otherKind}</p>}
+      {profile ? (
+        <Living profile={profile.url} poster={job.artifacts['poster.jpg']?.url} />
+      ) : found ? (
+        <Animation job={job} artifact={found[1]} chosen={report.value?.inputs.driver_chosen ?? null} />
+      ) : (
+        <p>{words.otherKind}</p>
+      )}
       <div class="actions">
-        {found && (
-          <a class="button primary" href={found[1].url} download={found[0]}>
-            {words.download} <small>{size(found[1].size)}</small>
+        {main && (
+          <a class="button primary" href={main[1].url} download={main[0]}>
+            {profile ? words.downloadProfile : words.download} <small>{size(main[1].size)}</small>
           </a>
         )}
         <Files job={job} open={!found} />
+        <Sharing job={job} />
       </div>
-      {warnings.length > 0 && (
-        <section class="warnings" aria-label={words.warnings}>
-          <h2>{words.warnings}</h2>
-          <ul>
-            {warnings.map((warning) => (
-              <li key={warning.code + warning.message}>{warning.message}</li>
-            ))}
-          </ul>
-        </section>
-      )}
-      {job.started_at && job.finished_at && (
-        <p class="took">
-          {words.took(duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000))}
-        </p>
-      )}
+      <Warnings report={report.value} />
+      <Took job={job} />
     </div>
   );
 }
 
-function Animation({ job, artifact }: { job: Job; artifact: Artifact }) {
+function Animation({ job, artifact, chosen }: { job: Job; artifact: Artifact; chosen: string | null }) {
   if (artifact.content_type.startsWith('image/')) {
     return (
       <figure class="still">
@@ -63,28 +61,10 @@ function Animation({ job, artifact }: { job: Job; artifact: Artifact }) {
     <Player
       result={artifact.url}
       poster={job.artifacts['poster.jpg']?.url}
-      driver={performanceUrl(job)}
-      start={job.options.trim?.[0] ?? 0}
-      hasSound={job.options.sound === true}
+      driver={performanceUrl(job, chosen)}
+      chosen={chosen}
+      start={portraitOptions(job).trim?.[0] ?? 0}
+      hasSound={portraitOptions(job).sound === true}
     />
-  );
-}
-
-/** Everything that the run left, each to be saved by itself. */
-function Files({ job, open }: { job: Job; open: boolean }) {
-  return (
-    <details class="files" open={open}>
-      <summary class="button">{words.files}</summary>
-      <ul>
-        {Object.entries(job.artifacts).map(([name, artifact]) => (
-          <li key={name}>
-            <a href={artifact.url} download={name}>
-              {name}
-            </a>{' '}
-            <small>{size(artifact.size)}</small>
-          </li>
-        ))}
-      </ul>
-    </details>
   );
 }

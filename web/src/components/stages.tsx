@@ -8,7 +8,7 @@ const words = strings.job;
 
 export function Stages({ job, stages }: { job: Job; stages: string[] }) {
   const queued = job.status === 'queued';
-  const { fraction, eta_seconds: eta, stage: current } = job.progress;
+  const { fraction = 0, eta_seconds: eta = null, stage: current } = job.progress;
   const headline = queued ? words.queued : current ? stageName(current) : words.starting;
 
   return (

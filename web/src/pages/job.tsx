@@ -1,30 +1,38 @@
 /** One job: on its way, done, failed or canceled. */
 
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useState } from 'preact/hooks';
 import { cancelJob, deleteJob, type Job, type Problem } from '../api';
+import { Heading } from '../components/heading';
+import { later } from '../components/later';
 import { Picture } from '../components/picture';
-import { Removal } from '../components/removal';
+import { type Pose, Redo, Versions } from '../components/redo';
 import { Result } from '../components/result';
 import { Stages } from '../components/stages';
+import { Sure } from '../components/sure';
 import { Trouble } from '../components/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
-import { performanceName, portraitName, portraitUrl } from '../names';
-import { studioLink } from '../route';
+import { performanceName, pictureName, pictureUrl } from '../names';
+import { characterLink, studioLink } from '../route';
 import { strings } from '../strings';
 
+const CharacterResult = later(() => import('../components/character_result'));
 const words = strings.job;
+
+/** The kinds that can be made again with something changed. */
+const REDONE = ['portrait', 'character'];
 
 export function JobPage({ id }: { id: string }) {
   const { job, problem, stages, interrupted } = useJob(id);
   const [failure, setFailure] = useState<Problem | null>(null);
+  const [pose, setPose] = useState<Pose | null>(null);
 
   if (problem?.status === 404) {
     return (
       <article class="job">
         <Heading text={words.notFound} />
         <p>{words.notFoundDetail}</p>
-        <Back />
+        <Back to={studioLink} />
       </article>
     );
   }
@@ -34,20 +42,24 @@ export function JobPage({ id }: { id: string }) {
   const remove = async (): Promise<void> => {
     try {
       await deleteJob(id);
-      location.hash = studioLink;
+      location.hash = job.kind === 'character' ? characterLink : studioLink;
     } catch (error) {
       setFailure(asProblem(error));
     }
   };
 
+  const ofCharacter = job.kind === 'character';
   const performance = performanceName(job);
   return (
     <article class="job" aria-busy={!finished(job)}>
-      <Heading text={words.title(portraitName(job))} />
+      <Heading text={words.title(pictureName(job))} />
       <p class="status">
         <span class={`chip ${job.status}`}>{strings.status[job.status]}</span>
-        {performance && <span>{words.performance(performance)}</span>}
+        {performance && (
+          <span>{ofCharacter ? strings.character.does(performance) : words.performance(performance)}</span>
+        )}
       </p>
+      <Versions key={job.id} job={job} />
       <p class="unseen" role="status">
         {finished(job) ? strings.status[job.status] : ''}
       </p>
@@ -56,12 +68,20 @@ export function JobPage({ id }: { id: string }) {
           {words.interrupted}
         </p>
       )}
-      <Body job={job} stages={stages} onProblem={setFailure} />
+      <Body job={job} stages={stages} onProblem={setFailure} onPose={setPose} />
+      {finished(job) && REDONE.includes(job.kind) && (
+        <Redo key={job.id} job={job} pose={pose} onPoseTaken={() => setPose(null)} onProblem={setFailure} />
+      )}
       {failure && <Trouble code={failure.code} detail={failure.detail} />}
       {finished(job) && (
         <footer class="actions">
-          <Back />
-          <Removal onRemove={() => void remove()} />
+          <Back to={ofCharacter ? characterLink : studioLink} />
+          <Sure
+            label={words.remove}
+            question={words.removeQuestion}
+            yes={words.removeYes}
+            onYes={() => void remove()}
+          />
         </footer>
       )}
     </article>
@@ -74,21 +94,21 @@ interface BodyProps {
   onProblem: (problem: Problem) => void;
 }
 
-function Body({ job, stages, onProblem }: BodyProps) {
+function Body({ job, stages, onProblem, onPose }: BodyProps & { onPose: (pose: Pose) => void }) {
   switch (job.status) {
     case 'succeeded':
-      return <Result job={job} />;
+      return job.kind === 'character' ? <CharacterResult job={job} onPose={onPose} /> : <Result job={job} />;
     case 'failed':
       return (
         <div class="ended">
-          <Picture url={portraitUrl(job)} alt={words.sentAlt} />
+          <Picture url={pictureUrl(job)} alt={words.sentAlt} />
           <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''} />
         </div>
       );
     case 'canceled':
       return (
         <div class="ended">
-          <Picture url={portraitUrl(job)} alt={words.sentAlt} />
+          <Picture url={pictureUrl(job)} alt={words.sentAlt} />
           <p>{words.canceledDetail}</p>
         </div>
       );
@@ -113,7 +133,7 @@ function Running({ job, stages, onProblem }: BodyProps) {
         {preview ? (
           <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
         ) : (
-          <Picture key="portrait" class="awaiting" url={portraitUrl(job)} alt="" />
+          <Picture key="portrait" class="awaiting" url={pictureUrl(job)} alt="" />
         )}
         <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
       </figure>
@@ -127,24 +147,10 @@ function Running({ job, stages, onProblem }: BodyProps) {
   );
 }
 
-function Back() {
+function Back({ to }: { to: string }) {
   return (
-    <a class="button" href={studioLink}>
+    <a class="button" href={to}>
       {words.back}
     </a>
-  );
-}
-
-/** The page's heading takes the focus, so that a change of page is heard as well as seen. */
-function Heading({ text }: { text: string }) {
-  const heading = useRef<HTMLHeadingElement>(null);
-  useEffect(() => {
-    document.title = `${text} · ${strings.name}`;
-    heading.current?.focus();
-  }, [text]);
-  return (
-    <h1 ref={heading} tabIndex={-1}>
-      {text}
-    </h1>
   );
 }

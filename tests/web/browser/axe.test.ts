@@ -1,0 +1,166 @@
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { AxeResults } from 'axe-core';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { complaints, faceless, launch, LONG, open, order, orderCharacter, portrait, samplePerson } from './page';
+
+// A browser loads it into the page: the source, not the module.
+const axe = readFileSync(createRequire(new URL('../../../web/package.json', import.meta.url)).resolve('axe-core/axe.min.js'), 'utf8');
+
+let browser: Browser;
+let done: string;
+let failed: string;
+let character: string;
+let nobody: string;
+const folder = mkdtempSync(join(tmpdir(), 'galatea-axe-'));
+const person = join(folder, 'person.png');
+beforeAll(async () => {
+  browser = await launch();
+  samplePerson(person);
+  [done, failed, character, nobody] = await Promise.all([
+    order(portrait, 'happy'),
+    order(faceless, 'happy'),
+    orderCharacter(person, { seconds: 1 }),
+    orderCharacter(faceless),
+  ]);
+});
+afterAll(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+/** Each page, brought to where most of it shows. */
+const places: Record<string, { hash: () => string; show: (page: Page) => Promise<void> }> = {
+  'the start page': {
+    hash: () => '',
+    show: async (page) => {
+      await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+      await page.getByText('Options').click();
+    },
+  },
+  'the start page of characters': {
+    hash: () => '#/character',
+    show: async (page) => {
+      await page.getByLabel(/Drop a picture/).setInputFiles(person);
+      await page.getByText('Options').click();
+    },
+  },
+  'a character with its corrections': {
+    hash: () => `#/jobs/${character}`,
+    show: async (page) => {
+      await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+      await page.getByText('Change something and make it again').click();
+      await page.getByRole('button', { name: 'Paint who is cut out' }).waitFor();
+    },
+  },
+  'its joints': {
+    hash: () => `#/jobs/${character}`,
+    show: async (page) => {
+      await page.getByText('Change something and make it again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Move the joints' }).click();
+      await page.getByLabel('Hands, feet and face').check();
+    },
+  },
+  'its parts, painted': {
+    hash: () => `#/jobs/${character}`,
+    show: async (page) => {
+      await page.getByText('Change something and make it again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Paint the parts of the body' }).click();
+      await page.getByRole('radio', { name: 'Torso' }).check();
+      await page.getByRole('dialog').getByRole('application').click();
+    },
+  },
+  'a picture of nobody': {
+    hash: () => `#/jobs/${nobody}`,
+    show: (page) => page.getByRole('button', { name: 'Place the joints by hand' }).waitFor({ timeout: LONG }),
+  },
+  'a result with its corrections and links': {
+    hash: () => `#/jobs/${done}`,
+    show: async (page) => {
+      await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+      await page.getByText('Share', { exact: true }).click();
+      await page.getByRole('button', { name: 'Make a link' }).click();
+      await page.getByRole('button', { name: 'Take back' }).first().waitFor();
+      await page.getByText('All files', { exact: true }).click();
+      await page.getByText('Change something and make it again').click();
+      await page.getByRole('button', { name: 'Move the landmarks' }).waitFor();
+    },
+  },
+  'the landmarks': {
+    hash: () => `#/jobs/${done}`,
+    show: async (page) => {
+      await page.getByText('Change something and make it again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Move the landmarks' }).click();
+      await page.getByLabel('Single points').check();
+    },
+  },
+  'a failure': {
+    hash: () => `#/jobs/${failed}`,
+    show: (page) => page.getByRole('button', { name: 'Place the face by hand' }).waitFor({ timeout: LONG }),
+  },
+  'the history': { hash: () => '#/history', show: (page) => page.locator('.entry').first().waitFor() },
+  'the keys': {
+    hash: () => '#/keys',
+    show: async (page) => {
+      await page.getByLabel('For', { exact: true }).fill('axe');
+      await page.getByRole('button', { name: 'Make the key' }).click();
+      await page.getByText('Copy it now').waitFor();
+    },
+  },
+  'the webhooks': {
+    hash: () => '#/webhooks',
+    show: async (page) => {
+      await page.getByLabel('Address', { exact: true }).fill('http://127.0.0.1:9/axe');
+      await page.getByRole('button', { name: 'Add the address' }).click();
+      await page.getByRole('button', { name: 'Send a test' }).first().click();
+      await page.locator('.rows details summary').first().click();
+      await page.getByRole('button', { name: 'Send again' }).waitFor();
+    },
+  },
+  'the camera': {
+    hash: () => '',
+    show: async (page) => {
+      await page.getByRole('button', { name: 'Record yourself' }).click();
+      await page.getByRole('dialog').getByRole('alert').waitFor();
+    },
+  },
+  'a link that opens nothing': {
+    hash: () => '#/shared/nothing',
+    show: async (page) => {
+      await page.getByRole('heading', { name: 'There is nothing at this link' }).waitFor();
+      complaints.length = 0; // the browser reports the 404 itself
+    },
+  },
+};
+
+describe.each(Object.entries(places))('%s', (_name, { hash, show }) => {
+  it('is readable by everybody, on a wide page, light and dark, and on a phone', async () => {
+    const page = await open(browser, hash(), { colorScheme: 'light', reducedMotion: 'reduce' });
+    await show(page);
+    await page.evaluate(axe);
+    const found = new Map<string, string[]>();
+    for (const [width, colorScheme] of [
+      [1280, 'light'],
+      [1280, 'dark'],
+      [320, 'dark'],
+    ] as const) {
+      await page.setViewportSize({ width, height: 800 });
+      await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
+      const results = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<AxeResults> } }).axe.run());
+      for (const { id, impact, nodes } of results.violations) {
+        if (impact === 'serious' || impact === 'critical') {
+          found.set(`${id} at ${width} ${colorScheme}`, nodes.map((node) => `${node.html} ${node.any[0]?.message ?? ''}`));
+        }
+      }
+      expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), `${width}`).toBeLessThanOrEqual(0);
+    }
+    expect(Object.fromEntries(found)).toEqual({});
+  });
+});

@@ -1,0 +1,438 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page, Request } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { ask, complaints, faceless, inPython, jobOf, launch, LONG, open, orderCharacter, samplePerson } from './page';
+
+interface Made {
+  inputs: Record<string, string>;
+  options: Record<string, unknown>;
+  revision_of: string | null;
+}
+type Joints = Record<string, { place: [number, number] }>;
+
+/** Somebody, and somebody smaller to the right of them. */
+const TWO = `
+import sys
+from PIL import Image
+from engine.character.sample import sample_picture
+one = Image.fromarray(sample_picture())
+both = Image.new("RGB", (one.width + one.width * 4 // 5, one.height), (128, 138, 148))
+both.paste(one, (0, 0))
+both.paste(one.resize((one.width * 4 // 5, one.height * 4 // 5)), (one.width, one.height // 5))
+both.save(sys.argv[1])
+`;
+
+/** What the engine lets be placed, what it needs where nobody is found, and the colours of its labels. */
+const NAMES = `
+import json
+from engine.character.figure import PLACED, WHOLE_SKELETON
+from engine.character.strokes import LABEL_COLOURS
+print(json.dumps([PLACED, WHOLE_SKELETON, LABEL_COLOURS.tolist()]))
+`;
+
+/** A motion of the tests' own. */
+const MOTION = `
+import sys
+sys.path.insert(0, "tests/service")
+from made_motion import bvh
+open(sys.argv[1], "wb").write(bvh())
+`;
+
+const folder = mkdtempSync(join(tmpdir(), 'galatea-person-'));
+const person = join(folder, 'somebody.png');
+let browser: Browser;
+let done: string;
+let engine: [joints: string[], needed: string[], colours: number[][]];
+beforeAll(async () => {
+  browser = await launch();
+  // all that blocks this process comes first: lines to the service would break meanwhile
+  samplePerson(person);
+  inPython(TWO, join(folder, 'two.png'));
+  engine = JSON.parse(inPython(NAMES)) as typeof engine;
+  done = await orderCharacter(person, { seconds: 1 });
+});
+afterAll(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const start = (page: Page) => page.getByRole('button', { name: 'Have them walk out' });
+const stage = (page: Page) => page.getByRole('dialog').getByRole('application');
+const again = (page: Page) => page.getByRole('button', { name: 'Make it again' });
+const use = (page: Page) => page.getByRole('button', { name: 'Use these' });
+const isOrder = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
+const isRevision = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/revisions');
+const skeleton = async (id: string): Promise<Joints> =>
+  (await ask<{ joints: Joints }>(`/v1/jobs/${id}/artifacts/skeleton.json`)).joints;
+
+async function cancel(page: Page): Promise<void> {
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.getByText('This job was stopped before it was done').waitFor();
+}
+
+/** The page of the finished character, with its corrections open. */
+async function corrections(id = done, options: Parameters<typeof open>[2] = {}): Promise<Page> {
+  const page = await open(browser, `#/jobs/${id}`, options);
+  await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+  await page.getByText('Change something and make it again').click();
+  return page;
+}
+
+/** What a click on “Make it again” sends. */
+async function revision(page: Page): Promise<{ corrections: Record<string, any>; options: Record<string, any> }> {
+  const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+  return request.postDataJSON();
+}
+
+/** Where places of the picture are on the screen. */
+const onScreen = (page: Page, places: [number, number][]): Promise<[number, number][]> =>
+  page.evaluate((given) => {
+    const matrix = document.querySelector<SVGSVGElement>('[role=application] > svg')?.getScreenCTM();
+    return given.map(([x, y]) => {
+      const point = new DOMPoint(x, y).matrixTransform(matrix ?? undefined);
+      return [point.x, point.y] as [number, number];
+    });
+  }, places);
+
+async function drag(page: Page, ...places: [number, number][]): Promise<void> {
+  const [first, ...rest] = await onScreen(page, places);
+  await page.mouse.move(...first!);
+  await page.mouse.down();
+  for (const place of rest) await page.mouse.move(...place, { steps: 4 });
+  await page.mouse.up();
+}
+
+describe('ordering a character', () => {
+  it('is one of two things to make, each with an address', async () => {
+    const page = await open(browser);
+    const making = page.getByRole('navigation', { name: 'What to make' });
+    await making.getByRole('link', { name: 'Character' }).click();
+    await page.getByRole('heading', { name: 'Have somebody walk out of a picture' }).waitFor();
+    expect(new URL(page.url()).hash).toBe('#/character');
+    expect(await page.getByRole('radio').count()).toBe(8);
+    expect(await start(page).isDisabled()).toBe(true);
+    await making.getByRole('link', { name: 'Portrait' }).click();
+    await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
+  });
+
+  it('sends the picture, the motion and what was chosen', async () => {
+    const page = await open(browser, '#/character');
+    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByText('Dance', { exact: true }).click();
+    await page.getByText('Options').click();
+    await page.getByLabel('Head').check();
+    await page.getByLabel('Camera').selectOption('Goes around');
+    await page.getByLabel('Length of the video').fill('2');
+    const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
+    const sent = request.postDataJSON();
+    expect(sent).toEqual({
+      kind: 'character',
+      inputs: { photo: expect.stringMatching(/^[0-9a-f-]{36}$/), motion: 'dance' },
+      options: { keep: ['head'], camera: 'orbit', seconds: 2 },
+      metadata: { photo: 'Somebody' },
+    });
+    expect(request.headers()['idempotency-key']).toMatch(/./);
+    await page.getByRole('heading', { name: 'Somebody' }).waitFor();
+    await page.getByText('does “Dance”').waitFor();
+    await cancel(page);
+  });
+
+  it('offers the motions that the service keeps', async () => {
+    const file = join(folder, 'swing.bvh');
+    inPython(MOTION, file);
+    const form = new FormData();
+    form.set('name', 'arm-swing');
+    form.set('file', new Blob([readFileSync(file)]), 'swing.bvh');
+    expect((await fetch(`${inject('address')}/v1/motions`, { method: 'POST', body: form })).status).toBe(201);
+    const checked = async (): Promise<string> =>
+      (await ask<{ check_status: string }>('/v1/motions/arm-swing')).check_status;
+    await expect.poll(checked, { timeout: LONG }).toBe('ready');
+    const page = await open(browser, '#/character');
+    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByText('Arm swing', { exact: true }).click();
+    const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
+    const sent = request.postDataJSON();
+    expect([sent.inputs.motion, sent.metadata.motion]).toEqual(['arm-swing', 'Arm swing']);
+    await page.getByText('does “Arm swing”').waitFor();
+    await cancel(page);
+    await fetch(`${inject('address')}/v1/motions/arm-swing`, { method: 'DELETE' });
+  });
+
+  it('refuses what is no motion, and finds the place of one that is dropped anywhere', async () => {
+    const page = await open(browser, '#/character');
+    await page.getByLabel(/Drop a BVH/).setInputFiles({ name: 'a.fbx', mimeType: '', buffer: Buffer.from('x') });
+    await page.getByText('That is no motion.').waitFor();
+    await page.evaluate(() => {
+      const data = new DataTransfer();
+      data.items.add(new File(['x'], 'cartwheel.bvh'));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    });
+    await page.getByLabel('Motion: cartwheel.bvh. Choose another').waitFor({ state: 'attached' });
+    expect(await page.locator('input[type=radio]:checked').count()).toBe(0);
+  });
+
+  it('goes on after the page was loaded anew, on the page of portraits too', async () => {
+    const motion = join(folder, 'long walk.bvh');
+    writeFileSync(motion, `HIERARCHY\nROOT Hips\n{\n${'  OFFSET 0 0 0\n'.repeat(40_000)}`);
+    const page = await open(browser, '#/character');
+    const line = await page.context().newCDPSession(page);
+    const slow = (uploadThroughput: number) =>
+      line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
+    await slow(150_000);
+    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a BVH/).setInputFiles(motion);
+    await start(page).click();
+    await page.getByText(/Sending the motion: [1-9]\d?%/).waitFor();
+    await page.goto(`${inject('address')}/#/`);
+    await page.reload();
+    await page.getByText(/“Somebody” with “Long walk” was not wholly sent/).waitFor();
+    await slow(-1);
+    await page.getByRole('button', { name: 'Go on sending' }).click();
+    await page.getByRole('heading', { name: 'Somebody' }).waitFor();
+    await page.getByText('does “Long walk”').waitFor();
+    const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
+    expect((await ask<{ content_type: string }>(`/v1/files/${job.inputs.motion}`)).content_type).toBe('text/x-bvh');
+    await page.getByRole('alert').waitFor({ timeout: LONG }); // it is no whole motion, and the page says so
+  });
+});
+
+describe('a finished character', () => {
+  it('plays, and can be taken along', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+    await page.waitForFunction(() => {
+      const video = document.querySelector('video');
+      return video && video.videoWidth > 0 && (video.currentTime > 0.2 || video.ended);
+    });
+    for (const [link, file] of [
+      ['Download 3D character', 'character.glb'],
+      ['USDZ for iPhone', 'character.usdz'],
+      ['Video', 'animation.mp4'],
+    ] as const) {
+      const [download] = await Promise.all([
+        page.waitForEvent('download'),
+        page.getByRole('link', { name: link }).click(),
+      ]);
+      expect(download.suggestedFilename()).toBe(file);
+    }
+    expect(await page.getByRole('link', { name: 'VRM' }).count()).toBe(0); // it was not asked for
+    await page.getByText('Share', { exact: true }).click();
+    await page.getByRole('button', { name: 'Make a link' }).click();
+    const link = await page.getByRole('textbox', { name: 'Link' }).inputValue();
+    await page.goto(link);
+    await page.getByRole('heading', { name: 'Somebody walked out of a picture' }).waitFor();
+  });
+
+  it('is found among the recent ones and in the history', async () => {
+    for (const hash of ['#/character', '#/history']) {
+      const page = await open(browser, hash);
+      await page.locator(`a[href="#/jobs/${done}"] img`).waitFor();
+    }
+  });
+
+  it.each([320, 390, 1440])('fits a window of %i pixels, start page, result and corrections', async (width) => {
+    const page = await open(browser, '#/character', { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
+    const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    await page.getByText('Options').click();
+    expect(await overflow()).toBeLessThanOrEqual(0);
+    await page.goto(`${inject('address')}/#/jobs/${done}`);
+    await page.getByText('Change something and make it again').click();
+    await page.getByRole('button', { name: 'Paint who is cut out' }).waitFor();
+    expect(await overflow()).toBeLessThanOrEqual(0);
+  });
+});
+
+describe('corrections of a character', () => {
+  it('knows the joints that the engine lets be placed, and the colours of its labels', async () => {
+    const { limbs, needed } = await import('@web/character/skeleton');
+    const { partColours } = await import('@web/character/strokes');
+    expect([...needed].sort()).toEqual([...engine[1]].sort());
+    for (const { from, to } of limbs) expect(engine[0]).toEqual(expect.arrayContaining([from, to]));
+    expect(Object.values(partColours)).toEqual(engine[2].slice(0, 6).map((colour) => `rgb(${colour.join(' ')})`));
+  });
+
+  it('move a joint by a drag and another by the keyboard, change the motion, and make it again', async () => {
+    const page = await corrections();
+    expect(await again(page).isDisabled()).toBe(true); // nothing is changed yet
+    const before = await skeleton(done);
+    const [x, y] = before.LeftWrist!.place;
+    await page.getByRole('button', { name: 'Move the joints' }).click();
+    await stage(page).waitFor();
+    await drag(page, [x, y], [x + 8, y - 6]);
+    await page.getByRole('status').getByText('Left wrist').waitFor();
+    await page.getByRole('button', { name: 'Right knee' }).focus();
+    await page.keyboard.press('Tab');
+    await page.getByRole('status').getByText('Left ankle').waitFor(); // Tab goes on to the next
+    for (const key of ['Shift+ArrowDown', 'ArrowDown', 'Control+z', 'Control+z', 'ArrowRight']) await page.keyboard.press(key);
+    await use(page).click();
+    await page.getByText('joints are placed by hand.').waitFor();
+    await page.getByLabel('Motion', { exact: true }).selectOption('Bow');
+    const sent = await revision(page);
+    expect(sent.options).toEqual({ motion: 'bow' });
+    expect(Object.keys(sent.corrections)).toEqual(['joints']);
+    const { joints } = sent.corrections;
+    // a hand comes along with its wrist, a foot with its ankle
+    const moved = ['LeftWrist', 'LeftPinky', 'LeftIndex', 'LeftThumb', 'LeftAnkle', 'LeftHeel', 'LeftFootIndex'];
+    expect(Object.keys(joints).sort()).toEqual([...moved].sort());
+    expect(joints.LeftWrist[0] - x).toBeCloseTo(8, 0);
+    expect(joints.LeftWrist[1] - y).toBeCloseTo(-6, 0);
+    expect(joints.LeftAnkle[1]).toBeCloseTo(before.LeftAnkle!.place[1], 0); // those steps were undone
+    expect(joints.LeftAnkle[0]).toBeGreaterThan(before.LeftAnkle!.place[0] + 0.5);
+
+    await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
+    await page.getByText('does “Bow”').waitFor();
+    await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+    const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
+    expect([job.revision_of, job.options.motion, job.options.joints]).toEqual([done, 'bow', joints]);
+    const wrist = (await skeleton(jobOf(page))).LeftWrist!.place;
+    wrist.forEach((value, axis) => expect(value).toBeCloseTo(joints.LeftWrist[axis], 3));
+    await page.getByRole('navigation', { name: 'Versions' }).getByRole('link', { name: '1' }).waitFor();
+
+    // what was placed stays when something else is placed, and can be taken back
+    await page.getByText('Change something and make it again').click();
+    await page.getByText('7 joints are placed by hand.').waitFor();
+    await page.getByRole('button', { name: 'Find them anew' }).click();
+    await page.route('**/revisions', (route) => route.abort());
+    expect((await revision(page)).corrections).toEqual({ joints: null });
+    await page.getByRole('alert').waitFor();
+    complaints.length = 0; // the browser reports the request that was not let through
+  });
+
+  it('send what is painted, framed and chosen, and nothing else', async () => {
+    const page = await corrections();
+    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await stage(page).waitFor();
+    await drag(page, [300, 100], [320, 140], [350, 150]);
+    await page.getByRole('radio', { name: 'What is not' }).check();
+    await page.getByLabel('Width of the brush').focus();
+    for (let press = 0; press < 3; press++) await page.keyboard.press('PageDown');
+    await drag(page, [100, 500], [140, 500]);
+    await drag(page, [200, 500], [240, 520]);
+    await page.keyboard.press('Control+z'); // the focus is on the stage again
+    await use(page).click();
+    await page.getByText('The outline is painted over.').waitFor();
+
+    await page.getByRole('button', { name: 'Paint the parts of the body' }).click();
+    await page.getByRole('radio', { name: 'Torso' }).check();
+    await stage(page).focus();
+    for (const key of ['ArrowUp', ' ', 'Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowUp', ' ', 'ArrowUp']) await page.keyboard.press(key);
+    await use(page).click();
+    await page.getByLabel('The back').selectOption('Painted to match');
+    await page.getByLabel('Left arm').check();
+    await page.getByLabel('Camera').selectOption('Sways a little');
+
+    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    const sent = request.postDataJSON();
+    expect(sent.options).toEqual({ back_texture: 'inpaint', keep: ['left_arm'], camera: 'parallax' });
+    expect(Object.keys(sent.corrections).sort()).toEqual(['label_strokes', 'mask_strokes']);
+    const [added, removed, ...others] = sent.corrections.mask_strokes;
+    expect([added.person, removed.person, others]).toEqual([true, false, []]);
+    expect(added.path[0][0]).toBeCloseTo(300, 0);
+    expect(added.path.at(-1)[1]).toBeCloseTo(150, 0);
+    expect(added.path.length).toBeGreaterThan(2); // around the corner
+    expect(removed.path).toHaveLength(2); // a straight line needs no more
+    expect(removed.radius).toBeLessThan(added.radius);
+    const [painted] = sent.corrections.label_strokes;
+    expect([painted.part, sent.corrections.label_strokes.length, painted.path.length]).toEqual(['torso', 1, 3]);
+    await accepted(request);
+  });
+
+  it('are made by a finger, too; two bring the picture nearer and paint nothing', async () => {
+    const page = await corrections(done, { hasTouch: true, viewport: { width: 390, height: 800 } });
+    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await stage(page).waitFor();
+    const hand = await page.context().newCDPSession(page);
+    const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: [number, number][]) =>
+      hand.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const places = await onScreen(page, [[150, 200], [200, 260], [240, 300], [330, 420]]);
+    const [a, b, c, d] = [places[0]!, places[1]!, places[2]!, places[3]!];
+    const view = () => page.locator('[role=application] > svg').evaluate((svg) => svg.getAttribute('viewBox') ?? '');
+    const width = async (): Promise<number> => Number((await view()).split(' ')[2]);
+    const undo = page.getByRole('button', { name: 'Undo' });
+    const before = await width();
+    await touch('touchStart', b);
+    await touch('touchStart', b, c);
+    await touch('touchMove', a, d);
+    await touch('touchEnd');
+    expect(await width()).toBeLessThan(before);
+    const near = await view();
+    expect(await undo.isDisabled()).toBe(true);
+    await touch('touchStart', a);
+    await touch('touchMove', b);
+    await touch('touchEnd');
+    await expect.poll(() => undo.isEnabled()).toBe(true);
+    expect(await view()).toBe(near);
+  });
+
+  it('choose somebody else by a click, or everybody', async () => {
+    const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, joints: { LeftElbow: [300, 270] } });
+    const page = await corrections(id);
+    await page.getByText('2 people were found.').waitFor();
+    const other = page.getByRole('button', { name: 'Person 2 of 2' });
+    await other.click();
+    expect(await other.getAttribute('aria-pressed')).toBe('true');
+    expect(await page.getByRole('button', { name: 'Paint who is cut out' }).count()).toBe(0); // that is another's outline
+    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    // what was put right of the one is not the other's
+    expect(request.postDataJSON()).toEqual({ corrections: { person_index: 1, joints: null }, options: {} });
+    await accepted(request);
+
+    const everybody = await corrections(id);
+    await everybody.getByRole('button', { name: 'All of them' }).click();
+    expect(await everybody.getByRole('button', { name: /joints/ }).count()).toBe(0); // joints are somebody's
+    const [together] = await Promise.all([everybody.waitForRequest(isRevision), again(everybody).click()]);
+    expect(together.postDataJSON().corrections).toEqual({ person_index: 'all', joints: null });
+    await accepted(together);
+  });
+
+  it('frame the person', async () => {
+    const page = await corrections();
+    await page.getByRole('button', { name: 'Frame the person' }).click();
+    await stage(page).waitFor();
+    await drag(page, [4, 4], [100, 80], [400, 560]);
+    await stage(page).focus();
+    await page.keyboard.press('Shift+ArrowRight');
+    await page.keyboard.press('Control+z');
+    await use(page).click();
+    await page.getByText('The person is framed by hand.').waitFor();
+    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    const { corrections: sent } = request.postDataJSON();
+    expect(Object.keys(sent)).toEqual(['person_box']);
+    [4, 4, 396, 556].forEach((value, index) => expect(Math.abs(sent.person_box[index] - value)).toBeLessThanOrEqual(2));
+    await accepted(request);
+  });
+
+  it('are asked for where nobody was found, with a skeleton to begin with', async () => {
+    const id = await orderCharacter(faceless, { seconds: 1 });
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
+    await page.getByText('Put it right and make it again').waitFor();
+    await page.getByRole('img', { name: 'The picture, as it was sent' }).last().waitFor();
+    await page.getByRole('button', { name: 'Place the joints by hand' }).click();
+    await stage(page).focus();
+    for (const key of ['ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
+    await page.getByLabel('Whole skeleton').uncheck();
+    expect(await stage(page).getByRole('button').count()).toBe(12);
+    await use(page).click();
+    await page.getByText('12 joints are placed by hand.').waitFor();
+    const sent = await revision(page);
+    expect(Object.keys(sent.corrections)).toEqual(['joints']);
+    expect(Object.keys(sent.corrections.joints)).toHaveLength(12);
+    await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(id));
+    await page.getByRole('button', { name: 'Cancel' }).or(page.getByRole('link', { name: 'Make another' })).waitFor();
+  });
+});
+
+/** The service accepts a revision; its work is not what the test is about. */
+async function accepted(request: Request): Promise<void> {
+  const response = await request.response();
+  expect(response?.status(), await response?.text()).toBe(202);
+  const { id } = (await response!.json()) as { id: string };
+  await fetch(`${inject('address')}/v1/jobs/${id}/cancel`, { method: 'POST' });
+}

@@ -1,0 +1,138 @@
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { canonical } from '@web/landmarks/template';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { ask, complaints, faceless, inPython, jobOf, launch, LONG, open, order, played, portrait } from './page';
+
+type Points = [number, number][];
+interface Landmarks {
+  landmarks: Points;
+}
+
+/** The portrait, and a smaller mirrored one to its right. */
+const TWO = `
+import sys
+from PIL import Image, ImageOps
+one = Image.open(sys.argv[1]).convert("RGB")
+other = ImageOps.mirror(one).resize((one.width * 3 // 4, one.height * 3 // 4))
+both = Image.new("RGB", (one.width + other.width, one.height), (90, 90, 90))
+both.paste(one, (0, 0))
+both.paste(other, (one.width, 0))
+both.save(sys.argv[2])
+print(one.width)
+`;
+
+const folder = mkdtempSync(join(tmpdir(), 'galatea-two-'));
+let browser: Browser;
+let border: number;
+let done: string;
+beforeAll(async () => {
+  browser = await launch();
+  border = Number(inPython(TWO, portrait, join(folder, 'two.png')));
+  done = await order(join(folder, 'two.png'), 'idle');
+});
+afterAll(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const stage = (page: Page) => page.getByRole('application');
+const again = (page: Page) => page.getByText('Change something and make it again');
+const landmarks = (id: string): Promise<Landmarks> => ask(`/v1/jobs/${id}/artifacts/landmarks.json`);
+const xs = (points: Points): number[] => points.map(([x]) => x);
+
+describe('corrections by hand', () => {
+  it('begin with the canonical face of the engine', () => {
+    const engine = inPython(
+      'import json, numpy as np; from engine.perception.head_pose import canonical_face as f; ' +
+        'from engine.perception.landmarks import fiducials as g; ' +
+        'print(json.dumps(np.round(g(f().astype(float))[:, :2], 3).tolist()))',
+    );
+    expect(JSON.parse(engine)).toEqual(canonical);
+  });
+
+  it('choose another face by a click', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
+    expect(Math.max(...xs((await landmarks(done)).landmarks))).toBeLessThan(border);
+    await again(page).click();
+    await page.getByText('2 faces were found.').waitFor();
+    const other = page.getByRole('button', { name: 'Face 2 of 2' });
+    await other.click();
+    expect(await other.getAttribute('aria-pressed')).toBe('true');
+    await page.getByRole('button', { name: 'Make it again' }).click();
+    await page.waitForURL((url) => !url.hash.endsWith(done));
+    await played(page);
+    expect(Math.min(...xs((await landmarks(jobOf(page))).landmarks))).toBeGreaterThan(border);
+  });
+
+  it('move a feature by a drag, and a point by the keyboard, and are undone', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await again(page).click({ timeout: LONG });
+    const before = (await landmarks(done)).landmarks;
+    await page.getByRole('button', { name: 'Move the landmarks' }).click();
+    await stage(page).waitFor();
+
+    const [from, to] = await onScreen(page, [before[66], [before[66]![0] + 6, before[66]![1] + 3]] as Points);
+    await page.mouse.move(from![0], from![1]);
+    await page.mouse.down();
+    await page.mouse.move((from![0] + to![0]) / 2, (from![1] + to![1]) / 2);
+    await page.mouse.move(to![0], to![1]);
+    await page.mouse.up();
+    await page.getByRole('status').getByText('Lips', { exact: true }).waitFor({ state: 'attached' });
+
+    await page.getByLabel('Moves').selectOption('Left eye');
+    await page.getByLabel('Single points').check();
+    await page.getByLabel('Neighbours follow').uncheck();
+    await stage(page).focus();
+    await page.keyboard.press('PageDown');
+    await page.getByText('Left eye, point 2 of 6').waitFor({ state: 'attached' });
+    for (const key of ['Shift+ArrowUp', 'ArrowLeft', 'Control+z']) await page.keyboard.press(key);
+    await page.getByRole('button', { name: 'Use these' }).click();
+    await page.getByText('The landmarks are placed by hand.').waitFor();
+
+    await page.getByRole('button', { name: 'Make it again' }).click();
+    await page.waitForURL((url) => !url.hash.endsWith(done));
+    await played(page);
+    const job = await ask<{ options: { landmarks: Points } }>(`/v1/jobs/${jobOf(page)}`);
+    const after = job.options.landmarks;
+    const moves = after.map(([x, y], index) => [x - before[index]![0], y - before[index]![1]] as const);
+    moves.forEach(([dx, dy], index) => {
+      const lips = index >= 48;
+      if (index === 37) return;
+      expect(dx).toBeCloseTo(lips ? 6 : 0, 0);
+      expect(dy).toBeCloseTo(lips ? 3 : 0, 0);
+    });
+    expect(moves[37]![0]).toBeCloseTo(0, 1); // that step was undone
+    expect(moves[37]![1]).toBeLessThan(-5);
+  });
+
+  it('place a face where none was found', async () => {
+    const id = await order(faceless, 'idle');
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByRole('button', { name: 'Place the face by hand' }).click({ timeout: LONG });
+    await stage(page).focus();
+    for (const key of ['+', '+', 'ArrowUp', ']', '[']) await page.keyboard.press(key);
+    await page.getByRole('button', { name: 'Use these' }).click();
+    await page.getByRole('button', { name: 'Make it again' }).click();
+    await page.waitForURL((url) => !url.hash.endsWith(id));
+    await played(page);
+  });
+});
+
+/** Where places of the picture are on the screen. */
+function onScreen(page: Page, places: Points): Promise<Points> {
+  return page.evaluate((given) => {
+    const matrix = document.querySelector<SVGSVGElement>('[role=application] > svg')?.getScreenCTM();
+    return given.map(([x, y]) => {
+      const point = new DOMPoint(x, y).matrixTransform(matrix ?? undefined);
+      return [point.x, point.y];
+    });
+  }, places) as Promise<Points>;
+}

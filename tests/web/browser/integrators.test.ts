@@ -1,0 +1,113 @@
+import { createServer, type Server } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import type { Browser } from 'playwright-core';
+import { Webhook } from 'standardwebhooks';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { complaints, launch, LONG, open, order, portrait } from './page';
+
+let browser: Browser;
+let receiver: Server;
+const received: { body: string; headers: Record<string, string> }[] = [];
+let answer = 503;
+beforeAll(async () => {
+  browser = await launch();
+  receiver = createServer((request, response) => {
+    let body = '';
+    request.on('data', (part: Buffer) => (body += part.toString()));
+    request.on('end', () => {
+      received.push({ body, headers: request.headers as Record<string, string> });
+      response.writeHead(answer);
+      response.end('come back later');
+    });
+  });
+  await new Promise<void>((ready) => receiver.listen(0, '127.0.0.1', ready));
+});
+afterAll(async () => {
+  receiver.close();
+  await browser.close();
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const service = (path: string, token?: string): Promise<Response> =>
+  fetch(inject('address') + path, token ? { headers: { Authorization: `Bearer ${token}` } } : {});
+
+describe('keys', () => {
+  it('are made, shown once, used by a program, and revoked after a question', async () => {
+    const page = await open(browser, '#/keys');
+    await page.getByLabel('For', { exact: true }).fill('Picture shop');
+    await page.getByLabel('manage').uncheck();
+    await page.getByRole('button', { name: 'Make the key' }).click();
+    const token = await page.getByLabel('Key', { exact: true }).inputValue();
+    expect(await (await service('/v1/key', token)).json()).toMatchObject({ name: 'Picture shop', scopes: ['read', 'submit'] });
+    await page.reload();
+    await page.getByText('Picture shop', { exact: true }).waitFor();
+    expect(await page.getByText(token).count()).toBe(0);
+    await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
+    await page.getByRole('button', { name: 'Keep it' }).click();
+    await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
+    await page.getByRole('button', { name: 'Revoke it' }).click();
+    await page.getByText('Revoked').waitFor();
+    expect((await service('/v1/key', token)).status).toBe(401);
+  });
+});
+
+describe('webhooks', () => {
+  it('are added, tested, looked into, and what did not come through is sent again', async () => {
+    const url = `http://127.0.0.1:${(receiver.address() as AddressInfo).port}/galatea`;
+    const page = await open(browser, '#/webhooks');
+    await page.getByLabel('Address', { exact: true }).fill(url);
+    await page.getByRole('button', { name: 'Add the address' }).click();
+    const secret = await page.getByLabel(`Signing secret for ${url}`).inputValue();
+    await page.getByRole('button', { name: 'Send a test' }).last().click();
+    const row = page.locator('.rows details').filter({ hasText: url }).first();
+    await row.locator('summary').getByText('503').waitFor({ timeout: LONG });
+    await row.locator('summary').click();
+    await row.getByText('come back later').first().waitFor();
+
+    answer = 200;
+    await row.getByText('Delivered').waitFor({ timeout: LONG }); // tried again by itself
+    const { body, headers } = received.at(-1)!;
+    expect(new Webhook(secret).verify(body, headers)).toMatchObject({ type: 'webhook.test' });
+    const before = received.length;
+    await row.getByRole('button', { name: 'Send again' }).click();
+    await expect.poll(() => received.length, { timeout: LONG }).toBeGreaterThan(before);
+    expect(received.at(-1)!.headers['webhook-id']).toBe(headers['webhook-id']);
+
+    await page.getByRole('button', { name: 'Signing secret', exact: true }).last().click();
+    await page.getByRole('button', { name: 'Replace the secret' }).click();
+    await page.getByText('The secret before it signs as well until').waitFor();
+    expect((await page.getByRole('textbox', { name: 'Signing secret', exact: true }).inputValue()) === secret).toBe(false);
+  });
+
+  it('refuse addresses of the network, in plain words', async () => {
+    const page = await open(browser, '#/webhooks');
+    await page.getByLabel('Address', { exact: true }).fill('http://10.1.2.3/hook');
+    await page.getByRole('button', { name: 'Add the address' }).click();
+    await page.getByRole('alert').waitFor();
+    complaints.length = 0; // the browser reports the refusal itself
+  });
+});
+
+describe('a link', () => {
+  it('shows the video to others until it is taken back', async () => {
+    const id = await order(portrait, 'happy');
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByText('Share', { exact: true }).click({ timeout: LONG });
+    await page.getByLabel('Good for').selectOption('a day');
+    await page.getByRole('button', { name: 'Make a link' }).click();
+    const link = await page.getByLabel('Link', { exact: true }).inputValue();
+    const other = await browser.newPage();
+    await other.goto(link);
+    await other.getByRole('heading', { name: 'A portrait came to life' }).waitFor();
+    await other.getByLabel('The portrait, acting out').click();
+    await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
+    expect(await other.getByRole('navigation').count()).toBe(0);
+    await page.getByRole('button', { name: 'Take back' }).click();
+    await page.getByRole('button', { name: 'Take back' }).waitFor({ state: 'detached' });
+    await other.reload();
+    await other.getByRole('heading', { name: 'There is nothing at this link' }).waitFor();
+  });
+});

@@ -1,0 +1,45 @@
+/** A portrait that is made and played on demand, all on the page. */
+
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, expect, it } from 'vitest';
+import { complaints, launch, LONG, open, order, portrait } from './page';
+
+let browser: Browser;
+let job: string;
+beforeAll(async () => {
+  browser = await launch();
+  job = await order(portrait, null, { reactive: ['happy'], size: [160, 200], fps: 15 });
+});
+afterAll(() => browser.close());
+
+it('comes without a performance, and shows what is asked for', async () => {
+  const page = await open(browser, `#/jobs/${job}`);
+  const happy = page.getByRole('button', { name: 'Happy', exact: true });
+  await happy.waitFor({ timeout: LONG });
+  await page.getByRole('button', { name: 'Idle', pressed: true }).waitFor();
+  await happy.click();
+  await page.getByRole('button', { name: 'Happy', pressed: true }).waitFor();
+  const bundle = page.getByRole('link', { name: /Download for a web page/ });
+  expect(await bundle.getAttribute('href')).toMatch(/profile\.zip$/);
+  expect(complaints).toEqual([]);
+});
+
+it('is a card among the performances', async () => {
+  const page = await open(browser);
+  await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+  await page.locator('form').getByText('On demand', { exact: true }).click();
+  const ordered = page.waitForRequest((request) => request.url().endsWith('/v1/jobs') && request.method() === 'POST');
+  await page.getByRole('button', { name: 'Bring it to life' }).click();
+  const body = (await ordered).postDataJSON() as { inputs: object; options: object };
+  expect(Object.keys(body.inputs)).toEqual(['image']);
+  expect(body.options).toEqual({ reactive: true });
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.getByText('Canceled', { exact: true }).first().waitFor({ timeout: LONG });
+});
+
+it('says so where it cannot be played', async () => {
+  const page = await open(browser);
+  await page.route('**/reactive-portrait.js', (route) => route.abort());
+  await page.evaluate((job) => (location.hash = `#/jobs/${job}`), job);
+  await page.getByText('Not all of the portrait could be loaded. Load the page again.').waitFor({ timeout: LONG });
+});

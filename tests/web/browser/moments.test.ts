@@ -1,0 +1,47 @@
+import type { Browser } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, expect, inject, it } from 'vitest';
+import { ask, complaints, inPython, launch, LONG, open, portrait } from './page';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const video = inPython('from engine.performances import video; print(video("surprise"))');
+
+it('keeps a video, finds the emotions in it, and has one of them acted out', { timeout: LONG }, async () => {
+  const page = await open(browser);
+  await page.getByLabel(/Drop a picture|Portrait:/).setInputFiles(portrait);
+  await page.getByLabel(/Drop a video|Video:/).setInputFiles(video);
+  await page.getByRole('button', { name: 'Keep it and find the emotions in it' }).click();
+  const whole = page.getByRole('radio', { name: 'Surprise 2', exact: true }); // “surprise” is a built-in one's name
+  await whole.waitFor();
+  expect(await whole.isChecked()).toBe(true);
+  const moment = page.getByRole('radio', { name: /^Surprise(, strong)?, \d\.\d s$/ });
+  await moment.waitFor({ timeout: LONG });
+  expect(await page.getByText('Looking for emotions').count()).toBe(0);
+  await page.locator('label').filter({ has: moment }).click();
+  expect(await moment.isChecked()).toBe(true);
+  const shown = page.locator('label').filter({ has: moment }).locator('img');
+  expect(await shown.evaluate((picture: HTMLImageElement) => picture.naturalWidth)).toBe(256);
+
+  await page.getByRole('button', { name: 'Bring it to life' }).click();
+  await page.waitForURL(/#\/jobs\//);
+  const job = await ask<{ inputs: { driver: string }; options: { trim: number[] } }>(
+    `/v1/jobs/${page.url().split('/').at(-1)}`,
+  );
+  const driver = await ask<{ moments: { name: string; start: number; end: number }[] }>('/v1/drivers/surprise-2');
+  const found = driver.moments[0];
+  expect([job.inputs.driver, job.options.trim]).toEqual([`surprise-2/${found?.name}`, [found?.start, found?.end]]);
+
+  // The search is no entry among what was made.
+  await page.goto(`${inject('address')}/#/history`);
+  await page.getByText('Grace hopper').first().waitFor();
+  expect(await page.getByText('Moments').count()).toBe(0);
+  await fetch(`${inject('address')}/v1/drivers/surprise-2`, { method: 'DELETE' });
+});

@@ -1,0 +1,80 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { ask, complaints, jobOf, launch, media, open, portrait } from './page';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const start = (page: Page) => page.getByRole('button', { name: 'Bring it to life' });
+const bar = (page: Page) => page.getByRole('progressbar');
+const share = async (page: Page): Promise<number> => Number(await bar(page).getAttribute('value'));
+
+/** The start page with a portrait and a video chosen, on a line that takes some seconds for the video. */
+async function chosen(video: string): Promise<Page> {
+  const page = await open(browser);
+  await slow(page, 150_000);
+  await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+  await page.getByLabel(/Drop a video/).setInputFiles(video);
+  return page;
+}
+
+async function slow(page: Page, uploadThroughput: number): Promise<void> {
+  const line = await page.context().newCDPSession(page);
+  await line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
+}
+
+describe('sending a video', () => {
+  it('halts and goes on, survives a reload, and orders what was wanted', async ({ skip }) => {
+    const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
+    const page = await chosen(video);
+    await start(page).click();
+    await page.getByText(/Sending the video: [2-9]\d%/).waitFor();
+    await page.getByRole('button', { name: 'Pause' }).click();
+    await page.getByText(/Paused in the video/).waitFor();
+    const halted = await share(page);
+    await page.waitForTimeout(1500);
+    expect(await share(page)).toBe(halted);
+    await page.getByRole('button', { name: 'Go on' }).click();
+    await expect.poll(() => share(page), { timeout: 60_000 }).toBeGreaterThan(halted + 0.05);
+
+    const asked: string[] = [];
+    page.on('request', (request) => asked.push(`${request.method()} ${new URL(request.url()).pathname.split('/')[2]}`));
+    await page.reload();
+    await page.getByText(/“Grace hopper” with “Man grimace d0” was not wholly sent/).waitFor();
+    await page.getByRole('button', { name: 'Go on sending' }).click();
+    await page.getByText(/Sending the video: [3-9]\d%/).waitFor();
+    await slow(page, -1);
+    await page.getByRole('heading', { name: 'Grace hopper' }).waitFor({ timeout: 60_000 });
+    expect(asked).toContain('HEAD uploads');
+    expect(asked.includes('POST uploads')).toBe(false); // neither file was begun again
+    const job = await ask<{ inputs: { driver: string } }>(`/v1/jobs/${jobOf(page)}`);
+    const { size } = await ask<{ size: number }>(`/v1/files/${job.inputs.driver}`);
+    expect(size).toBeGreaterThan(100_000);
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await page.getByText('This job was stopped before it was done').waitFor();
+    await page.goto(page.url().replace(/#.*/, ''));
+    await start(page).waitFor();
+    expect(await page.getByText('was not wholly sent').count()).toBe(0);
+  });
+
+  it('stops when told to, and leaves nothing to go on with', async ({ skip }) => {
+    const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
+    const page = await chosen(video);
+    await start(page).click();
+    await page.getByText(/Sending the video: [1-9]\d?%/).waitFor();
+    const gone = page.waitForRequest((request) => request.method() === 'DELETE' && request.url().includes('/v1/uploads/'));
+    await page.getByRole('button', { name: 'Stop' }).click();
+    await gone;
+    await start(page).waitFor();
+    await page.reload();
+    await page.getByRole('radio').first().waitFor({ state: 'attached' });
+    expect(await page.getByText('was not wholly sent').count()).toBe(0);
+  });
+});

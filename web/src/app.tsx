@@ -1,0 +1,83 @@
+/** The page around the pages: where one is, and where one can go. */
+
+import { useEffect, useState } from 'preact/hooks';
+import { later } from './components/later';
+import { HistoryPage } from './pages/history';
+import { JobPage } from './pages/job';
+import { SignInPage } from './pages/signin';
+import { StudioPage } from './pages/studio';
+import { historyLink, keysLink, type Route, studioLink, useRoute, webhooksLink } from './route';
+import { onLocked } from './session';
+import { strings } from './strings';
+
+const CharacterStudio = later(() => import('./pages/character'));
+const SharedPage = later(() => import('./pages/shared'));
+const KeysPage = later(() => import('./pages/keys'));
+const WebhooksPage = later(() => import('./pages/webhooks'));
+
+export function App() {
+  const route = useRoute();
+  const [locked, setLocked] = useState(false);
+  useEffect(() => onLocked(() => setLocked(true)), []);
+  const shared = route.page === 'shared';
+  return (
+    <>
+      <a class="skip" href="#content" onClick={skipToContent}>
+        {strings.skip}
+      </a>
+      <header class="masthead">
+        <a class="wordmark" href={studioLink} aria-label={strings.home}>
+          <img src="/favicon.svg" alt="" width="28" height="28" />
+          <span>{strings.name}</span>
+        </a>
+        {!shared && !locked && <Navigation page={route.page} />}
+      </header>
+      <main id="content" tabIndex={-1}>
+        {locked && !shared ? <SignInPage onOpen={() => setLocked(false)} /> : <Page route={route} />}
+      </main>
+    </>
+  );
+}
+
+function Navigation({ page }: { page: Route['page'] }) {
+  const words = strings.navigation;
+  const places = [
+    { page: 'history', link: historyLink(null), text: words.history },
+    { page: 'keys', link: keysLink, text: words.keys },
+    { page: 'webhooks', link: webhooksLink, text: words.webhooks },
+  ] as const;
+  return (
+    <nav aria-label={words.label}>
+      {places.map(({ page: one, link, text }) => (
+        <a key={one} href={link} aria-current={one === page ? 'page' : undefined}>
+          {text}
+        </a>
+      ))}
+    </nav>
+  );
+}
+
+function Page({ route }: { route: Route }) {
+  switch (route.page) {
+    case 'character':
+      return <CharacterStudio />;
+    case 'job':
+      return <JobPage key={route.id} id={route.id} />;
+    case 'history':
+      return <HistoryPage status={route.status} />;
+    case 'shared':
+      return <SharedPage key={route.token} token={route.token} />;
+    case 'keys':
+      return <KeysPage />;
+    case 'webhooks':
+      return <WebhooksPage />;
+    default:
+      return <StudioPage />;
+  }
+}
+
+/** The part after `#` is the route here, so the jump is made by hand. */
+function skipToContent(event: Event): void {
+  event.preventDefault();
+  document.getElementById('content')?.focus();
+}

@@ -1,0 +1,272 @@
+/** Everything about a character that can be put right by hand, and the order to make it again. */
+
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import {
+  characterOptions,
+  foundPeople,
+  getReport,
+  getSkeleton,
+  type Job,
+  type Problem,
+  reviseCharacter,
+} from '../api';
+import { later } from '../components/later';
+import type { Pose } from '../components/redo';
+import { SendingBar } from '../components/sendingbar';
+import { usePicture } from '../corrections/picture';
+import { randomKey } from '../key';
+import { asProblem, useLoaded } from '../loading';
+import { jobLink } from '../route';
+import { strings } from '../strings';
+import { GIVEN_UP, uploadFile, Valve } from '../upload';
+import { another, changesOf, isChanged, notesFor, type Wishes, wishesOf } from './changes';
+import { KeepField, VideoFields } from './choices';
+import { MotionField } from './motionfield';
+import { Paintings } from './paintings';
+import { People } from './people';
+import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from './skeleton';
+import '../styles/corrections.css';
+import '../styles/character.css';
+
+const JointEditor = later(() => import('./joints'));
+const FrameEditor = later(() => import('./frame'));
+const words = strings.correct;
+
+interface Props {
+  job: Job;
+  /** From the viewer: it is to be made. */
+  pose: Pose | null;
+  onPoseTaken: () => void;
+  onProblem: (problem: Problem | null) => void;
+}
+
+export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Props) {
+  const before = useMemo(() => wishesOf(job), [job.id]);
+  const [wishes, setWishes] = useState<Wishes>(before);
+  const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
+  const key = useRef(randomKey());
+  const report = useLoaded((signal) => getReport(job, signal), job.id).value;
+  const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
+  const picture = usePicture(job, skeleton?.size ?? null);
+  const people = report?.inputs.people ?? foundPeople(job);
+  const mendable = job.error?.correctable ?? [];
+
+  const wish = (part: Partial<Wishes>): void => {
+    key.current = randomKey(); // another wish is another order
+    setWishes((known) => ({ ...known, ...part }));
+  };
+  const sending = useRevision(job, key, onProblem);
+  useEffect(() => {
+    if (!pose) return;
+    onPoseTaken();
+    wish({ pose });
+    sending.send(before, { ...wishes, pose }); // whatever else is wished for comes along
+  }, [pose]);
+
+  // what was not made, for whatever reason, may be tried again as it is
+  const again = isChanged(before, wishes) || job.status !== 'succeeded';
+  /** Whether the person is still the one that the job found. */
+  const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
+  const found = useMemo<Joints | null>(
+    () => (skeleton && samePerson && wishes.person !== 'all' ? jointsOf(skeleton) : null),
+    [skeleton, samePerson, wishes.person],
+  );
+  const placed = Object.keys(wishes.joints).length;
+  const shown = found || placed ? { ...found, ...wishes.joints } : null;
+  const start = useMemo<Joints | null>(() => {
+    if (!picture) return null;
+    const box = wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : undefined);
+    return { ...(found ?? skeletonIn(box ?? middleOf(picture.size))), ...wishes.joints };
+  }, [picture, found, wishes.joints, wishes.box, wishes.person, report]);
+
+  const jointsHint = (): string => {
+    if (placed) return words.jointsPlaced(placed);
+    return mendable.includes('joints') && !found ? words.jointsNeeded : words.jointsHint;
+  };
+  return (
+    <form
+      class="corrections character"
+      onSubmit={(event) => {
+        event.preventDefault();
+        sending.send(before, wishes);
+      }}
+    >
+      <section class="panel" aria-label={words.person}>
+        <h3>{words.person}</h3>
+        {picture && (
+          <People
+            picture={picture}
+            people={people}
+            chosen={wishes.person}
+            box={wishes.box}
+            joints={shown}
+            onChoose={(person) => wish(another({ person }))}
+          />
+        )}
+        {picture === false && <p class="hint">{words.noPicture}</p>}
+        {wishes.person !== 'all' && (
+          <>
+            <div class="actions">
+              {picture && (
+                <button
+                  type="button"
+                  class={mendable.includes('joints') && !placed ? 'button primary' : 'button'}
+                  onClick={() => setEditing('joints')}
+                >
+                  {found || placed ? words.joints : words.placeJoints}
+                </button>
+              )}
+              {placed > 0 && (
+                <button type="button" class="button quiet" onClick={() => wish({ joints: {} })}>
+                  {words.jointsBack}
+                </button>
+              )}
+            </div>
+            <p class="hint" role="status">
+              {jointsHint()}
+            </p>
+          </>
+        )}
+        <div class="actions">
+          {picture && (
+            <button type="button" class="button" onClick={() => setEditing('box')}>
+              {words.box}
+            </button>
+          )}
+          {wishes.box && (
+            <button type="button" class="button quiet" onClick={() => wish(another({ box: null }))}>
+              {words.boxBack}
+            </button>
+          )}
+        </div>
+        <p class="hint">{wishes.box ? words.boxPlaced : words.boxHint}</p>
+      </section>
+      <section class="panel" aria-label={words.move}>
+        <h3>{words.move}</h3>
+        <MotionField
+          value={wishes.motion}
+          held={before.motion.by === 'held'}
+          onChange={(motion) => wish({ motion })}
+        />
+        <KeepField value={wishes} onChange={wish} />
+        {Object.keys(wishes.pose).length > 0 && (
+          <div class="actions">
+            <p class="hint" role="status">
+              {words.posed(Object.keys(wishes.pose).length)}
+            </p>
+            <button type="button" class="button quiet" onClick={() => wish({ pose: {} })}>
+              {words.poseBack}
+            </button>
+          </div>
+        )}
+        <h3>{words.video}</h3>
+        <VideoFields value={wishes} onChange={wish} />
+      </section>
+      {picture && samePerson && wishes.person !== 'all' && (
+        <Paintings
+          job={job}
+          picture={picture}
+          made={characterOptions(job)}
+          mask={wishes.mask}
+          labels={wishes.labels}
+          onPaint={wish}
+        />
+      )}
+      <div class="launch">
+        {sending.step ? (
+          <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
+        ) : (
+          <button
+            type="submit"
+            class="button primary large"
+            disabled={sending.busy || !again}
+            aria-describedby="unchanged"
+          >
+            {strings.redo.send}
+          </button>
+        )}
+        <p id="unchanged" class="hint" aria-live="polite">
+          {again ? '' : words.unchanged}
+        </p>
+      </div>
+      {editing === 'joints' && picture && start && (
+        <JointEditor
+          url={picture.url}
+          size={picture.size}
+          start={start}
+          found={found !== null || placed > 0}
+          onDone={(joints) => {
+            setEditing(null);
+            wish({ joints: placedJoints(joints, found, wishes.joints, picture.size) });
+          }}
+          onClose={() => setEditing(null)}
+        />
+      )}
+      {editing === 'box' && picture && (
+        <FrameEditor
+          url={picture.url}
+          size={picture.size}
+          start={wishes.box ?? (wishes.person === 'all' ? undefined : people[wishes.person]) ?? middleOf(picture.size)}
+          onDone={(box) => {
+            setEditing(null);
+            wish(another({ box }));
+          }}
+          onClose={() => setEditing(null)}
+        />
+      )}
+    </form>
+  );
+}
+
+/** Sends the file of another motion, if there is one, then the revision; the page turns to its job. */
+function useRevision(job: Job, key: { current: string }, onProblem: Props['onProblem']) {
+  const [busy, setBusy] = useState(false);
+  const [fraction, setFraction] = useState<number | null>(null);
+  const [paused, setPaused] = useState(false);
+  const valve = useRef(new Valve());
+  const stopper = useRef<AbortController | null>(null);
+  /** What has arrived need not be sent again. */
+  const arrived = useRef<{ file: File; id: string } | null>(null);
+  useEffect(() => () => stopper.current?.abort(), []);
+
+  const upload = async (file: File, signal: AbortSignal): Promise<string> => {
+    if (arrived.current?.file === file) return arrived.current.id;
+    setFraction(0);
+    const id = await uploadFile(file, (sent) => setFraction(file.size ? sent / file.size : 1), valve.current, signal);
+    arrived.current = { file, id };
+    return id;
+  };
+  const pause = (on: boolean): void => {
+    setPaused(on);
+    valve.current.closed = on;
+  };
+  const send = async (before: Wishes, wishes: Wishes): Promise<void> => {
+    const { signal } = (stopper.current = new AbortController());
+    const { motion } = wishes;
+    if (!isChanged(before, wishes) && job.status === 'succeeded') return;
+    setBusy(true);
+    pause(false);
+    onProblem(null);
+    try {
+      const id = motion.by === 'file' ? await upload(motion.file, signal) : null;
+      setFraction(null);
+      const changes = changesOf(before, wishes, id);
+      const metadata = motion.by === 'file' && { metadata: notesFor(job, motion.file) };
+      const revised = await reviseCharacter(job.id, { ...changes, ...metadata }, key.current);
+      location.hash = jobLink(revised.id);
+    } catch (error) {
+      if (!signal.aborted) onProblem(asProblem(error));
+      setFraction(null);
+      setBusy(false);
+    }
+  };
+  return {
+    busy,
+    paused,
+    step: fraction === null ? null : ({ step: 'motion', fraction } as const),
+    pause,
+    stop: () => stopper.current?.abort(GIVEN_UP),
+    send: (before: Wishes, wishes: Wishes) => void send(before, wishes),
+  };
+}
+

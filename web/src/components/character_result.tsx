@@ -1,0 +1,74 @@
+/** A finished character: the video, the character itself to take along, and what the run has to say. */
+
+import { type Artifact, getReport, type Job } from '../api';
+import { size } from '../format';
+import { useLoaded } from '../loading';
+import { strings } from '../strings';
+import { later } from './later';
+import { Files, Sharing, Took, Warnings } from './left';
+import { Player } from './player';
+import type { Pose } from './redo';
+
+const Viewer = later(() => import('../viewer/panel'));
+const words = strings.character;
+
+interface Props {
+  job: Job;
+  /** The character is to be made again in a pose that was set by hand. */
+  onPose: (pose: Pose) => void;
+}
+
+export default function CharacterResult({ job, onPose }: Props) {
+  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const { artifacts } = job;
+  const film = Object.entries(artifacts).find(([name]) => name.startsWith('animation.'));
+  return (
+    <div class="result">
+      {film && <Film job={job} artifact={film[1]} />}
+      {artifacts['character.glb'] && <Viewer job={job} onPose={onPose} />}
+      <div class="actions">
+        <Download job={job} name="character.glb" label={words.glb} primary />
+        <Download job={job} name="character.usdz" label={words.usdz} />
+        <Download job={job} name="character.vrm" label={words.vrm1} />
+        {film && <Download job={job} name={film[0]} label={words.video} />}
+        <Files job={job} open={!film} />
+        <Sharing job={job} />
+      </div>
+      <Warnings report={report.value} />
+      <Took job={job} />
+    </div>
+  );
+}
+
+function Film({ job, artifact }: { job: Job; artifact: Artifact }) {
+  if (artifact.content_type.startsWith('image/')) {
+    return (
+      <figure class="still">
+        <img src={artifact.url} alt={words.result} />
+      </figure>
+    );
+  }
+  return (
+    <Player
+      label={words.player}
+      alt={words.result}
+      result={artifact.url}
+      poster={job.artifacts['poster.jpg']?.url}
+      driver={null}
+      chosen={null}
+      start={0}
+      hasSound={false}
+    />
+  );
+}
+
+/** Nothing where the job left no file of that name. */
+function Download({ job, name, label, primary }: { job: Job; name: string; label: string; primary?: boolean }) {
+  const file = job.artifacts[name];
+  if (!file) return null;
+  return (
+    <a class={primary ? 'button primary' : 'button'} href={file.url} download={name}>
+      {label} <small>{size(file.size)}</small>
+    </a>
+  );
+}

@@ -1,0 +1,43 @@
+/** How much of an order has been sent; it can be halted, taken up again, and given up. */
+
+import { percent } from '../format';
+import type { Sending } from '../order';
+import { strings } from '../strings';
+
+const words = strings.studio;
+const parts = {
+  portrait: words.uploadingPortrait,
+  video: words.uploadingVideo,
+  photo: words.uploadingPhoto,
+  motion: words.uploadingMotion,
+};
+
+interface Props {
+  step: Sending;
+  paused: boolean;
+  onPause: (on: boolean) => void;
+  onStop: () => void;
+}
+
+export function SendingBar({ step, paused, onPause, onStop }: Props) {
+  const ordering = step.step === 'ordering';
+  const label = ordering
+    ? words.ordering
+    : (paused ? words.pausedAt : words.uploading)(parts[step.step], percent(step.fraction));
+  return (
+    <div class="sending">
+      <label>
+        <span>{label}</span>
+        <progress max="1" value={ordering ? undefined : step.fraction} />
+      </label>
+      {!ordering && (
+        <button type="button" class="button" onClick={() => onPause(!paused)}>
+          {paused ? words.resume : words.pause}
+        </button>
+      )}
+      <button type="button" class="button" onClick={onStop}>
+        {words.stop}
+      </button>
+    </div>
+  );
+}

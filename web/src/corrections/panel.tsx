@@ -1,0 +1,151 @@
+/** Everything about a portrait that can be put right by hand, and the order to make it again. */
+
+import { useMemo, useRef, useState } from 'preact/hooks';
+import { foundFaces, getLandmarks, getReport, type Job, portraitOptions, type PortraitChanges, type Problem, reviseJob } from '../api';
+import { ChoiceFields, choicesOf } from '../components/choices';
+import { later } from '../components/later';
+import { randomKey } from '../key';
+import type { Points } from '../landmarks/scheme';
+import { faceInBox } from '../landmarks/template';
+import { asProblem, useLoaded } from '../loading';
+import { isFileId, performanceUrl } from '../names';
+import { jobLink } from '../route';
+import { strings } from '../strings';
+import { revisionOptions, type Wishes } from './changes';
+import { CropField, SizeField } from './framing';
+import { NeutralFrame } from './neutral';
+import { FaceChoice, usePicture } from './picture';
+import '../styles/corrections.css';
+
+const LandmarkEditor = later(() => import('../landmarks/editor'));
+const words = strings.redo;
+
+interface Props {
+  job: Job;
+  onProblem: (problem: Problem | null) => void;
+}
+
+export default function CorrectionPanel({ job, onProblem }: Props) {
+  const made = portraitOptions(job);
+  const [wishes, setWishes] = useState<Wishes>(() => ({
+    ...choicesOf(made),
+    neutral: made.neutral_frame ?? null,
+    face: made.face_index ?? 0,
+    crop: made.crop ?? 'none',
+    size: made.size ?? null,
+    landmarks: made.landmarks ?? null,
+  }));
+  const [editing, setEditing] = useState(false);
+  const [sending, setSending] = useState(false);
+  const key = useRef(randomKey());
+  const report = useLoaded((signal) => getReport(job, signal), job.id).value;
+  const found = useLoaded((signal) => getLandmarks(job, signal), job.id).value;
+  const picture = usePicture(job, found?.size ?? null);
+  const faces = report?.inputs.faces ?? foundFaces(job);
+  const mayPlace = job.error?.correctable?.includes('landmarks') ?? false;
+
+  /** Where the editor begins: with what was placed, with what was found for this face, or in this face's box. */
+  const before = useMemo<Points | null>(() => {
+    if (wishes.landmarks) return wishes.landmarks;
+    if (wishes.face === (made.face_index ?? 0)) return found?.landmarks ?? null;
+    const box = faces[wishes.face];
+    return box ? faceInBox(box) : null;
+  }, [wishes.landmarks, wishes.face, found, report]);
+
+  const wish = (part: Partial<Wishes>): void => {
+    key.current = randomKey(); // another wish is another order
+    setWishes((known) => ({ ...known, ...part }));
+  };
+  const send = async (options: PortraitChanges): Promise<void> => {
+    setSending(true);
+    onProblem(null);
+    try {
+      const revised = await reviseJob(job.id, options, key.current);
+      location.hash = jobLink(revised.id);
+    } catch (error) {
+      onProblem(asProblem(error));
+      setSending(false);
+    }
+  };
+  const place = (landmarks: Points): void => {
+    setEditing(false);
+    wish({ landmarks: landmarks.map(([x, y]) => [rounded(x), rounded(y)]) });
+  };
+
+  const hint = (): string => {
+    if (wishes.landmarks) return words.landmarksPlaced;
+    if (faces.length > 1) return words.faces(faces.length);
+    return mayPlace ? words.placeHint : words.landmarksHint;
+  };
+
+  return (
+    <form
+      class="corrections"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void send(revisionOptions(wishes));
+      }}
+    >
+      <section class="panel" aria-label={words.picture}>
+        <h3>{words.picture}</h3>
+        {picture && (
+          <FaceChoice
+            picture={picture}
+            faces={wishes.landmarks ? [] : faces}
+            chosen={wishes.face}
+            landmarks={wishes.landmarks ?? (wishes.face === (made.face_index ?? 0) ? (found?.landmarks ?? null) : null)}
+            onChoose={(face) => wish({ face, landmarks: null })}
+          />
+        )}
+        {picture === false && <p class="hint">{words.noPicture}</p>}
+        <div class="actions">
+          {picture && (
+            <button type="button" class={mayPlace ? 'button primary' : 'button'} onClick={() => setEditing(true)}>
+              {mayPlace && !wishes.landmarks ? words.place : words.landmarks}
+            </button>
+          )}
+          {wishes.landmarks && (
+            <button type="button" class="button quiet" onClick={() => wish({ landmarks: null })}>
+              {words.landmarksBack}
+            </button>
+          )}
+        </div>
+        <p class="hint" role="status">
+          {hint()}
+        </p>
+      </section>
+      <section class="panel" aria-label={words.motion}>
+        <h3>{words.motion}</h3>
+        <ChoiceFields value={wishes} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
+        {job.inputs.driver && (
+          <NeutralFrame
+            video={performanceUrl(job, report?.inputs.driver_chosen)}
+            report={report}
+            start={made.trim?.[0] ?? 0}
+            value={wishes.neutral}
+            onChange={(neutral) => wish({ neutral })}
+          />
+        )}
+      </section>
+      <section class="panel framing" aria-label={words.framing}>
+        <h3>{words.framing}</h3>
+        <CropField value={wishes.crop} onChange={(crop) => wish({ crop })} />
+        <SizeField value={wishes.size} onChange={(size) => wish({ size })} />
+      </section>
+      <button type="submit" class="button primary large" disabled={sending}>
+        {words.send}
+      </button>
+      {editing && picture && (
+        <LandmarkEditor
+          url={picture.url}
+          size={picture.size}
+          found={before}
+          onDone={place}
+          onClose={() => setEditing(false)}
+        />
+      )}
+    </form>
+  );
+}
+
+const rounded = (value: number): number => Math.round(value * 100) / 100;

@@ -1,0 +1,81 @@
+/** What the kinds of jobs take, and what they leave: options, corrections, and the artifacts that are read here. */
+
+import type { components } from './openapi';
+
+type Schemas = components['schemas'];
+
+export type PortraitOptions = Partial<Schemas['PortraitOptions']>;
+export type Part = NonNullable<PortraitOptions['follow']>[number];
+
+/** A path of a brush over the picture, both in its pixels. */
+export interface Stroke {
+  path: [number, number][];
+  radius: number;
+}
+export type BodyPart = 'head' | 'torso' | 'left_arm' | 'right_arm' | 'left_leg' | 'right_leg';
+/** x, y, width and height in pixels of the picture. */
+export type Frame = [x: number, y: number, width: number, height: number];
+export interface CharacterCorrections {
+  /** Where the person is looked for. */
+  person_box?: Frame;
+  /** Which of the people found, counted from the largest, or all of them. */
+  person_index?: number | 'all';
+  /** Joints by their names in skeleton.json. */
+  joints?: Record<string, [number, number]>;
+  mask_strokes?: (Stroke & { person: boolean })[];
+  label_strokes?: (Stroke & { part: BodyPart })[];
+  /** A file, in place of the motion that is named. */
+  motion?: string;
+}
+export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof CharacterCorrections> &
+  Omit<CharacterCorrections, 'motion'> & {
+    motion?: NonNullable<Schemas['CharacterOptions']['motion']>;
+    back_texture?: 'mirror' | 'inpaint';
+  };
+export type MotionName = NonNullable<CharacterOptions['motion']>;
+
+/** What a finished run says about itself (report.json); only what this page reads. */
+export interface Report {
+  warnings: { code: string; message: string }[];
+  inputs: {
+    fps: number;
+    frames: number;
+    neutral_frame: number;
+    /** The driver that the job took where it was asked to choose. */
+    driver_chosen?: string | null;
+    /** The faces found in the picture, the largest first: x, y, width and height in pixels of the picture. */
+    faces: Frame[];
+    /** The people found in the picture of a character, the largest first; and which of them was taken. */
+    people?: Frame[];
+    person?: number | 'all' | null;
+  };
+}
+
+/** The 68 landmarks that a job found in its picture, in pixels of the picture (landmarks.json). */
+export interface Landmarks {
+  size: [number, number];
+  landmarks: [number, number][];
+}
+
+/** The joints that a job found in its picture, or was given, in pixels of the picture (skeleton.json). */
+export interface Skeleton {
+  size: [number, number];
+  joints: Record<string, { place: [number, number]; confidence: number }>;
+}
+
+/** What is ordered; `metadata` holds the names that this page gives it. */
+export type NewJob = { metadata: Record<string, string> } & (
+  | { kind: 'portrait'; inputs: { image: string; driver?: string }; options: PortraitOptions }
+  | { kind: 'character'; inputs: { photo: string; motion: string }; options: CharacterOptions }
+);
+
+/** A portrait's options where null takes one back to its default. */
+export type PortraitChanges = { [Name in keyof PortraitOptions]: PortraitOptions[Name] | null };
+
+/** Null takes one back: to what is found by itself, or to the default. */
+type Changes<T> = { [Name in keyof T]?: T[Name] | null };
+export interface CharacterChanges {
+  corrections: Changes<CharacterCorrections>;
+  options: Changes<CharacterOptions>;
+  metadata?: Schemas['JobOut']['metadata'];
+}

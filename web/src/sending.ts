@@ -1,0 +1,67 @@
+/** An order on its way. When it has arrived, the page turns to its job. */
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Problem } from './api';
+import { asProblem } from './loading';
+import { type Order, send, type Sending } from './order';
+import { forgetPending, keepPending, readPending } from './pending';
+import { jobLink } from './route';
+import { GIVEN_UP, Valve } from './upload';
+
+export function useSending() {
+  const [step, setStep] = useState<Sending | null>(null);
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const [paused, setPaused] = useState(false);
+  const [waiting, setWaiting] = useState<Order | null>(null);
+  const order = useRef<Order | null>(null);
+  const valve = useRef(new Valve());
+  const stopper = useRef<AbortController | null>(null);
+
+  useEffect(() => {
+    void readPending().then((left) => !order.current && setWaiting(left));
+    return () => stopper.current?.abort();
+  }, []);
+
+  const begin = (next: Order): void => {
+    order.current = next;
+    stopper.current = new AbortController();
+    const { signal } = stopper.current;
+    setWaiting(null);
+    setProblem(null);
+    pause(false);
+    setStep({ step: 'ordering' });
+    void keepPending(next);
+    send(next, setStep, valve.current, signal).then(
+      (job) => {
+        setStep(null);
+        void forgetPending();
+        if (!signal.aborted) location.hash = jobLink(job.id);
+      },
+      (error: unknown) => {
+        setStep(null);
+        if (signal.reason === GIVEN_UP) void forgetPending();
+        else if (!signal.aborted) setProblem(asProblem(error));
+      },
+    );
+  };
+  const pause = (on: boolean): void => {
+    setPaused(on);
+    valve.current.closed = on;
+  };
+
+  return {
+    step,
+    problem,
+    paused,
+    /** What an earlier page left unfinished. */
+    waiting,
+    begin,
+    pause,
+    retry: () => order.current && begin(order.current),
+    stop: () => stopper.current?.abort(GIVEN_UP),
+    forget: () => {
+      setWaiting(null);
+      void forgetPending();
+    },
+  };
+}

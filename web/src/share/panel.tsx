@@ -1,0 +1,79 @@
+/** Links that open a result to others, for as long as one likes. */
+
+import { useId, useState } from 'preact/hooks';
+import { createLink, type Job, listLinks, type PublicLink, revokeLink } from '../api';
+import { Copyable } from '../components/copyable';
+import { Trouble } from '../components/trouble';
+import { moment } from '../format';
+import { useDoing, useLoaded } from '../loading';
+import { strings } from '../strings';
+import '../styles/share.css';
+
+const words = strings.share;
+const terms = { day: 24, week: 7 * 24, month: 30 * 24, open: null } as const;
+type Term = keyof typeof terms;
+
+export default function SharePanel({ job }: { job: Job }) {
+  const links = useLoaded((signal) => listLinks(job.id, signal), `links ${job.id}`);
+  const { doing, problem, attempt } = useDoing();
+  const [term, setTerm] = useState<Term>('week');
+  const [everything, setEverything] = useState(false);
+  const id = useId();
+
+  const create = (): Promise<void> =>
+    attempt(async () => {
+      await createLink(job.id, terms[term], everything ? null : shownTo(job));
+      links.reload();
+    });
+  const revoke = (link: PublicLink): Promise<void> =>
+    attempt(async () => {
+      await revokeLink(link.id);
+      links.reload();
+    });
+
+  return (
+    <section class="panel share" aria-label={words.title}>
+      <p class="hint">{words.hint}</p>
+      <div class="choose">
+        <label class="inline" for={id}>
+          <span>{words.term}</span>
+          <select id={id} value={term} onChange={({ currentTarget }) => setTerm(currentTarget.value as Term)}>
+            {(Object.keys(terms) as Term[]).map((one) => (
+              <option key={one} value={one}>
+                {words.terms[one]}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label class="check">
+          <input type="checkbox" checked={everything} onChange={() => setEverything(!everything)} />
+          <span>{words.everything}</span>
+        </label>
+        <button type="button" class="button primary" disabled={doing} onClick={() => void create()}>
+          {words.create}
+        </button>
+      </div>
+      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {links.problem && <Trouble code={links.problem.code} detail={links.problem.detail} />}
+      <ul>
+        {links.value?.map((link) => (
+          <li key={link.id}>
+            <Copyable label={links.value?.length === 1 ? words.link : words.linkOf(moment(link.created_at))} value={new URL(link.page, location.href).href} />
+            <small>
+              {link.expires_at ? words.until(moment(link.expires_at)) : words.untilRevoked}
+              {' · '}
+              {link.artifacts ? words.videoOnly : words.allFiles}
+            </small>
+            <button type="button" class="button quiet" disabled={doing} onClick={() => void revoke(link)}>
+              {words.revoke}
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** What a link opens unless it is to open everything: the animation, and the picture that stands for it. */
+const shownTo = (job: Job): string[] =>
+  Object.keys(job.artifacts).filter((name) => name.startsWith('animation.') || name === 'poster.jpg');

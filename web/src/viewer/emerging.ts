@@ -1,0 +1,61 @@
+/** Somebody who lies in a picture as paint does, and comes out of it as a body. */
+
+import { type MeshBasicMaterial, type SkinnedMesh, Vector3 } from 'three';
+
+/** Metres: how thick the paint is, so that an arm before the chest stays before it. */
+const PAINT = 0.02;
+const ABOVE_CANVAS = 0.004;
+/** Metres before and behind the middle of the person that count for the order of the paint. */
+const DEPTH = 1.5;
+
+export class Emerging {
+  private readonly solid: SkinnedMesh['material'];
+  private readonly material: MeshBasicMaterial;
+  private readonly flatness = { value: 1 };
+
+  /**
+   * `eye`: from where the picture was taken; `plane`: the z of the picture; `lift`: how far the picture's ground is above
+   * the floor on which the person walks. All in metres of the room.
+   */
+  constructor(
+    private readonly mesh: SkinnedMesh,
+    eye: Vector3,
+    plane: number,
+    lift: number,
+  ) {
+    this.solid = mesh.material;
+    this.material = (mesh.material as MeshBasicMaterial).clone();
+    this.material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, {
+        flatness: this.flatness,
+        eye: { value: eye.clone() },
+        plane: { value: plane + ABOVE_CANVAS },
+        lift: { value: lift },
+      });
+      shader.vertexShader = `
+        uniform float flatness, plane, lift;
+        uniform vec3 eye;
+        ${shader.vertexShader.replace(
+          '#include <project_vertex>',
+          // along the ray from the eye, where nothing seems to move
+          `vec3 standing = (modelMatrix * vec4(transformed, 1.0)).xyz;
+          vec3 ray = standing + vec3(0.0, lift, 0.0) - eye;
+          float canvas = plane + ${PAINT} * smoothstep(-${DEPTH}, ${DEPTH}, standing.z);
+          vec3 painted = eye + ray * ((canvas - eye.z) / min(ray.z, -0.01));
+          vec4 mvPosition = viewMatrix * vec4(mix(standing, painted, flatness), 1.0);
+          gl_Position = projectionMatrix * mvPosition;`,
+        )}`;
+    };
+    mesh.material = this.material;
+  }
+
+  /** 0: paint; 1: a body. */
+  set share(share: number) {
+    this.flatness.value = 1 - share;
+  }
+
+  dispose(): void {
+    this.mesh.material = this.solid;
+    this.material.dispose();
+  }
+}

@@ -1,0 +1,87 @@
+/** The character in the visitor's own room, by their device's AR; where there is none, at least from all sides. */
+
+import '@google/model-viewer';
+import type { ModelViewerElement } from '@google/model-viewer';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { getJob, type Job } from '../api';
+import { Trouble } from '../components/trouble';
+import { Window } from '../components/window';
+import { useLoaded } from '../loading';
+import { strings } from '../strings';
+import { IN_PLACE, PICTURED } from './character';
+
+const words = strings.viewer;
+
+const said = { loading: words.loading, ready: words.spaceHint, flat: words.spaceNone, failed: '' };
+
+interface Props {
+  job: Job;
+  onClose: () => void;
+}
+
+export default function Space({ job, onClose }: Props) {
+  // links are open for a while only, and what shows AR fetches the file by itself, late: give it fresh ones
+  const fresh = useLoaded((signal) => getJob(job.id, signal), job.id);
+  const place = useRef<HTMLDivElement>(null);
+  const [state, setState] = useState<'loading' | 'ready' | 'flat' | 'failed'>('loading');
+  const [viewer, setViewer] = useState<ModelViewerElement | null>(null);
+
+  useEffect(() => {
+    const { 'character.glb': glb, 'character.usdz': usdz } = fresh.value?.artifacts ?? {};
+    if (!glb || !place.current) return;
+    const element = document.createElement('model-viewer') as ModelViewerElement;
+    const attributes = {
+      ar: '',
+      'ar-modes': 'webxr scene-viewer quick-look',
+      'camera-controls': '',
+      'interaction-prompt': 'none',
+      'touch-action': 'pan-y',
+      'shadow-intensity': '1',
+      // a clip that stands still, rather than the T-pose
+      'animation-name': PICTURED,
+      autoplay: '',
+      alt: words.spaceAlt,
+      ...(usdz && { 'ios-src': absolute(usdz.url) }),
+      src: absolute(glb.url),
+    };
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    element.addEventListener('load', () => {
+      const motion = element.availableAnimations.find((name) => name.endsWith(IN_PLACE));
+      if (motion && !matchMedia('(prefers-reduced-motion: reduce)').matches) element.animationName = motion;
+      setState(element.canActivateAR ? 'ready' : 'flat');
+    });
+    element.addEventListener('error', () => setState('failed'));
+    // its own button would be a second one, in no language of ours
+    const slot = document.createElement('span');
+    slot.slot = 'ar-button';
+    element.append(slot);
+    place.current.append(element);
+    setViewer(element);
+    return () => element.remove();
+  }, [fresh.value]);
+
+  return (
+    <Window title={words.space} class="viewer-space" onClose={onClose}>
+      <div ref={place} class="viewer-room" aria-busy={state === 'loading'} />
+      {state === 'failed' && <Trouble code="character_unreadable" detail={words.failed} />}
+      {fresh.problem && (
+        <Trouble code={fresh.problem.code} detail={fresh.problem.detail}>
+          <button type="button" class="button" onClick={fresh.reload}>
+            {strings.retry}
+          </button>
+        </Trouble>
+      )}
+      <p role="status">{said[state]}</p>
+      {state === 'ready' && (
+        <footer class="actions">
+          <button type="button" class="button primary" onClick={() => void viewer?.activateAR()}>
+            {words.spaceOpen}
+          </button>
+        </footer>
+      )}
+    </Window>
+  );
+}
+
+/** Apps outside the browser know no address that this page is at. */
+const absolute = (url: string): string => new URL(url, location.href).href;

@@ -1,0 +1,135 @@
+/** The picture hangs on a wall, and the person steps out of it: on the screen, or in a headset. */
+
+import type { ComponentChildren } from 'preact';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { Vector3 } from 'three';
+import { strings } from '../strings';
+import type { Character } from './character';
+import { Emerging } from './emerging';
+import { hang } from './hanging';
+import { enter, hasHeadset } from './headset';
+import { Room } from './room';
+import { ContactShadow } from './shadow';
+import type { Stage } from './stage';
+import { Stepping } from './stepping';
+import { Tool } from '../stage/tools';
+import type { PictureView } from './view';
+import { Visitor } from './visitor';
+
+const words = strings.viewer;
+/** Metres from the picture at which one enters with a headset. */
+const BEFORE = 3;
+/** Radians: nobody gets behind the wall or under the floor. */
+const ASIDE = 1.3;
+const LOWEST = Math.PI / 2 + 0.12;
+
+interface Props {
+  stage: Stage;
+  character: Character;
+  view: PictureView;
+  dark: boolean;
+  tools: ComponentChildren;
+}
+
+export function Wall({ stage, character, view, dark, tools }: Props) {
+  const hanging = useMemo(() => hang(view.camera), [view]);
+  const stepping = useRef<Stepping | null>(null);
+  const takeOff = useRef<(() => void) | null>(null);
+  const visitor = useRef<Visitor | null>(null);
+  const [playing, setPlaying] = useState(false);
+  const [headset, setHeadset] = useState(false);
+  const [refused, setRefused] = useState(false);
+
+  useEffect(() => {
+    void hasHeadset().then(setHeadset);
+    const { plane, lift, eye } = hanging;
+    const emerging = new Emerging(character.mesh, new Vector3(...eye), plane, lift);
+    const shadow = new ContactShadow(character);
+    const steps = new Stepping(character, emerging, shadow, setPlaying);
+    stepping.current = steps;
+    stage.scene.add(shadow.object);
+    const leave = [stage.add(steps), stage.add(shadow)];
+    const release = confine(stage);
+    const stepBack = new Visitor(stage, hanging, steps);
+    visitor.current = stepBack;
+    leave.push(stage.add(stepBack));
+    return () => {
+      takeOff.current?.();
+      stepBack.dispose();
+      for (const go of leave) go();
+      release();
+      stage.scene.remove(shadow.object);
+      shadow.dispose();
+      emerging.dispose();
+      character.unbend();
+    };
+  }, [stage, character, hanging]);
+
+  useEffect(() => {
+    const room = new Room(hanging, view.background, dark, () => stage.invalidate());
+    stage.scene.add(room.object);
+    stage.paint(room.air);
+    return () => {
+      stage.scene.remove(room.object);
+      room.dispose();
+    };
+  }, [stage, hanging, dark]);
+
+  const act = (change: (stepping: Stepping) => void): void => {
+    if (stepping.current) change(stepping.current);
+    stage.invalidate();
+  };
+  const putOn = (): void => {
+    setRefused(false);
+    const { left, right, plane } = hanging;
+    const select = (): void => stepping.current?.restart(true);
+    enter(stage, new Vector3((left + right) / 2, 0, plane + BEFORE), select, () => (takeOff.current = null)).then(
+      (leave) => {
+        takeOff.current = leave;
+        act((steps) => steps.restart(true));
+      },
+      () => setRefused(true),
+    );
+  };
+
+  return (
+    <>
+      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
+        {tools}
+        <Tool label={words.reset} onUse={() => visitor.current?.comeBack()} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
+      </div>
+      <div class="controls">
+        <button type="button" class="play" onClick={() => act((steps) => steps.set(!playing))}>
+          <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
+            <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
+          </svg>
+          <span class="unseen">{playing ? strings.player.pause : strings.player.play}</span>
+        </button>
+        <button type="button" class="button" onClick={() => act((steps) => steps.restart(false))}>
+          {words.wallBack}
+        </button>
+        {headset && (
+          <button type="button" class="button" onClick={putOn}>
+            {words.headset}
+          </button>
+        )}
+      </div>
+      {refused && <p role="alert">{words.headsetFailed}</p>}
+      <p class="viewer-help">{words.wallHelp}</p>
+    </>
+  );
+}
+
+/** Keep the camera in the room; call the answer to let it out. */
+function confine({ controls }: Stage): () => void {
+  controls.minAzimuthAngle = -ASIDE;
+  controls.maxAzimuthAngle = ASIDE;
+  controls.maxPolarAngle = LOWEST;
+  controls.minDistance = 0.8;
+  return () => {
+    controls.minAzimuthAngle = -Infinity;
+    controls.maxAzimuthAngle = Infinity;
+    controls.maxPolarAngle = Math.PI;
+    controls.minDistance = 0;
+  };
+}
