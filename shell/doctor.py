@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.metadata
 import importlib.util
+import json
 import os
 import platform
 import shutil
@@ -60,7 +61,20 @@ def examine() -> int:
     console = Console(highlight=False, soft_wrap=True)
     marks = {"ok": "[green]ok     [/green]", "warning": "[yellow]warning[/yellow]", "missing": "[red]missing[/red]"}
     missing = 0
-    for check in (_machine, _packages, _template, _encoders, _kinds, _performances, _folder, _redis, _page):
+    for check in (
+        _machine,
+        _packages,
+        _template,
+        _encoders,
+        _kinds,
+        _performances,
+        _player,
+        _folder,
+        _database,
+        _redis,
+        _confinement,
+        _page,
+    ):
         for finding in _guarded(check, settings):
             console.print(f"{marks[finding.state]}  {escape(finding.what)}")
             if finding.mend:
@@ -116,9 +130,14 @@ def _encoders(settings: Settings) -> Iterator[Finding]:
 
 
 def _kinds(settings: Settings) -> Iterator[Finding]:
-    from service.kinds.registry import load_kinds
+    from service.kinds.registry import load_kinds, require_known
 
-    yield Finding("ok", f"job kinds: {', '.join(load_kinds(settings.kinds))}")
+    kinds = load_kinds(settings.kinds)
+    yield Finding("ok", f"job kinds: {', '.join(kinds)}")
+    try:
+        require_known(settings.worker_kinds, kinds)
+    except ValueError as error:
+        yield Finding("missing", str(error), "name those that there are, or unset it to serve all")
 
 
 def _performances(settings: Settings) -> Iterator[Finding]:
@@ -134,6 +153,15 @@ def _performances(settings: Settings) -> Iterator[Finding]:
         yield Finding("ok", f"built-in performances: {', '.join(there)}")
 
 
+def _player(settings: Settings) -> Iterator[Finding]:
+    from engine.portrait.reactive.bundle import SCRIPT
+
+    if SCRIPT.is_file():
+        yield Finding("ok", "the player of reactive profiles is built")
+    else:
+        yield Finding("warning", "the player of reactive profiles is not built: no profile can be made", SETUP)
+
+
 def _folder(settings: Settings) -> Iterator[Finding]:
     folder = settings.data_dir
     nearest = next(one for one in (folder, *folder.parents) if one.exists())
@@ -147,6 +175,26 @@ def _folder(settings: Settings) -> Iterator[Finding]:
         f"data in {folder}, {free / 1000:.1f} GB free",
         "" if enough else "below GALATEA_DISK_RESERVE_MB nothing new is accepted: free space",
     )
+
+
+def _database(settings: Settings) -> Iterator[Finding]:
+    from sqlalchemy.exc import DBAPIError
+
+    from service import postgresql
+    from service.database import Database
+    from shell.opening import database_complaint
+
+    if not postgresql.speaks(settings.database):
+        return  # a file, made where it is not there
+    database = Database(settings.database)
+    try:
+        database.revision()
+    except DBAPIError as error:
+        yield Finding("missing", database_complaint(settings, error))
+    else:
+        yield Finding("ok", f"PostgreSQL at {postgresql.shown(settings.database)} answers")
+    finally:
+        database.close()
 
 
 def _redis(settings: Settings) -> Iterator[Finding]:
@@ -171,6 +219,30 @@ def _answers(client: redis.Redis, what: str, mend: str) -> Finding:
     except redis.RedisError as error:
         return Finding("warning", f"Redis of {what} does not answer: {error}", mend)
     return Finding("ok", f"Redis of {what} answers")
+
+
+WALLS = {
+    "files": (
+        "jobs see no files but their own (Landlock)",
+        "the kernel needs Landlock: Linux 5.13, in the list of `lsm=`",
+    ),
+    "network": ("jobs have no network (seccomp)", "the kernel, or the container, does not take seccomp filters"),
+    "processes": ("jobs start no programs (seccomp)", "the same"),
+    "signals": ("jobs reach no other processes", "the same, or Landlock of Linux 6.12"),
+    "root": ("jobs do not work as root", "start the service as a user of its own, or set GALATEA_JOB_USER"),
+}
+
+
+def _confinement(settings: Settings) -> Iterator[Finding]:
+    tried = subprocess.run(  # noqa: S603  (our own program)
+        [sys.executable, "-m", "worker.confinement", settings.job_user],
+        capture_output=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+    )
+    for wall, stands in json.loads(tried.stdout).items():
+        what, mend = WALLS[wall]
+        yield Finding("ok" if stands else "warning", what if stands else f"not so here: {what}", "" if stands else mend)
 
 
 def _page(settings: Settings) -> Iterator[Finding]:

@@ -1,6 +1,6 @@
 """One command for each job kind: it runs in this process, with a progress bar.
 
-The first input is an argument where it is a picture; every other input is an option of its own name.
+The first input is an argument where it is a picture or the only one; every other input is an option of its own name.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from engine import run as engine_run
 from engine.errors import Canceled, InputError
-from engine.kind import Input, Kind
+from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.run import Run
-from engine.store import StageStore
+from engine.store import StageStore, trim
 from service.kinds import library
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
@@ -39,22 +39,31 @@ def kind_command(kind: Kind) -> click.Command:
 
     def command(out: str, options: str, **given: Any) -> None:
         settings = read_settings()
-        inputs = {item.name: found for item in kind.inputs if (found := _input(item, given[item.name])) is not None}
-        _run(kind, inputs, _options(kind, options), Path(out), settings)
+        named = {item.named_by: name for item in kind.inputs if item.named_by and (name := _name(given[item.name]))}
+        files = {item.name: None if item.named_by in named else given[item.name] for item in kind.inputs}
+        inputs = {item.name: found for item in kind.inputs if (found := _input(item, files[item.name])) is not None}
+        chosen = _options(kind, options, named)
+        for item in kind.inputs:
+            if item.needed(chosen) and item.name not in inputs:
+                raise Complaint(f"{item.name} is missing, --{item.name.replace('_', '-')}: {item.description}")
+        _run(kind, inputs, chosen, Path(out), settings)
 
-    parameters = [_parameter(item, place) for place, item in enumerate(kind.inputs)]
+    alone = len(kind.inputs) == 1
+    parameters = [_parameter(item, place, alone) for place, item in enumerate(kind.inputs)]
     return click.Command(kind.name, params=[*parameters, out, options], callback=command, help=kind.summary)
 
 
-def _parameter(item: Input, place: int) -> click.Parameter:
-    metavar = "DIR" if item.many else item.media.upper() + ("|NAME" if item.library else "")
-    if place == 0 and item.media == "image":
+def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
+    names = "|NAME|auto" if item.auto else "|NAME" if item.named_by else ""
+    metavar = "DIR" if item.many else item.media.upper() + names
+    if alone or (place == 0 and item.media == "image"):
         return click.Argument([item.name], required=item.required, metavar=item.name.upper())
     flag = "--" + item.name.replace("_", "-")
-    return click.Option([flag, item.name], required=item.required, metavar=metavar, help=item.description)
+    required = item.required and item.spared_by is None
+    return click.Option([flag, item.name], required=required, metavar=metavar, help=item.description)
 
 
-def _input(item: Input, given: str | None) -> Path | tuple[Path, ...] | None:
+def _input(item: Input, given: str | None) -> Given | None:
     if given is None:
         return None
     path = Path(given)
@@ -63,17 +72,25 @@ def _input(item: Input, given: str | None) -> Path | tuple[Path, ...] | None:
     if path.is_file():
         return (path,) if item.many else path
     offered = library.names(item.library) if item.library is not None else ()
+    if item.auto and given == AUTO:
+        return Candidates({name: library.item(item.library or "", name) for name in offered})
     if given in offered:
         return library.item(item.library or "", given)
     built_in = f", nor a built-in one of this name ({', '.join(offered)})" if item.library is not None else ""
     raise Complaint(f"{item.name}: there is no file {given}{built_in}")
 
 
-def _options(kind: Kind, text: str) -> BaseModel:
+def _name(given: str | None) -> str | None:
+    """What was given, if it is the name of something built in and no file."""
+    return given if given is not None and not Path(given).is_file() and Path(given).name == given else None
+
+
+def _options(kind: Kind, text: str, named: Mapping[str, str]) -> BaseModel:
     try:
         if text.startswith("@"):
             text = Path(text[1:]).read_text()
-        return kind.options.model_validate(json.loads(text))
+        asked = json.loads(text)
+        return kind.options.model_validate({**asked, **named} if isinstance(asked, dict) else asked)
     except OSError as error:
         raise Complaint(f"--options: {text[1:]} cannot be read: {error.strerror}") from error
     except ValidationError as error:
@@ -84,10 +101,8 @@ def _options(kind: Kind, text: str) -> BaseModel:
         raise Complaint(f"--options: this is not valid JSON: {error}") from error
 
 
-def _run(
-    kind: Kind, inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, settings: Settings
-) -> None:
-    cache = StageStore(settings.data_dir / "cache")
+def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path, settings: Settings) -> None:
+    cache = StageStore(settings.data_dir / "shell")
     try:
         out.mkdir(parents=True, exist_ok=True)
         with (
@@ -100,7 +115,7 @@ def _run(
             def report(progress: engine_run.Progress) -> None:
                 bar.update(task, completed=progress.fraction, description=progress.message or progress.stage)
 
-            run = Run(store=cache, on_progress=report, limits=settings.limits)
+            run = Run(store=cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic)
             kind.work(inputs, options, Path(draft), run)
             results = [Path(shutil.move(made, out / made.name)) for made in sorted(Path(draft).iterdir())]
     except InputError as error:
@@ -115,7 +130,7 @@ def _run(
         click.echo(f"{click.style(notice.code, fg='yellow')}: {notice.message}", err=True)
     for result in results:
         click.echo(result)
-    cache.trim(settings.cache_mb * MEGABYTE)
+    trim([cache.folder], settings.cache_mb * MEGABYTE)
 
 
 def _bar(console: Console) -> Progress:

@@ -1,4 +1,4 @@
-"""`galatea`: serve, worker, doctor, and one command for each job kind."""
+"""`galatea`: serve, worker, keys, doctor, and one command for each job kind."""
 
 from __future__ import annotations
 
@@ -28,6 +28,20 @@ class Kinds(click.Group):
         return kind_command(kind) if kind is not None else None
 
 
+class Keys(click.Group):
+    """Its commands are loaded only where they are asked for."""
+
+    def list_commands(self, context: click.Context) -> list[str]:
+        from shell.keys import keys
+
+        return keys.list_commands(context)
+
+    def get_command(self, context: click.Context, name: str) -> click.Command | None:
+        from shell.keys import keys
+
+        return keys.get_command(context, name)
+
+
 @click.group(cls=Kinds)
 @click.version_option(engine.__version__, prog_name="galatea")
 def main() -> None:
@@ -49,12 +63,40 @@ def serve(host: str | None, port: int | None) -> None:
 def worker() -> None:
     """Workers alone, for further machines."""
     from service.logs import configure
+    from shell.opening import open_context
     from shell.settings import read_settings
     from worker.app import run
 
     settings = read_settings()
     configure(settings)
-    run(settings)
+    run(open_context(settings, "worker"))
+
+
+@main.group("keys", cls=Keys)
+def keys() -> None:
+    """Keys that open the service to others: create, list, revoke."""
+
+
+@main.command()
+@click.argument("version", default="head")
+def migrate(version: str) -> None:
+    """Bring the database's tables to the newest version, or to another, up or down.
+
+    The service does so by itself when it starts. Going down is for going back to an older release: stop everything,
+    make a backup, then name that release's version; what the older tables have no room for is lost.
+    """
+    from alembic.util import CommandError
+
+    from service.database import Database
+    from shell.complaint import Complaint
+    from shell.settings import read_settings
+
+    database = Database(read_settings().database)
+    try:
+        database.migrate(version)
+    except CommandError as error:
+        raise Complaint(f"{version}: {error}") from error
+    click.echo(f"The tables are at version {database.revision()}.")
 
 
 @main.command()

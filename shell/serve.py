@@ -16,25 +16,24 @@ import structlog
 import uvicorn
 
 from service.app import make_app
+from service.auth.repository import any_usable
 from service.context import Context
-from service.guard import is_loopback
 from service.logs import configure
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
 from shell.complaint import Complaint
+from shell.opening import open_context
 from shell.supervisor import Supervisor
 
 PATIENCE_SECONDS = 10.0
 
+SWITCH_SECONDS = 0.0005
+"""How long one thread may keep Python to itself: a request passes from thread to thread several times, and would wait
+so long each time."""
+
 
 def serve(settings: Settings) -> None:
     """Serve until SIGINT or SIGTERM. Raises `Complaint` where that cannot begin."""
-    if not is_loopback(settings.host):
-        raise Complaint(
-            f"--host {settings.host} would open the service to the network, which is refused because it has no "
-            "access keys: bind it to 127.0.0.1 and reach it through an SSH tunnel or a proxy of your own "
-            "(GALATEA_TRUSTED_PROXIES)."
-        )
     configure(settings)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
@@ -55,8 +54,11 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     if settings.redis_url is None:
         supervisor.keep("redis", redis_command(settings.data_dir), stop_seconds=5)
         _await_redis(settings)
-    context = Context.open(settings)
-    supervisor.keep("worker", [sys.executable, "-m", "shell.main", "worker"], stop_seconds=10)
+    sys.setswitchinterval(SWITCH_SECONDS)
+    context = open_context(settings, "api")
+    _require_a_key(context)
+    if settings.worker:
+        supervisor.keep("worker", [sys.executable, "-m", "shell.main", "worker"], stop_seconds=10)
     config = uvicorn.Config(
         make_app(context),
         log_config=None,
@@ -67,6 +69,15 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         lifespan="off",
     )
     Server(config).run(sockets=[listening])
+
+
+def _require_a_key(context: Context) -> None:
+    with context.database.read() as session:
+        if context.settings.keys_required and not any_usable(session):
+            raise Complaint(
+                "Nobody could use the service: it asks for a key, and there is none. Make one first, with the same "
+                "settings: galatea keys create NAME"
+            )
 
 
 class Server(uvicorn.Server):
@@ -83,7 +94,10 @@ class Server(uvicorn.Server):
 def _listen(settings: Settings) -> socket.socket:
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     try:
-        return socket.create_server((settings.host, settings.port), family=family, backlog=2048)
+        listening = socket.create_server((settings.host, settings.port), family=family, backlog=2048)
+        # Inherited by each connection: an answer's last part would else wait 40 ms for word of the first (Nagle).
+        listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return listening
     except OSError as error:
         raise Complaint(f"{settings.host}:{settings.port} cannot be bound: {error.strerror or error}") from error
 

@@ -14,5 +14,7 @@ def read_settings(**given: object) -> Settings:
         return Settings(**{name: value for name, value in given.items() if value is not None})  # type: ignore[arg-type]
     except ValidationError as error:
         first = error.errors()[0]
+        if not first["loc"]:
+            raise Complaint(first["msg"].removeprefix("Value error, ")) from error
         name = "GALATEA_" + "_".join(str(part) for part in first["loc"][:1]).upper()
         raise Complaint(f"{name}: {first['msg']}") from error

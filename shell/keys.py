@@ -1,0 +1,92 @@
+"""`galatea keys`: make, list and revoke the keys that open the service to others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import click
+from pydantic import ValidationError
+from rich.console import Console
+from rich.table import Table
+from sqlalchemy.orm import Session
+
+from service.auth import repository, service
+from service.auth.models import Key
+from service.auth.schemas import KeyIn
+from service.database import Database
+from service.problems import Problem
+from shell.complaint import Complaint
+from shell.settings import read_settings
+
+
+@click.group()
+def keys() -> None:
+    """Keys that open the service to others."""
+
+
+@keys.command()
+@click.argument("name")
+@click.option("--scope", "scopes", multiple=True, help="read, submit or admin; may be given several times.")
+@click.option("--expires-in-days", type=float, help="How long it is good; for good if not given.")
+@click.option("--requests-per-minute", type=int, help="A limit of its own (GALATEA_REQUESTS_PER_MINUTE).")
+@click.option("--jobs-at-once", type=int, help="A limit of its own (GALATEA_JOBS_AT_ONCE).")
+@click.option("--stored-mb", type=int, help="A limit of its own (GALATEA_STORED_MB).")
+@click.option("--if-none", is_flag=True, help="Only if no key opens the service yet.")
+def create(name: str, scopes: tuple[str, ...], if_none: bool, **limits: float | None) -> None:
+    """Make a key. It is printed alone, this once: keep it safe."""
+    try:
+        asked = KeyIn.model_validate({"name": name, **({"scopes": list(scopes)} if scopes else {}), **limits})
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise Complaint(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
+    with _writing() as session:
+        if if_none and repository.any_usable(session):
+            return
+        key, token = service.create(session, asked)
+        click.echo(f"Key {key.id} “{key.name}” may {', '.join(key.scopes)}.", err=True)
+    click.echo(token)
+
+
+@keys.command("list")
+def show() -> None:
+    """All keys, without what opens them."""
+    with _writing() as session:
+        found = repository.with_tokens(session)
+    table = Table(box=None)
+    for heading in ("id", "name", "begins with", "scopes", "state", "last used"):
+        table.add_column(heading, overflow="fold")
+    for key in found:
+        used = f"{key.last_used_at:%Y-%m-%d %H:%M}" if key.last_used_at else "never"
+        table.add_row(key.id, key.name, key.hint, " ".join(key.scopes), _state(key), used)
+    Console().print(table)
+
+
+@keys.command()
+@click.argument("key_id")
+def revoke(key_id: str) -> None:
+    """Make a key worthless. What belongs to it stays."""
+    try:
+        with _writing() as session:
+            service.revoke(session, key_id)
+    except Problem as problem:
+        raise Complaint(problem.detail) from None
+
+
+@contextmanager
+def _writing() -> Iterator[Session]:
+    settings = read_settings()
+    settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
+    database = Database(settings.database)
+    database.upgrade()
+    try:
+        with database.write() as session:
+            yield session
+    finally:
+        database.close()
+
+
+def _state(key: Key) -> str:
+    if key.revoked_at is not None:
+        return f"revoked {key.revoked_at:%Y-%m-%d}"
+    return "good" if key.expires_at is None else f"until {key.expires_at:%Y-%m-%d %H:%M}"
