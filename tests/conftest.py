@@ -1,13 +1,17 @@
-"""What every test may ask for: real media, kept outside the project."""
+"""What every test may ask for: real media, kept outside the project, real servers, started when first asked for, and
+receivers of calls."""
 
 from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable
+import socket
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from receiver import OK, Answer, Receiver
+from servers import PostgresServer, S3Server, postgres_folder
 
 ROOT = Path(__file__).parent.parent
 
@@ -32,3 +36,70 @@ def media() -> Callable[[str], Path]:
         return path
 
     return find
+
+
+@pytest.fixture(scope="session")
+def postgres_installed() -> None:
+    """Skips where PostgreSQL is not installed, fails where it must be (`CI=true`)."""
+    if postgres_folder() is None:
+        message = "PostgreSQL is not installed (make test installs it: scripts/setup.sh --for-tests)"
+        if os.environ.get("CI") == "true":
+            pytest.fail(message)
+        pytest.skip(message)
+
+
+@pytest.fixture(scope="session")
+def postgres(postgres_installed: None) -> Iterator[PostgresServer]:
+    """A PostgreSQL server."""
+    server = PostgresServer()
+    yield server
+    server.remove()
+
+
+@pytest.fixture(scope="session")
+def s3() -> Iterator[S3Server]:
+    """A server that speaks S3."""
+    server = S3Server()
+    yield server
+    server.stop()
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database_url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
+    """The address of a fresh database, of either kind."""
+    if request.param == "sqlite":
+        return f"sqlite:///{tmp_path / 'galatea.db'}"
+    server: PostgresServer = request.getfixturevalue("postgres")
+    return server.new_database()
+
+
+@pytest.fixture
+def receive() -> Iterator[Callable[..., Receiver]]:
+    """`receive(address, answer)` is a receiver of calls that listens until the test ends."""
+    started: list[Receiver] = []
+
+    def begin(address: str = "127.0.0.1", answer: Answer = OK) -> Receiver:
+        started.append(Receiver(address, answer))
+        return started[-1]
+
+    yield begin
+    for receiver in started:
+        receiver.close()
+
+
+@pytest.fixture
+def names(monkeypatch: pytest.MonkeyPatch) -> dict[str, list[list[str]]]:
+    """Names of the test's own for the system's resolver: for each, one list of addresses for each time that it is
+    asked, the last of them for ever."""
+    known: dict[str, list[list[str]]] = {}
+    real = socket.getaddrinfo
+
+    def getaddrinfo(host: str, port: int, *rest: object, **more: object) -> list:
+        if host not in known:
+            return real(host, port, *rest, **more)  # type: ignore[arg-type]
+        answers = known[host]
+        found = answers.pop(0) if len(answers) > 1 else answers[0]
+        return [answer for address in found for answer in real(address, port, type=socket.SOCK_STREAM)]
+
+    monkeypatch.setattr(socket, "getaddrinfo", getaddrinfo)
+    return known

@@ -40,3 +40,15 @@ def test_every_direct_dependency_is_in_the_list_of_licences() -> None:
     names += [name for name in (web["dependencies"] | web["devDependencies"]) if not name.startswith("@types/")]
     listed = (ROOT / "docs" / "licences.md").read_text().lower()
     assert [name for name in names if not re.search(rf"(?<![\w-]){re.escape(name.lower())}(?![\w-])", listed)] == []
+
+
+def test_every_package_and_native_library_has_its_licence() -> None:
+    from scripts.licences import NATIVE, licence, locked, native, running
+
+    listed = (ROOT / "docs" / "packages.md").read_text()
+    names = locked()
+    assert len(names) > 100 and {"av", "numpy", "starlette"} <= running() and "pytest" not in running()
+    for name in names:
+        assert licence(name) and f"| {name} | " in listed, f"{name}: make licences"
+    for package, library in native():
+        assert library in NATIVE, (package, library)

@@ -68,6 +68,16 @@ def store(tmp_path: Path) -> StageStore:
     return StageStore(tmp_path / "store")
 
 
+def test_it_is_told_when_stages_begin_and_end(path: Path, store: StageStore) -> None:
+    told: list[tuple[str, str]] = []
+    run = Run(store=store, on_stage=lambda name, turn: told.append((name, turn)))
+    Pipeline()(run, path)
+    with pytest.raises(ZeroDivisionError), run.timed("write"):
+        _ = 1 / 0
+    stages = [(name, turn) for name in ("detect", "fit", "refine") for turn in ("began", "ended")]
+    assert told == [*stages, ("write", "began"), ("write", "broke")]
+
+
 def test_a_second_run_works_nothing(path: Path, store: StageStore) -> None:
     pipeline = Pipeline()
     first = pipeline(Run(store=store), path, strength=2.0)

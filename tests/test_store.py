@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.errors import Notice
-from engine.store import StageStore
+from engine.store import StageStore, trim
 
 
 @dataclass(frozen=True)
@@ -173,8 +173,8 @@ def test_a_trimmed_store_loses_what_was_not_used_for_longest(tmp_path: Path) -> 
         store.save(name, (np.zeros(125_000),))  # a megabyte each
         used = time.time() - 3600 * hours
         os.utime(tmp_path / name, (used, used))
-    store.trim(3.5e6)
+    trim([store.folder], 3.5e6)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["b", "d"]
-    store.trim(0)
+    trim([store.folder], 0)
     assert [path.name for path in tmp_path.iterdir()] == ["d"], "a running job may be about to read it"
     assert store.find("d") is not None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
@@ -21,7 +23,7 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     (page / "app.js").write_text("start()")
     (page.parent / "secret.txt").write_text("not yours")
     data = tmp_path_factory.mktemp("data") / "data"
-    service = Running(data, image_mb=1, video_mb=2, job_memory_mb=1500, web_dir=page)
+    service = Running(data, image_mb=1, video_mb=2, job_memory_mb=1500, web_dir=page, allowed_networks="127.0.0.0/8")
     yield service
     service.stop()
 
@@ -52,3 +54,17 @@ def picture() -> bytes:
 def video() -> bytes:
     """The first bytes of an MP4 file: enough for the door, which decodes nothing."""
     return b"\x00\x00\x00\x18ftypisom\x00\x00\x02\x00isomiso2" + bytes(5000)
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A folder with 60 MB of space."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mounted = os.geteuid() == 0 and (
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=60m", "tmpfs", folder], capture_output=True).returncode == 0
+    )
+    if not mounted:
+        pytest.skip("mounting a small disk needs root")
+    yield folder
+    subprocess.run(["umount", "-l", folder], check=True)

@@ -22,8 +22,10 @@ ROOT = HERE.parent.parent
 class Running:
     """A service that runs."""
 
-    def __init__(self, data_dir: Path, **settings: Any):
+    def __init__(self, data_dir: Path, path: Path = HERE, **settings: Any):
+        """`path` is where job kinds are imported from."""
         self.data_dir = data_dir
+        self.path = path
         self.settings = settings
         self.output = data_dir.with_name(data_dir.name + ".log")
         self.start()
@@ -34,7 +36,7 @@ class Running:
             "GALATEA_DATA_DIR": str(self.data_dir),
             "GALATEA_KINDS": "tiny_kind:KIND",
             "GALATEA_DISK_RESERVE_MB": "1",
-            "PYTHONPATH": os.pathsep.join([str(HERE), str(ROOT)]),
+            "PYTHONPATH": os.pathsep.join([str(self.path), str(ROOT)]),
             **{f"GALATEA_{name.upper()}": str(value) for name, value in self.settings.items()},
         }
         with self.output.open("wb") as output:
@@ -49,19 +51,20 @@ class Running:
         eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
 
     def _address(self) -> str:
-        for _ in range(600):
+        for _ in range(2400):
             found = re.search(r"Galatea serves at (http://\S+)/", self.output.read_text())
             if found:
                 return found[1]
             assert self.process.poll() is None, self.output.read_text()
             time.sleep(0.05)
+        self.process.terminate()
         raise AssertionError(self.output.read_text())
 
     def stop(self) -> None:
         self.client.close()
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGTERM)
-            self.process.wait(30)
+            self.process.wait(90)
 
     def processes(self, part: str) -> list[psutil.Process]:
         """The processes under the service whose command line contains `part`."""

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
+import subprocess
+import sys
+from datetime import UTC, datetime
 from email.message import Message
 from email.parser import BytesParser
+from io import BytesIO
+from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from running import Running
 
+from service.artifacts.archive import zipped
+from service.artifacts.models import Artifact
 from service.artifacts.ranges import Unsatisfiable, parse_ranges
+from service.ids import new_id
+from service.storage import Storage
 
 WHOLE = bytes(range(256)) * 400
 SIZE = len(WHOLE)
@@ -38,7 +49,7 @@ def test_whole(running: Running, artifact: dict[str, Any]) -> None:
     assert 'filename="animation.mp4"' in response.headers["content-disposition"]
     head = running.client.head(artifact["url"])
     assert head.content == b""
-    varying = ("date",)
+    varying = ("date", "x-request-id")
     assert {k: v for k, v in head.headers.items() if k not in varying} == {
         k: v for k, v in response.headers.items() if k not in varying
     }
@@ -126,3 +137,41 @@ def test_ranges_cover_what_was_asked_and_send_nothing_twice(asked: list[tuple[in
     sent = [byte for start, end in ranges for byte in range(start, end)]
     assert len(sent) == len(set(sent))
     assert set(sent) == {byte for first, last in pairs for byte in range(first, last + 1)}
+
+
+def test_all_of_them_come_as_one_zip(running: Running, picture: bytes) -> None:
+    job = running.until(running.submit(picture)["id"], "succeeded")
+    response = running.client.get(f"/v1/jobs/{job['id']}/archive")
+    assert response.headers["content-type"] == "application/zip"
+    assert f"tiny-{job['id']}.zip" in response.headers["content-disposition"]
+    with ZipFile(BytesIO(response.content)) as archive:
+        assert archive.testzip() is None
+        assert set(archive.namelist()) == set(job["artifacts"])
+        for name, artifact in job["artifacts"].items():
+            assert hashlib.sha256(archive.read(name)).hexdigest() == artifact["sha256"]
+
+
+def test_there_is_no_zip_of_a_job_that_goes_on_or_is_not_there(running: Running, picture: bytes) -> None:
+    job = running.submit(picture, seconds=20)
+    refused = running.client.get(f"/v1/jobs/{job['id']}/archive")
+    assert (refused.status_code, refused.json()["code"]) == (409, "job_not_finished")
+    running.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
+    assert running.client.get(f"/v1/jobs/{new_id()}/archive").json()["code"] == "job_not_found"
+
+
+def test_a_zip_is_made_piece_by_piece(tmp_path: Path) -> None:
+    """Its memory is that of a piece, however large the artifacts; other programs can read it."""
+    storage = Storage(tmp_path / "storage")
+    big = Artifact(id="a" * 36, job_id="j", name="big.bin", content_type="video/mp4", size=40_000_000, sha256="",
+                   created_at=datetime.now(UTC))  # fmt: skip
+    storage.put(big.key, BytesIO(bytes(big.size)))
+
+    async def pieces() -> list[int]:
+        with (tmp_path / "out.zip").open("wb") as file:
+            return [file.write(piece) async for piece in zipped([big], storage)]
+
+    assert max(asyncio.run(pieces())) < 3_000_000
+    listed = subprocess.run(
+        [sys.executable, "-m", "zipfile", "-t", tmp_path / "out.zip"], capture_output=True, text=True
+    )
+    assert listed.returncode == 0 and "Done testing" in listed.stdout

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from running import ROOT, Running
+from running import ROOT, Running, eventually
 
 from service.kinds.registry import load_kinds
 from service.kinds.schemas import KindOut
@@ -20,7 +22,9 @@ def test_the_openapi_document_names_every_operation_of_the_contract(running: Run
         *(("POST", "/v1/files"), ("POST", "/v1/jobs"), ("GET", "/v1/jobs"), ("GET", "/v1/jobs/{job_id}")),
         *(("POST", "/v1/jobs/{job_id}/cancel"), ("DELETE", "/v1/jobs/{job_id}"), ("GET", "/v1/jobs/{job_id}/events")),
         *(("GET", "/v1/jobs/{job_id}/artifacts/{name}"), ("GET", "/v1/kinds"), ("GET", "/healthz")),
+        *(("POST", "/v1/jobs/{job_id}/revisions"), ("GET", "/v1/jobs/{job_id}/archive")),
         *(("GET", "/v1/drivers"), ("POST", "/v1/drivers"), ("DELETE", "/v1/drivers/{name}")),
+        *(("GET", "/v1/motions"), ("POST", "/v1/motions"), ("DELETE", "/v1/motions/{name}")),
     }
     operations = [item["operationId"] for path in document["paths"].values() for item in path.values()]
     assert len(operations) == len(set(operations))
@@ -33,6 +37,7 @@ def test_kinds_describe_their_inputs_and_options(running: Running) -> None:
     kinds = {kind["name"]: kind for kind in running.client.get("/v1/kinds").json()["items"]}
     assert set(kinds) == {"tiny"}
     assert kinds["tiny"]["inputs_schema"]["required"] == ["image"]
+    assert kinds["tiny"]["correctable"] == ["level", "mask"]
     assert kinds["tiny"]["options_schema"]["properties"]["seconds"]["minimum"] == 0
 
 
@@ -45,10 +50,60 @@ def test_the_engines_kinds_have_the_names_and_inputs_of_the_contract() -> None:
 
 def test_health_and_figures(running: Running) -> None:
     assert running.client.get("/healthz").json() == {"status": "ok"}
-    assert running.client.get("/readyz").json()["checks"] == {"database": True, "redis": True, "disk": True}
+    assert running.client.get("/readyz").json()["checks"] == {
+        **{"database": True, "redis": True, "storage": True, "disk": True}
+    }
     figures = running.client.get("/metrics").text
     assert re.search(r'^galatea_jobs\{kind="tiny",status="succeeded"\} \d', figures, re.MULTILINE)
     assert "galatea_redis_up 1.0" in figures
+
+
+def test_what_was_counted_outlives_what_it_counts(start: Callable[..., Running], picture: bytes) -> None:
+    running = start()
+    done = running.until(running.submit(picture, seconds=0.3)["id"], "succeeded")
+    refused = running.until(running.submit(picture, crash="refuse")["id"], "failed")
+    long = running.submit(picture, seconds=20)
+    queued = running.submit(picture)
+    eventually(lambda: figure(running, 'galatea_queue_oldest_seconds{kind="tiny"}') > 0.5, "one has waited")
+    for job in (long, queued):
+        running.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
+    for job in (done, refused):
+        running.client.delete(f"/v1/jobs/{job['id']}").raise_for_status()
+    running.stop()
+    running.start()
+    ended = 'galatea_jobs_ended_total{code="%s",kind="tiny",status="%s"}'
+    assert figure(running, ended % ("", "succeeded")) == 1
+    assert figure(running, ended % ("no_face", "failed")) == 1
+    assert figure(running, ended % ("", "canceled")) == 2
+    assert figure(running, 'galatea_uploaded_bytes_total{media="image"}') == 4 * len(picture)
+    assert figure(running, 'galatea_stage_runs_total{kind="tiny",stage="rest"}') == 1
+    assert 0.3 <= figure(running, 'galatea_stage_seconds_total{kind="tiny",stage="rest"}') < 5
+    assert figure(running, 'galatea_queue_oldest_seconds{kind="tiny"}') == 0
+
+
+def test_the_dashboard_shows_figures_that_there_are(running: Running, picture: bytes) -> None:
+    running.until(running.submit(picture)["id"], "succeeded")
+    webhook = running.client.post("/v1/webhooks", json={"url": "http://127.0.0.1:9/"}).raise_for_status().json()
+    running.client.post(f"/v1/webhooks/{webhook['id']}/test").raise_for_status()
+    eventually(lambda: "galatea_webhook_attempts_total{" in running.client.get("/metrics").text, "it was tried")
+    running.client.delete(f"/v1/webhooks/{webhook['id']}").raise_for_status()
+    dashboard = json.loads((ROOT / "docs" / "operations" / "grafana.json").read_text())
+    asked = [target["expr"] for panel in dashboard["panels"] for target in panel["targets"]]
+    figures = running.client.get("/metrics").text
+    for expression in asked:
+        for name in re.findall(r"galatea_\w+", expression):
+            assert re.search(rf"^{name}(\{{| )", figures, re.MULTILINE), name
+        labels = re.search(r"by \(([^)]*)\)", expression)
+        for label in labels[1].split(", ") if labels else ():
+            assert f'{label}="' in figures
+    places = [(p["gridPos"]["x"], p["gridPos"]["y"]) for p in dashboard["panels"]]
+    assert len(set(places)) == len(places)
+
+
+def figure(running: Running, name: str) -> float:
+    """A figure by its name and labels."""
+    found = re.search(rf"^{re.escape(name)} (\S+)$", running.client.get("/metrics").text, re.MULTILINE)
+    return float(found[1]) if found else float("nan")
 
 
 @pytest.mark.parametrize(
@@ -58,6 +113,7 @@ def test_health_and_figures(running: Running) -> None:
         ("GET", "/nothing.js", 404, "not_found"),
         ("DELETE", "/v1/kinds", 405, "method_not_allowed"),
         ("GET", "/v1/jobs/x/cancel", 405, "method_not_allowed"),
+        ("PATCH", "/v1/webhooks/deliveries", 405, "method_not_allowed"),
         ("GET", "/v1/jobs?limit=none", 422, "invalid_request"),
     ],
 )
@@ -83,6 +139,8 @@ def test_every_problem_code_is_in_the_docs() -> None:
     text = (ROOT / "docs" / "api.md").read_text()
     sources = [path.read_text() for folder in ("service", "worker") for path in (ROOT / folder).rglob("*.py")]
     raised = {code for source in sources for code in re.findall(r'(?:Problem\(\s*\d+,|Refused\()\s*"(\w+)"', source)}
-    raised |= {code for source in sources for code in re.findall(r'(?:failed\(|"code": )"(\w+)"', source)}
+    raised |= {
+        code for source in sources for code in re.findall(r'(?:failed\(|FetchFailed\(\s*|"code": )"(\w+)"', source)
+    }
     assert len(raised) > 30
     assert {code for code in raised if f"`{code}`" not in text} == set()

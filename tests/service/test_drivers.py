@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from running import Running
 
-from service.drivers.service import LIBRARY
+from engine.performances import STATES
+from service.kept.shelves import DRIVERS
 from service.kinds import library
 
 
@@ -47,20 +48,47 @@ def test_a_driver_is_a_video(running: Running, picture: bytes) -> None:
 
 
 def test_built_in_names_are_taken(running: Running, video: bytes) -> None:
-    for name in (*library.names(LIBRARY), "auto"):
+    for name in (*DRIVERS.built_in, "auto"):
         response = running.client.post("/v1/drivers", data={"name": name}, files={"file": ("w.mp4", video)})
         assert response.json()["code"] == "name_taken"
-    for name in library.names(LIBRARY):
+    for name in DRIVERS.built_in:
         assert running.client.delete(f"/v1/drivers/{name}").json()["code"] == "driver_built_in"
 
 
 def test_built_in_performances_are_listed_first_and_can_be_watched(running: Running) -> None:
     items = running.client.get("/v1/drivers").json()["items"]
-    assert [item["name"] for item in items[:3]] == ["idle", "happy", "surprise"]
-    assert all(item["source"] == "built-in" and item["title"] and item["seconds"] > 1 for item in items[:3])
+    names = list(DRIVERS.built_in)
+    assert [item["name"] for item in items[: len(names)]] == names
+    assert {"idle", "happy", "surprise"} <= set(names)
+    for item in items[: len(names)]:
+        assert item["source"] == "built-in" and item["title"] and item["seconds"] > 1
+        assert item == running.client.get(f"/v1/drivers/{item['name']}").json()
     assert items[0]["loops"] is True
+    assert {(item["state"], item["strength"]) for item in items[: len(names)]} == {
+        (state, strength) for state in STATES for strength in ("normal", "strong")
+    }
     video = running.client.get(items[1]["url"], headers={"Range": "bytes=4-7"})
     assert (video.status_code, video.content) == (206, b"ftyp")
+
+
+def test_a_small_picture_shows_each_built_in_performance(running: Running) -> None:
+    for name in DRIVERS.built_in:
+        address = running.client.get(f"/v1/drivers/{name}").json()["poster"]
+        answer = running.client.get(address)
+        assert (answer.status_code, answer.headers["Content-Type"]) == (200, "image/jpeg")
+        assert answer.content.startswith(b"\xff\xd8\xff") and len(answer.content) < 40_000
+        again = running.client.get(address, headers={"If-None-Match": answer.headers["ETag"]})
+        assert again.status_code == 304
+
+
+def test_own_drivers_have_no_picture_and_unknown_ones_nothing(running: Running, video: bytes) -> None:
+    running.client.post("/v1/drivers", data={"name": "mine"}, files={"file": ("w.mp4", video)})
+    assert running.client.get("/v1/drivers/mine").json()["poster"] is None
+    assert running.client.get("/v1/drivers/mine/poster").json()["code"] == "poster_not_found"
+    running.client.delete("/v1/drivers/mine")
+    for path in ("", "/poster", "/video"):
+        answer = running.client.get(f"/v1/drivers/mine{path}")
+        assert (answer.status_code, answer.json()["code"]) == (404, "driver_not_found")
 
 
 def test_a_job_can_name_a_built_in_performance(running: Running, picture: bytes) -> None:
@@ -70,3 +98,24 @@ def test_a_job_can_name_a_built_in_performance(running: Running, picture: bytes)
     assert job["status"] == "succeeded", job["error"]
     report = running.client.get(job["artifacts"]["report.json"]["url"]).json()
     assert report["inputs"]["driver"] == "happy.mp4"
+
+
+def test_auto_offers_the_library_and_ones_own_drivers_to_the_job(
+    running: Running, picture: bytes, video: bytes
+) -> None:
+    running.client.post("/v1/drivers", data={"name": "own"}, files={"file": ("w.mp4", video)})
+    file = running.client.post("/v1/files", files={"file": picture}).json()["id"]
+    asked = {"kind": "tiny", "inputs": {"image": file, "driver": "auto"}}
+    job = running.until(running.client.post("/v1/jobs", json=asked).json()["id"], "succeeded", "failed")
+    assert job["status"] == "succeeded", job["error"]
+    assert job["inputs"]["driver"] == "auto"
+    report = running.client.get(job["artifacts"]["report.json"]["url"]).json()
+    installed = {name: library.item(DRIVERS.library, name).stat().st_size for name in DRIVERS.built_in}
+    assert report["inputs"]["candidates"] == {**installed, "own": len(video)}
+
+    # a revision chooses from the same files, the driver's deletion notwithstanding
+    running.client.delete("/v1/drivers/own")
+    again = running.client.post(f"/v1/jobs/{job['id']}/revisions", json={"corrections": {"level": 1.0}}).json()
+    again = running.until(again["id"], "succeeded", "failed")
+    report = running.client.get(again["artifacts"]["report.json"]["url"]).json()
+    assert report["inputs"]["candidates"]["own"] == len(video)

@@ -8,14 +8,15 @@ import pytest
 from running import Running
 from starlette.datastructures import Headers
 
-from service.guard import LoopbackGuard, is_loopback
+from service.guard import Guard
+from service.loopback import is_loopback
 
 PROXY = {"x-forwarded-for": "203.0.113.5"}
 
 
 def refusal(peer: str = "127.0.0.1", trusted: str = "", **headers: str) -> str | None:
     networks = [ip_network(trusted)] if trusted else []
-    guard = LoopbackGuard(None, networks)  # type: ignore[arg-type]
+    guard = Guard(None, networks)  # type: ignore[arg-type]
     problem = guard.refusal(Headers({name.replace("_", "-"): value for name, value in headers.items()}), peer)
     return problem.code if problem else None
 

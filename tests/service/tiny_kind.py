@@ -9,7 +9,7 @@ import os
 import signal
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from engine.errors import InputError
-from engine.kind import Input, Kind
+from engine.kind import Candidates, Given, Input, Kind
 from engine.run import Run, write_report
 
 
@@ -30,6 +30,8 @@ class TinyOptions(BaseModel):
     """How long the second stage takes."""
     polls: bool = True
     """Whether it looks for cancellation meanwhile."""
+    level: float = 0.0
+    """Added to what is measured; a correction."""
     crash: Literal["segv", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"] | None = None
     crash_once: bool = False
     """Crash at the first attempt only (there is a file in the stages' folder from then on)."""
@@ -77,14 +79,14 @@ def misbehave(how: str | None, out: Path) -> None:
         case "bug":
             raise ZeroDivisionError
         case "refuse":
-            raise InputError("no_face", "No face was found: choose another picture.", ("landmarks",))
+            raise InputError("no_face", "No face was found: choose another picture.", ("landmarks",), {"faces": []})
         case "hostile_name":
             (out / "a b;c\n.html").write_text("<script>")
         case "link":
             (out / "secret.json").symlink_to("/etc/hostname")
 
 
-def work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out: Path, run: Run) -> None:
+def work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     assert isinstance(options, TinyOptions)
     image = inputs["image"]
     assert isinstance(image, Path)
@@ -103,9 +105,15 @@ def work(inputs: Mapping[str, Path | tuple[Path, ...]], options: BaseModel, out:
         (out / "spectrum.json").write_text(str(mean.spectrum.tolist()))
         (out / "animation.mp4").write_bytes(bytes(range(256)) * 400)
         size = len(image.read_bytes())
-        driver = inputs["driver"].name if isinstance(inputs.get("driver"), Path) else None
-        asked = {"bytes": size, "driver": driver}
-        write_report(out / "report.json", "tiny", run, asked, {"mean": mean.value, "reused": len(run.reused)})
+        driver = inputs.get("driver")
+        asked = {"bytes": size, "driver": driver.name if isinstance(driver, Path) else None}
+        if isinstance(mask := inputs.get("mask"), Path):
+            asked["mask"] = mask.stat().st_size
+        if isinstance(driver, Candidates):
+            asked["candidates"] = {name: path.stat().st_size for name, path in driver.files.items()}
+        write_report(
+            out / "report.json", "tiny", run, asked, {"mean": mean.value + options.level, "reused": len(run.reused)}
+        )
 
 
 KIND = Kind(
@@ -114,7 +122,11 @@ KIND = Kind(
     inputs=(
         Input("image", "image", "a picture"),
         Input("driver", "video", "a video, or the name of a driver", required=False, library="performances"),
+        Input("mask", "image", "a picture that covers the other", required=False, corrects=True),
     ),
     options=TinyOptions,
     work=work,
+    correctable=("level",),
 )
+
+OTHER = replace(KIND, name="other")

@@ -13,6 +13,16 @@ from service.settings import Settings
 
 @pytest.fixture
 def context(tmp_path: Path) -> Iterator[Context]:
-    opened = Context.open(Settings(data_dir=tmp_path / "data", kinds=[], disk_reserve_mb=0))
+    yield from _opened(Settings(data_dir=tmp_path / "data", kinds=[], disk_reserve_mb=0))
+
+
+@pytest.fixture
+def context_on_any(tmp_path: Path, database_url: str) -> Iterator[Context]:
+    """The same on each kind of database."""
+    yield from _opened(Settings(data_dir=tmp_path / "data", database_url=database_url, kinds=[], disk_reserve_mb=0))
+
+
+def _opened(settings: Settings) -> Iterator[Context]:
+    opened = Context.open(settings)
     yield opened
     opened.close()

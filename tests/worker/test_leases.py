@@ -7,21 +7,47 @@ from datetime import timedelta
 
 import pytest
 
+from service.auth.models import Key
 from service.clock import now
 from service.context import Context
 from service.ids import new_id
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
-from service.jobs.models import Job, Status
+from service.jobs.models import Job, Priority, Status
 from worker.sweep import take_back_expired
+
+
+@pytest.fixture
+def context(context_on_any: Context) -> Context:
+    return context_on_any
 
 
 @pytest.fixture
 def job_id(context: Context) -> str:
     job = Job(
         id=new_id(),
-        **{"kind": "tiny", "status": "queued", "inputs": {}, "sources": {}, "options": {}, "notes": {}},
+        **{
+            "owner": "local",
+            "kind": "tiny",
+            "status": "queued",
+            "inputs": {},
+            "sources": {},
+            "options": {},
+            "notes": {},
+        },
         **{"progress": {}, "created_at": now(), "enqueued_at": now()},
+    )
+    with context.database.write() as session:
+        session.add(job)
+    return job.id
+
+
+def waiting(context: Context, priority: Priority = Priority.NORMAL, owner: str = "local", kind: str = "tiny") -> str:
+    """A further job that waits."""
+    job = Job(
+        id=new_id(),
+        **{"owner": owner, "kind": kind, "status": "queued", "priority": priority, "inputs": {}, "sources": {}},
+        **{"options": {}, "notes": {}, "progress": {}, "created_at": now(), "enqueued_at": now()},
     )
     with context.database.write() as session:
         session.add(job)
@@ -113,3 +139,36 @@ def test_a_canceled_job_cannot_be_claimed_or_finished(context: Context, job_id: 
         assert not leases.cancel(session, job_id)
     assert claim(context, job_id) is None
     assert status(context, job_id)[0] == "canceled"
+
+
+def claim_next(context: Context, kind: str = "tiny") -> str | None:
+    with context.database.write() as session:
+        lease = leases.claim_next(session, kind, "somebody", 30)
+    return lease.job_id if lease is not None else None
+
+
+def test_the_most_urgent_comes_first_and_then_the_oldest(context: Context) -> None:
+    low, first, second, high = (
+        waiting(context, priority) for priority in (Priority.LOW, Priority.NORMAL, Priority.NORMAL, Priority.HIGH)
+    )
+    other = waiting(context, Priority.HIGH, kind="other")
+    assert [claim_next(context) for _ in range(5)] == [high, first, second, low, None]
+    assert claim_next(context, "other") == other
+
+
+def test_keys_have_their_turns(context: Context) -> None:
+    """Whoever submits a hundred jobs does not keep the others waiting for all of them."""
+    with context.database.write() as session:
+        for name in ("a", "b"):
+            secrets = {"signing_secret": "s", "link_secret": "l"}
+            session.add(Key(id=name, name=name, hint="", scopes=[], created_at=now(), **secrets))
+    many = [waiting(context, owner="a") for _ in range(4)]
+    few = [waiting(context, owner="b") for _ in range(2)]
+    assert [claim_next(context) for _ in range(6)] == [many[0], few[0], many[1], few[1], many[2], many[3]]
+
+
+def test_many_workers_take_each_job_once(context: Context) -> None:
+    jobs = [waiting(context) for _ in range(12)]
+    with ThreadPoolExecutor(6) as pool:
+        taken = list(pool.map(lambda _: claim_next(context), range(14)))
+    assert sorted(one for one in taken if one is not None) == sorted(jobs)

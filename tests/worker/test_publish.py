@@ -15,13 +15,15 @@ from service.ids import new_id
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.jobs.models import Job
-from worker.publish import Refused, publish, publish_all
+from worker.plain_files import Refused
+from worker.publish import publish, publish_all
 
 
 @pytest.fixture
 def lease(context: Context) -> Lease:
     job = Job(
         id=new_id(),
+        owner="local",
         **{"kind": "tiny", "status": "queued", "inputs": {}, "sources": {}, "options": {}, "notes": {}},
         **{"progress": {}, "created_at": now(), "enqueued_at": now()},
     )

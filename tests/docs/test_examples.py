@@ -1,0 +1,67 @@
+"""What the guides tell a reader to type does what they say: run as it stands, against a service that runs."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+sys.path.append(str(Path(__file__).parent.parent / "service"))  # for running
+
+from running import ROOT, Running
+
+ADDRESS = "http://127.0.0.1:8000"
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    service = Running(tmp_path_factory.mktemp("data") / "data", kinds="engine.kinds:KINDS", wait_seconds=200)
+    yield service
+    service.stop()
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with a portrait in it, as the guides suppose."""
+    package = find_spec("matplotlib")
+    assert package is not None and package.origin is not None
+    portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
+    shutil.copy(portrait, tmp_path / "portrait.jpg")
+    return tmp_path
+
+
+def blocks(name: str, language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", (ROOT / "docs" / name).read_text(), re.MULTILINE | re.DOTALL)
+
+
+def test_the_rest_guide(running: Running, folder: Path) -> None:
+    if shutil.which("jq") is None or shutil.which("curl") is None:
+        pytest.skip("the guide's commands need curl and jq")
+    address = str(running.client.base_url).rstrip("/")
+    script = "\n".join(["set -eu -o pipefail", *blocks("rest.md", "sh")]).replace(ADDRESS, address)
+    script = script.replace("wait=60", "wait=200")  # machines that run tests are busy
+    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert json.loads((folder / "job.json").read_text())["status"] == "succeeded"
+    assert (folder / "animation.mp4").read_bytes()[4:8] == b"ftyp"
+    assert (folder / "result.zip").read_bytes()[:2] == b"PK"
+    assert "event: progress" in done.stdout and done.stdout.rstrip().endswith("missing_input")
+
+
+def test_the_python_clients_first_example(running: Running, folder: Path) -> None:
+    address = str(running.client.base_url).rstrip("/")
+    program = blocks("python-client.md", "python")[0].replace(ADDRESS, address)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "animate" in done.stdout and (folder / "out" / "animation.mp4").read_bytes()[4:8] == b"ftyp"

@@ -1,0 +1,108 @@
+"""Characters as jobs: a picture and a motion uploaded, the work done behind walls, and a correction that redoes only
+what follows it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from running import Running
+
+from engine.character.sample import sample_picture
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    running = Running(tmp_path_factory.mktemp("characters") / "data", kinds="engine.kinds:KINDS")
+    yield running
+    running.stop()
+
+
+def uploaded(service: Running, name: str, content: bytes) -> dict[str, Any]:
+    return service.client.post("/v1/files", files={"file": (name, content)}).raise_for_status().json()
+
+
+@pytest.fixture(scope="module")
+def photo(service: Running) -> str:
+    file = BytesIO()
+    Image.fromarray(sample_picture()).save(file, "PNG")
+    return uploaded(service, "photo.png", file.getvalue())["id"]
+
+
+def submitted(service: Running, **job: Any) -> dict[str, Any]:
+    made = service.client.post("/v1/jobs", json={"kind": "character", **job}).raise_for_status().json()
+    return service.until(made["id"], "succeeded", "failed", seconds=300)
+
+
+def test_a_picture_and_a_motion_become_a_character(service: Running, photo: str, media: Callable[[str], Path]) -> None:
+    motion = uploaded(service, "jacks.bvh", media("mocap/cmu_jumping_jacks.bvh").read_bytes())
+    assert motion["content_type"] == "text/x-bvh"
+    job = submitted(service, inputs={"photo": photo, "motion": motion["id"]}, options={"seconds": 1, "vrm": True})
+    assert job["error"] is None
+    artifacts = job["artifacts"]
+    assert {"character.glb", "character.usdz", "character.vrm", "animation.mp4", "posed.png"} <= set(artifacts)
+    assert artifacts["character.glb"]["content_type"] == "model/gltf-binary"
+    assert service.client.get(artifacts["character.glb"]["url"]).content[:4] == b"glTF"
+    correction = {"corrections": {"joints": {"LeftElbow": [300.0, 290.0]}}}
+    made = service.client.post(f"/v1/jobs/{job['id']}/revisions", json=correction).raise_for_status().json()
+    revised = service.until(made["id"], "succeeded", "failed", seconds=300)
+    assert revised["error"] is None
+    skeleton = service.client.get(revised["artifacts"]["skeleton.json"]["url"]).json()
+    assert skeleton["joints"]["LeftElbow"] == {"place": [300.0, 290.0], "confidence": 1.0}
+
+
+def test_a_mask_painted_by_hand_corrects_what_was_found(service: Running, photo: str) -> None:
+    """A hand is taken off the mask that was found: the next mask is without it."""
+    job = submitted(service, inputs={"photo": photo}, options={"seconds": 1})
+    address = f"/v1/jobs/{job['id']}/revisions"
+    found = np.asarray(
+        Image.open(BytesIO(service.client.get(job["artifacts"]["mask.png"]["url"]).content)).convert("L")
+    )
+    columns = np.flatnonzero((found > 128).any(axis=0))
+    edge = int(columns[0]) + 12
+    assert (found[:, :edge] > 128).sum() > 50
+    painted = found.copy()
+    painted[:, :edge] = 0
+
+    def corrected(mask: np.ndarray) -> dict[str, Any]:
+        file = BytesIO()
+        Image.fromarray(mask).save(file, "PNG")
+        made = service.client.post(address, files={"mask": ("mask.png", file.getvalue())}).raise_for_status().json()
+        return service.until(made["id"], "succeeded", "failed", seconds=300)
+
+    revised = corrected(painted)
+    assert revised["error"] is None and set(revised["inputs"]) == {"photo", "mask"}
+    again = np.asarray(
+        Image.open(BytesIO(service.client.get(revised["artifacts"]["mask.png"]["url"]).content)).convert("L")
+    )
+    assert (again[:, : edge - 3] > 128).sum() == 0
+    assert np.mean(again[:, edge:] > 128) > 0.9 * np.mean(found[:, edge:] > 128)
+    assert corrected(painted[:-7])["error"]["code"] == "mask_size"
+
+
+def test_a_built_in_motion_may_be_named_in_place_of_a_file(service: Running, photo: str) -> None:
+    job = submitted(service, inputs={"photo": photo, "motion": "wave"}, options={"seconds": 1})
+    assert (job["error"], job["options"]["motion"], list(job["inputs"])) == (None, "wave", ["photo"])
+    made = service.client.post("/v1/jobs", json={"kind": "character", "inputs": {"photo": photo, "motion": "fly"}})
+    assert (made.status_code, made.json()["code"]) == (422, "unknown_motion")
+    assert made.json()["errors"][0]["pointer"] == "/inputs/motion"
+
+
+def test_a_motion_is_no_picture(service: Running, photo: str) -> None:
+    motion = uploaded(service, "a.bvh", b"HIERARCHY\nROOT Hips\n{\n")
+    refused = service.client.post("/v1/jobs", json={"kind": "character", "inputs": {"photo": motion["id"]}})
+    assert (refused.status_code, refused.json()["code"]) == (422, "input_wrong_media")
+    job = submitted(service, inputs={"photo": photo, "motion": motion["id"]}, options={"seconds": 1})
+    assert (job["status"], job["error"]["code"]) == ("failed", "motion_truncated")
+
+
+def test_a_picture_of_nobody_may_be_corrected(service: Running) -> None:
+    file = BytesIO()
+    Image.new("RGB", (300, 300), (120, 130, 140)).save(file, "PNG")
+    job = submitted(service, inputs={"photo": uploaded(service, "wall.png", file.getvalue())["id"]})
+    assert (job["error"]["code"], job["error"]["correctable"]) == ("no_person", ["joints", "person_box"])

@@ -1,0 +1,94 @@
+"""The whole API against its own OpenAPI document: schemathesis, all checks on, a service that runs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from running import HERE, Running
+
+SEED = 4711
+EXAMPLES, SECONDS = 4, 50
+"""Requests of each kind for each operation; how long the random phases go on."""
+
+SETTINGS = {"image_mb": 1, "video_mb": 2, "wait_seconds": 0.3, "allowed_networks": "127.0.0.0/8"}
+
+CONFIGURATION = """
+# Beside a file, the coverage phase takes an empty text for a name that suits the pattern.
+[[operations]]
+include-operation-id = "create_driver"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "409", "422"]
+
+[[operations]]
+include-operation-id = "create_motion"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "409", "422"]
+
+# What the document cannot say: that a piece sums up to its checksum, that a length is told now or later but not both,
+# how much the service under test takes.
+[[operations]]
+include-operation-id = "create_upload"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "400", "413", "422", "460"]
+
+[[operations]]
+include-operation-id = "add_to_upload"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "400", "404", "409", "413", "460"]
+
+# A driver has no picture before it was searched, and no search where that kind of job is not on offer.
+[[operations]]
+include-operation-id = "get_driver_poster"
+phases.stateful.enabled = false
+
+[[operations]]
+include-operation-id = "search_driver"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "404", "409", "422"]
+
+[[operations]]
+include-operation-id = "check_motion"
+checks.positive_data_acceptance.expected-statuses = ["2xx", "404", "409", "422"]
+
+# A version of the tus protocol that is not spoken is answered by 412: so the protocol says.
+[checks.negative_data_rejection]
+expected-statuses = ["400", "401", "403", "404", "405", "406", "409", "412", "415", "422", "428", "429"]
+"""
+
+
+def test_where_no_key_is_needed(start: Callable[..., Running], picture: bytes, tmp_path: Path) -> None:
+    faultless(start(**SETTINGS), picture, tmp_path)
+
+
+def test_where_a_key_is(start: Callable[..., Running], picture: bytes, tmp_path: Path) -> None:
+    running = start(**SETTINGS)
+    scopes = ["read", "submit", "admin"]
+    asked = {"name": "schemathesis", "scopes": scopes, "requests_per_minute": 1_000_000}
+    key = running.client.post("/v1/keys", json=asked).raise_for_status().json()
+    running.stop()
+    running.settings["require_keys"] = True
+    running.start()
+    running.client.headers["Authorization"] = f"Bearer {key['token']}"
+    faultless(running, picture, tmp_path, "--header", f"Authorization: Bearer {key['token']}", key=key["id"])
+
+
+def faultless(running: Running, picture: bytes, folder: Path, *arguments: str, key: str = "") -> None:
+    file = running.client.post("/v1/files", files={"file": ("picture.png", picture)}).raise_for_status().json()
+    running.submit(picture)  # so that the file is used, and stays whatever is erased
+    job = {"kind": "tiny", "inputs": {"image": file["id"]}}
+    running.client.post("/v1/jobs", json=job).raise_for_status()
+    (folder / "schemathesis.toml").write_text(CONFIGURATION)
+    command = [
+        *(sys.executable, "-m", "schemathesis.cli", "--no-color", "--config-file", "schemathesis.toml"),
+        *("run", f"{running.client.base_url}/v1/openapi.json", "--checks", "all", "--continue-on-failure"),
+        *("--phases", "examples,coverage,fuzzing,stateful", "--seed", str(SEED), "--no-shrink"),
+        *("--max-examples", str(EXAMPLES), "--max-time", str(SECONDS), "--generation-database", "none", *arguments),
+    ]
+    environment = {
+        **os.environ,
+        "SCHEMATHESIS_HOOKS": "schemathesis_hooks",
+        "PYTHONPATH": str(HERE),
+        "GALATEA_TEST_FILE_ID": file["id"],
+        "GALATEA_TEST_KEY_ID": key,
+    }
+    done = subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout[-20_000:] + done.stderr[-2000:] + running.output.read_text()[-4000:]

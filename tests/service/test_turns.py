@@ -1,0 +1,66 @@
+"""A lock that is fair: who comes first is served first, and who gives up is passed over."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from service.turns import Turns
+
+
+def test_turns_come_in_the_order_of_asking() -> None:
+    turns, served = Turns(), []
+
+    def wait(number: int) -> None:
+        with turns.turn(30) as came:
+            assert came
+            served.append(number)
+
+    threads = [threading.Thread(target=wait, args=(number,)) for number in range(20)]
+    with turns.turn(1):
+        for waiting, thread in enumerate(threads, 1):
+            thread.start()
+            while len(turns._waiting) < waiting:
+                time.sleep(0.001)
+    for thread in threads:
+        thread.join()
+    assert served == list(range(20))
+
+
+def test_one_works_at_a_time() -> None:
+    turns, at_work, most = Turns(), [], []
+
+    def work() -> None:
+        for _ in range(50):
+            with turns.turn(30):
+                at_work.append(1)
+                most.append(len(at_work))
+                time.sleep(0)
+                at_work.pop()
+
+    threads = [threading.Thread(target=work) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(most) == 400
+    assert max(most) == 1
+
+
+def test_who_gives_up_is_passed_over() -> None:
+    turns = Turns()
+    with turns.turn(1) as first, turns.turn(0.01) as second:
+        assert (first, second) == (True, False)
+    with turns.turn(0.01) as third:
+        assert third
+
+
+def test_an_error_ends_the_turn() -> None:
+    turns = Turns()
+    try:
+        with turns.turn(1):
+            raise ValueError
+    except ValueError:
+        pass
+    with turns.turn(0.01) as came:
+        assert came
