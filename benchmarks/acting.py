@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.portrait.driver import DriverTrack, track_driver
+from engine.portrait.fine_details import RatioImages
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer
+from engine.portrait.rig import Rig, rig_target
 from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
 
 
@@ -28,29 +30,28 @@ class Acting:
     neutral: int
     target: TargetFace
     layers: Layers
+    rig: Rig
     options: PortraitOptions
 
-    def frames(self, parts: Parts = ALL_PARTS, step: int = 1) -> Iterator[NDArray[np.uint8]]:
+    def frames(self, parts: Parts = ALL_PARTS, refined: bool = True, step: int = 1) -> Iterator[NDArray[np.uint8]]:
         """Every `step`-th frame of the animation; the others are not drawn."""
-        renderer = Renderer(self.track, self.neutral, self.target, self.layers, self.options, parts)
-        moments = zip(renderer.motions(), renderer.ratios(), strict=True)
+        renderer = Renderer(self.track, self.neutral, self.target, self.layers, self.rig, self.options, parts)
+        ratios = RatioImages(self.track, self.neutral, outliers=refined, refined=refined)
+        moments = zip(renderer.motions(), ratios, strict=True)
         with ThreadPoolExecutor() as pool:
-            drawn = [
-                pool.submit(renderer.draw, motion, ratio, renderer.crops(motion.frame))
-                for motion, ratio in moments
-                if motion.frame % step == 0
-            ]
+            drawn = [pool.submit(renderer.draw, motion, ratio) for motion, ratio in moments if motion.frame % step == 0]
             for frame in drawn:
                 yield frame.result()
 
 
-def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers]:
+def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, Rig]:
     """A picture (H, W, 3) as a target; `folder` takes its file."""
     height, width = (side - side % 2 for side in rgb.shape[:2])
     path = folder / "target.png"
     write_image(path, np.ascontiguousarray(rgb[:height, :width]))
     target = find_target_face(path, options, Limits(), lambda code, message: None)
-    return target, separate_layers(target)
+    layers = separate_layers(target)
+    return target, layers, rig_target(target, layers)
 
 
 def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[DriverTrack, int]:

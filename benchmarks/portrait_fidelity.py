@@ -24,6 +24,7 @@ from engine.portrait.alignment import align
 from engine.portrait.control_points import carry_fiducials
 from engine.portrait.options import PortraitOptions
 from engine.portrait.render import Parts
+from engine.portrait.rig import rig_target
 
 FRAMES, STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""
@@ -31,12 +32,14 @@ REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
 WARP = Parts(layers=False, hidden=False, details=False, eyes=False)
 PLANE, SPACE = {"head_3d": False}, {"head_3d": True}
+SMOOTHING = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
+FULL = "+ full ratio image"
 ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
-    ("warp, no smoothing", replace(WARP, smoothing="none"), PLANE),
-    ("warp, constant smoothing", replace(WARP, smoothing="constant"), PLANE),
+    ("warp, no smoothing", WARP, PLANE),
+    ("warp, constant smoothing", WARP, PLANE),
     ("warp, confidence-aware", WARP, PLANE),
     ("+ hidden regions", replace(WARP, hidden=True), PLANE),
-    ("+ full ratio image", replace(WARP, hidden=True, details=True, refined=False), PLANE),
+    (FULL, replace(WARP, hidden=True, details=True), PLANE),
     ("+ refined ratio image", replace(WARP, hidden=True, details=True), PLANE),
     ("+ layers", replace(WARP, hidden=True, details=True, layers=True), PLANE),
     ("+ eyes", Parts(), PLANE),
@@ -79,8 +82,9 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
             kept = true[::STEP]
             for label, parts, options in ABLATIONS:
-                varied = replace(acting, options=acting.options.model_copy(update=options))
-                made = list(varied.frames(parts, STEP))
+                rig = rig_target(acting.target, acting.layers, SMOOTHING.get(label, "confidence"))
+                varied = replace(acting, rig=rig, options=acting.options.model_copy(update=options))
+                made = list(varied.frames(parts, refined=label != FULL, step=STEP))
                 regions = _regional(kept, made)
                 figures[label].append([*_measures(kept, made), *(regions[r] for r in REGIONS)])
                 _save(pictures, f"ablation-{path.stem}-{label.strip('+ ').replace(' ', '_')}", kept, made)
@@ -98,9 +102,9 @@ def pair(pictures: Path | None) -> None:
     for label, driver in (("disguised", tool("disguise").disguise(true, landmarks)), ("itself", true)):
         with TemporaryDirectory() as folder:
             options = PortraitOptions(neutral_frame=0)
-            target, layers = read_target(Path(folder), neutral, options)
+            target, layers, rig = read_target(Path(folder), neutral, options)
             track, chosen = read_driver(write_clip(Path(folder) / "driver.mp4", driver), target, 0)
-            made = list(Acting(track, chosen, target, layers, options).frames())[-1]
+            made = list(Acting(track, chosen, target, layers, rig, options).frames())[-1]
         kept = [neutral, smile]
         still, ours = (_measures(kept, [neutral, frame], last=True) for frame in (neutral, made))
         rows.append([label, *_shown([*still, *ours], (4, 2, 4, 4, 2, 4))])
@@ -117,13 +121,13 @@ def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[n
     true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
     disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))
     options = PortraitOptions(neutral_frame=0, size=(width, height) if max(width, height) > 64 else None)
-    target, layers = read_target(folder, true[0], options)
+    target, layers, rig = read_target(folder, true[0], options)
     track, neutral = read_driver(write_clip(folder / "disguised.mp4", disguised), target, 0)
-    acting = Acting(track, neutral, target, layers, options)
+    acting = Acting(track, neutral, target, layers, rig, options)
     if not with_self:
         return true, acting, acting
     track, neutral = read_driver(write_clip(folder / "itself.mp4", true), target, 0)
-    return true, acting, Acting(track, neutral, target, layers, options)
+    return true, acting, Acting(track, neutral, target, layers, rig, options)
 
 
 def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:

@@ -33,7 +33,7 @@ def stillness(names: Sequence[str]) -> None:
     rows = []
     with TemporaryDirectory() as folder:
         rgb = read_image(media(TARGET)).rgb
-        target, layers = read_target(Path(folder), rgb, options)
+        target, layers, rig = read_target(Path(folder), rgb, options)
         face = np.zeros(target.rgb.shape[:2], np.uint8)
         cv2.fillPoly(face, [target.mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
         for path in driving_clips(names):
@@ -44,7 +44,7 @@ def stillness(names: Sequence[str]) -> None:
                 for _ in range(REPEATS)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
-            frames = list(Acting(track, neutral, target, layers, options).frames())
+            frames = list(Acting(track, neutral, target, layers, rig, options).frames())
             deviation = np.array(frames, np.float32).std(axis=0).mean(axis=2)[face > 0]
             inner = np.array(frames[10:-10], np.float32).std(axis=0).mean(axis=2)[face > 0]
             jitter = track.meshes[..., :2].std(axis=0).mean()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -39,9 +40,9 @@ def turn(pictures: Path | None) -> None:
         driver = write_clip(Path(folder) / "turn.mp4", disguised)
         for label, head_3d in (("2D", False), ("3D", True)):
             options = PortraitOptions(neutral_frame=0, head_3d=head_3d)
-            target, layers = read_target(Path(folder), true[0], options)
+            target, layers, rig = read_target(Path(folder), true[0], options)
             track, neutral = read_driver(driver, target, 0)
-            acting = Acting(track, neutral, target, layers, options)
+            acting = Acting(track, neutral, target, layers, rig, options)
             made[label] = list(acting.frames())
         lines = grid_deviation(acting, rendered[0][1])
     rows = []
@@ -80,10 +81,7 @@ def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float,
     """Largest deviation of the wall's lines outside the person, pixels; the mean where the person at rest
     (`covered`, the truth) had hidden them; and how many of those are there at all."""
     plates = [np.full_like(acting.layers.plate, level) for level in (0, 255)]
-    low, high = (
-        Acting(acting.track, acting.neutral, acting.target, Layers(acting.layers.person, plate), acting.options)
-        for plate in plates
-    )
+    low, high = (replace(acting, layers=Layers(acting.layers.person, plate)) for plate in plates)
     outside: list[float] = [0.0]
     hidden: list[float] = []
     for frame, black, white in zip(acting.frames(step=3), low.frames(step=3), high.frames(step=3), strict=True):

@@ -1,0 +1,85 @@
+"""Contact sheets to look at: a row for each picture, of what was found in it and of the character from all sides.
+
+    python -m benchmarks.character_sheet PICTURE... -o SHEET.png [--options JSON]
+
+From left to right: the picture, its mask, its labels; the character as pictured, from the front, the side and behind; four
+frames of the walk, two of the dance, one of the wave.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.character_steps import Woken, wake
+from benchmarks.tables import machine
+from engine.character.measures import measure, pose
+from engine.character.strokes import LABEL_COLOURS
+from engine.motion.clip import Clip
+from engine.motion.edit import in_place
+from engine.motion.library import built_in
+from engine.render.camera import Camera
+from engine.render.character import draw_character, prepare
+
+HEIGHT = 420
+GREY = np.array([150, 156, 162], np.uint8)
+FRAMES = (("walk", 0.0), ("walk", 0.25), ("walk", 0.5), ("walk", 0.75), ("dance", 0.3), ("dance", 0.6), ("wave", 0.5))
+
+
+def row(woken: Woken) -> NDArray[np.uint8]:
+    """The pictures (HEIGHT, W, 3) of one character."""
+    figure, silhouette, character = woken.figure, woken.silhouette, woken.character
+    subject = prepare(character.mesh)
+    labels = LABEL_COLOURS[woken.labels.labels.astype(int)]
+    mask = np.repeat((silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2)
+    panels = [_to_height(picture) for picture in (figure.rgb, mask, labels)]
+
+    def view(clip: Clip, frame: int, degrees: float) -> NDArray[np.uint8]:
+        posed = pose(character, clip, frame)
+        middle = (posed.max(0) + posed.min(0)) / 2
+        high = float(posed[:, 1].max() - posed[:, 1].min())
+        turn = np.radians(degrees)
+        eye = middle + 3 * high * np.array([np.sin(turn), 0.1, np.cos(turn)])
+        size = (HEIGHT, HEIGHT * 5 // 8)
+        plain = Camera((0, 0, 0), 2.7 * HEIGHT, ((size[1] - 1) / 2, (size[0] - 1) / 2), size)
+        return draw_character(subject, posed, plain.aimed(eye, middle), np.tile(GREY, (*size, 1)), shading=0.25).rgb
+
+    panels += [view(character.pictured, 0, degrees) for degrees in (0, 90, 180)]
+    for name, share in FRAMES:
+        clip = in_place(built_in(name, character.mesh.skeleton))
+        panels.append(view(clip, int(share * len(clip.rotations)), 25))
+    return np.concatenate(panels, 1)
+
+
+def _to_height(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    width = round(picture.shape[1] * HEIGHT / picture.shape[0])
+    return np.asarray(cv2.resize(picture, (width, HEIGHT), interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pictures", nargs="+", type=Path)
+    parser.add_argument("-o", "--out", type=Path, required=True)
+    parser.add_argument("--options", type=json.loads, default={})
+    asked = parser.parse_args()
+    rows = []
+    print(machine())
+    for picture in asked.pictures:
+        start = time.perf_counter()
+        woken = wake(picture, {"partial": True} | asked.options)
+        took = time.perf_counter() - start
+        print(picture.stem, f"{took:.1f} s", measure(woken.figure, woken.silhouette, woken.fitted, woken.character))
+        rows.append(row(woken))
+    width = max(one.shape[1] for one in rows)
+    sheet = np.concatenate([np.pad(one, ((0, 4), (0, width - one.shape[1]), (0, 0))) for one in rows])
+    cv2.imwrite(str(asked.out), sheet[..., ::-1])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,40 @@
+"""A picture's character with everything that was found on the way, without files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from engine.character.figure import Choice, Figure, find_figure
+from engine.character.layers import Labels
+from engine.character.options import CharacterOptions
+from engine.character.rigging import Character
+from engine.character.silhouette import Silhouette, cut_out
+from engine.character.stages import build_mesh, fit_template, label, make_character
+from engine.character.template_fit import FittedBody
+from engine.media.limits import Limits
+
+
+@dataclass(frozen=True)
+class Woken:
+    figure: Figure
+    silhouette: Silhouette
+    fitted: FittedBody
+    labels: Labels
+    character: Character
+
+
+def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
+    """The stages of `engine.character.pipeline` up to the character."""
+    asked = CharacterOptions.model_validate(options)
+    placed = tuple((name, x, y) for name, (x, y) in sorted(asked.joints.items()))
+    choice = Choice(asked.person_box, asked.person_index, placed)
+    figure = find_figure(photo, choice, asked.partial, Limits(), lambda code, message: None)
+    silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None)
+    fitted = fit_template(figure)
+    labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits())
+    mesh = build_mesh(figure, silhouette, fitted, labels)
+    character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)
+    return Woken(figure, silhouette, fitted, labels, character)

@@ -1,0 +1,94 @@
+"""People whose every point is known, drawn into photographs: the truth that characters are held against."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.render.attributes import interpolate
+from engine.render.camera import Camera
+from engine.render.film import shrink
+from engine.render.rasteriser import Raster, rasterise
+from engine.render.surface import vertex_normals
+
+SUPERSAMPLING = 3
+SIZE = (960, 720)
+"""(height, width) of the pictures."""
+LENS = 1.6
+"""Focal length in picture heights. What is measured assumes another one, as it must with any photograph."""
+SHARE = 0.8
+"""How much of the picture's height the person takes, and at most of its width."""
+EYE_HEIGHT = 1.3
+"""Metres of the level camera above the ground, for somebody of 1.8 m."""
+LIGHT, AMBIENT = np.array([0.35, 0.6, 0.72]), 0.5
+SHADE = 0.45
+"""How much darker the ground is beneath the feet."""
+
+
+@dataclass(frozen=True)
+class Person:
+    """`vertices` (V, 3) metres, y up, facing +z, standing on y = 0; `triangles` (T, 3), counter-clockwise from outside;
+    `height` in metres when standing upright; `paint` gives a raster of these triangles its colours (H, W, 3), 0 to 255.
+    `joints` (J, 3), where they are known, are those of the template's rig."""
+
+    name: str
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    height: float
+    paint: Callable[[Raster], NDArray[np.float32]]
+    joints: NDArray[np.float64] | None = None
+
+    def turned(self, degrees: float) -> Person:
+        """The same person turned about the vertical, to their left."""
+        turn = Rotation.from_euler("y", degrees, degrees=True).as_matrix()
+        joints = None if self.joints is None else self.joints @ turn.T
+        name = f"{self.name} {degrees:+.0f}°" if degrees else self.name
+        return Person(name, self.vertices @ turn.T, self.triangles, self.height, self.paint, joints)
+
+
+@dataclass(frozen=True)
+class KnownPicture:
+    """`rgb` (H, W, 3) uint8 shows `person`, whose coverage is `alpha` (H, W) float32, as `camera` sees them."""
+
+    rgb: NDArray[np.uint8]
+    alpha: NDArray[np.float32]
+    camera: Camera
+    person: Person
+
+
+def draw_into(person: Person, background: NDArray[np.uint8]) -> KnownPicture:
+    """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet."""
+    height, width = background.shape[:2]
+    focal = LENS * height
+    distance = focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / SHARE
+    middle = float(person.vertices[:, 0].min() + person.vertices[:, 0].max()) / 2
+    eye = (middle, EYE_HEIGHT * person.height / 1.8, distance)
+    # level, so that upright lines stay upright: the picture is shifted, not the camera tilted
+    centre = ((width - 1) / 2, (height - 1) / 2 + focal / distance * (person.height / 2 - eye[1]))
+    camera = Camera(eye, focal, centre, (height, width))
+    large = camera.enlarged(SUPERSAMPLING)
+    raster = rasterise(large.project(person.vertices), person.triangles, large.size, perspective=True)
+    covered = raster.triangle >= 0
+    normals = interpolate(vertex_normals(person.vertices, person.triangles), person.triangles, raster)
+    lamp = np.abs(normals @ (LIGHT / np.linalg.norm(LIGHT)).astype(np.float32))  # cloth is a single sheet at times
+    shaded = person.paint(raster) * (AMBIENT + (1 - AMBIENT) * lamp[..., None])
+    alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
+    premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    behind = background * _shadow(person, camera)[..., None]
+    picture = premultiplied + (1 - alpha[..., None]) * behind
+    return KnownPicture(np.clip(picture + 0.5, 0, 255).astype(np.uint8), alpha.astype(np.float32), camera, person)
+
+
+def _shadow(person: Person, camera: Camera) -> NDArray[np.float64]:
+    """(H, W) by what the ground is multiplied: darker in an ellipse around the feet."""
+    low = person.vertices[person.vertices[:, 1] < 0.06 * person.height]
+    feet = camera.project(low)
+    x, y = (feet[:, k].mean() for k in range(2))
+    across = 0.7 * np.ptp(feet[:, 0]) + 8
+    rows, columns = np.mgrid[: camera.size[0], : camera.size[1]]
+    away = ((columns - x) / across) ** 2 + ((rows - y) / (0.25 * across)) ** 2
+    return np.asarray(1 - SHADE * np.exp(-(away**2)))

@@ -1,0 +1,151 @@
+"""How far one surface lies from another: aligned by a similarity, point to surface, and by its normals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from trimesh.triangles import closest_point
+
+from engine.render.rasteriser import depth_map
+
+POINTS = 40_000
+"""Samples of a surface; as many triangles' points are looked at as are nearest to one."""
+ALIGNED_BY, ROUNDS = 4_000, 40
+VIEW, DEEP = 500, 0.006
+"""Pixels of the views that tell what lies outside, and metres (of a body 1.8 m high) that still count as the surface."""
+NEAREST = 6
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """What is seen of a surface from outside: `points` (N, 3), `normals` (N, 3) of the triangles, `triangles` (N, 3, 3)."""
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    triangles: NDArray[np.float64]
+
+    def moved(self, move: Similarity) -> Sampled:
+        """Moved by a similarity."""
+        normals = self.normals @ move.turn.T
+        return Sampled(move(self.points), normals, move(self.triangles))
+
+
+@dataclass(frozen=True)
+class Similarity:
+    """x becomes `scale` `turn` x + `shift`."""
+
+    scale: float
+    turn: NDArray[np.float64]
+    shift: NDArray[np.float64]
+
+    def __call__(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+        return np.asarray(self.scale * points @ self.turn.T + self.shift, np.float64)
+
+
+@dataclass(frozen=True)
+class Distances:
+    """`chamfer`: the mean over both directions; `to_surface`: from the true points to the surface that was made; both in
+    the truth's unit. `normals`: degrees between a true point's normal and that of the nearest place made."""
+
+    chamfer: float
+    to_surface: float
+    normals: float
+
+
+def sample_outside(vertices: NDArray[np.floating], triangles: NDArray[np.integer], seed: int = 0) -> Sampled:
+    """Random points of equal density on what can be seen of a body (1.8 m high) from all around: linings, mouths and
+    limbs that lie in others do not count."""
+    random = np.random.default_rng(seed)
+    corners = np.asarray(vertices, np.float64)[triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(cross, axis=1)
+    at = random.choice(len(corners), POINTS, p=areas / areas.sum())
+    a, b = np.sqrt(random.random(POINTS)), random.random(POINTS)
+    weights = np.stack([1 - a, a * (1 - b), a * b], 1)
+    points = np.einsum("nk,nkd->nd", weights, corners[at])
+    towards = _towards_views(np.asarray(vertices, np.float64), triangles, points)
+    seen = towards.any(1)
+    at, towards = at[seen], towards[seen]
+    normals = cross[at] / areas[at, None]
+    normals *= np.where((normals * towards).sum(1, keepdims=True) < 0, -1, 1)  # a single sheet is seen from both sides
+    return Sampled(points[seen], normals, corners[at])
+
+
+def _towards_views(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(N, 3) the sum of the directions, of 26 around, from which each point is seen; zero where it is hidden from all."""
+    middle = (vertices.max(0) + vertices.min(0)) / 2
+    reach = float(np.linalg.norm(vertices - middle, axis=1).max())
+    scale = (VIEW - 2) / (2 * reach)
+    towards = np.zeros((len(points), 3))
+    # a little aside, so that no point is seen from opposite ways alike
+    ways = np.array([w for w in np.ndindex(3, 3, 3) if w != (1, 1, 1)]) - [1.01, 1.02, 1.03]
+    for way in ways:
+        back = way / np.linalg.norm(way)
+        right = np.cross([0.0, 1, 0] if abs(back[1]) < 0.9 else [1.0, 0, 0], back)
+        right /= np.linalg.norm(right)
+        axes = np.stack([right, np.cross(back, right), back])
+
+        def view(places: NDArray[np.float64], axes: NDArray[np.float64] = axes) -> NDArray[np.float64]:
+            x, y, z = (scale * (places - middle) @ axes.T).T
+            return np.stack([x + (VIEW - 1) / 2, (VIEW - 1) / 2 - y, -z], 1)
+
+        nearest = depth_map(view(vertices), triangles, (VIEW, VIEW))
+        x, y, z = view(points).T
+        seen = z < nearest[np.rint(y).astype(int), np.rint(x).astype(int)] + DEEP * scale
+        towards[seen] += back
+    return towards
+
+
+def umeyama(source: NDArray[np.floating], target: NDArray[np.floating]) -> Similarity:
+    """The similarity that brings points (N, 3) closest to their partners.
+
+    Source: S. Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI 1991.
+    """
+    a, b = source - source.mean(0), target - target.mean(0)
+    u, values, v = np.linalg.svd(b.T @ a)
+    proper = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
+    turn = u @ proper @ v
+    scale = float((values * np.diag(proper)).sum() / (a**2).sum())
+    return Similarity(scale, turn, target.mean(0) - scale * turn @ source.mean(0))
+
+
+def align(made: Sampled, truth: Sampled) -> Similarity:
+    """The similarity that brings what was made to the truth: from equal heights and middles, by closest points of both
+    (P. Besl, N. McKay, A method for registration of 3-D shapes, PAMI 1992, with Umeyama's step)."""
+    low, high = made.points.min(0), made.points.max(0)
+    true_low, true_high = truth.points.min(0), truth.points.max(0)
+    scale = float((true_high[1] - true_low[1]) / (high[1] - low[1]))
+    move = Similarity(scale, np.eye(3), (true_low + true_high) / 2 - scale * (low + high) / 2)
+    mine, theirs = made.points[:: max(1, len(made.points) // ALIGNED_BY)], truth.points[:: max(1, len(truth.points) // ALIGNED_BY)]  # fmt: skip
+    fixed = cKDTree(theirs)
+    for _ in range(ROUNDS):
+        moved = move(mine)
+        _, there = fixed.query(moved)
+        _, here = cKDTree(moved).query(theirs)
+        move = umeyama(np.concatenate([mine, mine[here]]), np.concatenate([theirs[there], theirs]))
+    return move
+
+
+def compare(made: Sampled, truth: Sampled) -> Distances:
+    """Distances of aligned surfaces."""
+    there, normal = _to_surface(truth, made)
+    back, _ = _to_surface(made, truth)
+    return Distances(float(there.mean() + back.mean()) / 2, float(there.mean()), float(normal.mean()))
+
+
+def _to_surface(samples: Sampled, surface: Sampled) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """From each point the distance to the nearest of the surface's triangles, and the angle of the normals there."""
+    _, near = cKDTree(surface.points).query(samples.points, k=NEAREST)
+    away = np.stack([
+        np.linalg.norm(closest_point(surface.triangles[near[:, k]], samples.points) - samples.points, axis=1)
+        for k in range(NEAREST)
+    ])  # fmt: skip
+    best = away.argmin(0)
+    each = np.arange(len(best))
+    cosine = (samples.normals * surface.normals[near[each, best]]).sum(1)
+    return away[best, each], np.degrees(np.arccos(np.clip(cosine, -1, 1)))
