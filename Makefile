@@ -5,12 +5,12 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser lock bench picture clean
+.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser client lock bench picture pictures docs licences clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
 
-setup:  ## install into .venv/ and build web/dist/
+setup:  ## install into .venv/, build web/dist/ and the player of reactive profiles
 	@scripts/setup.sh
 
 demo: setup  ## a portrait brought to life through the HTTP API; ONCE=1, IMAGE=..., DRIVER=...
@@ -41,6 +41,9 @@ web-unit:
 web-browser:
 	@cd web && npm run --silent browser -- --reporter=default --reporter=junit --outputFile=../$(REPORTS)/web-browser.xml
 
+client:  ## the page's types anew from the service's OpenAPI document
+	@cd web && npm run --silent client
+
 lock:  ## resolve the dependencies anew into requirements.lock and web/package-lock.json
 	@scripts/lock.sh
 
@@ -50,5 +53,14 @@ bench:  ## the figures of the README
 picture: setup  ## the README's picture
 	@$(BIN)/python -m scripts.picture
 
+pictures: setup  ## the pictures of docs/method.md
+	@$(BIN)/python -m scripts.method_pictures
+
+licences:  ## docs/packages.md, from the installed packages
+	@$(BIN)/python -m scripts.licences
+
+docs:  ## the documentation as a site, in site/
+	@scripts/docs.sh
+
 clean:  ## remove what can be made again (keeps .venv and node_modules)
-	@rm -rf web/dist demo var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis
+	@rm -rf web/dist web/reactive/dist engine/portrait/reactive/player demo site var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis

@@ -80,11 +80,30 @@ build_web() {
   fi
 }
 
-# What only the tests need: a browser that is driven without a window.
+# The web component that plays reactive profiles: npm's package, the service's page and every profile's bundle have it.
+build_player() {
+  local sources script=web/reactive/dist/reactive-portrait.js copy
+  sources=$(find web/reactive web/package.json -type f -not -path '*/dist/*' | LC_ALL=C sort | xargs sha256sum | sha256sum)
+  if ! unchanged web/reactive/dist/.built "$sources"; then
+    say "Building the player of reactive profiles"
+    (cd web && npm run --silent build:reactive -- --logLevel warn)
+    echo "$sources" > web/reactive/dist/.built
+  fi
+  for copy in web/dist engine/portrait/reactive/player; do
+    mkdir -p "$copy"
+    cmp -s "$script" "$copy/${script##*/}" || cp "$script" "$copy/"
+  done
+}
+
+# What only the tests need: a browser that is driven without a window, PostgreSQL, and what makes networks.
 install_test_tools() {
+  compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || install_debian postgresql
+  command -v ip >/dev/null || install_debian iproute2
+  command -v nsenter >/dev/null && command -v setpriv >/dev/null || install_debian util-linux
   [ -n "${GALATEA_CHROMIUM:-}" ] || command -v chromium >/dev/null || install_debian chromium fonts-dejavu-core
 }
 
 install_python
 build_web
+build_player
 if [ "${1:-}" = --for-tests ]; then install_test_tools; fi
