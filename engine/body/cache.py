@@ -13,7 +13,7 @@ import numpy as np
 
 from engine.body import makehuman
 
-FORMAT = 1
+FORMAT = 2
 """Raise it when what is stored changes; older files are then left aside."""
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
-from engine.body.targets import Targets, gather
+from engine.body.targets import Targets, compact, expand, gather
 from engine.body.template import load_template
 
 AGES = {"baby": 0.0, "child": 0.1875, "young": 0.5, "old": 1.0}
@@ -71,18 +71,12 @@ def load_shape_space() -> ShapeSpace:
     """Load the shape space; the first time, convert it from the installed package (about half a minute)."""
     stored = cached_arrays("shape", _convert)
     rest = load_template().vertices
-    targets = {
-        kind: Targets(
-            names=tuple(str(name) for name in stored[f"{kind}_names"]),
-            starts=stored[f"{kind}_starts"],
-            moved=stored[f"{kind}_moved"],
-            counts=stored[f"{kind}_counts"],
-            vertex_count=len(rest),
-        )
-        for kind in ("phenotypes", "changes")
-    }
+    targets = {}
+    for kind in ("phenotypes", "changes"):
+        own = {name.removeprefix(f"{kind}_"): array for name, array in stored.items() if name.startswith(f"{kind}_")}
+        targets[kind] = expand(own, len(rest))
     rooms: dict[str, list[str]] = {}
-    for name, room in zip(targets["changes"].names, stored["changes_rooms"], strict=True):
+    for name, room in zip(targets["changes"].names, stored["rooms"], strict=True):
         rooms.setdefault(str(room), []).append(name)
     return ShapeSpace(rest, targets["phenotypes"], targets["changes"], {k: tuple(v) for k, v in rooms.items()})
 
@@ -134,9 +128,8 @@ def _convert() -> dict[str, np.ndarray]:
         if kind == "changes":
             rooms.append(room)
     vertex_count = len(load_template().vertices)
-    arrays: dict[str, np.ndarray] = {"changes_rooms": np.array(rooms)}
+    arrays: dict[str, np.ndarray] = {"rooms": np.array(rooms)}
     for kind, read in found.items():
-        packed = gather(read, vertex_count)
-        arrays |= {f"{kind}_{part}": getattr(packed, part) for part in ("starts", "moved", "counts")}
-        arrays[f"{kind}_names"] = np.array(packed.names)
+        packed = compact(gather(read, vertex_count))
+        arrays |= {f"{kind}_{part}": array for part, array in packed.items()}
     return arrays

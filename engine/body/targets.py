@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -67,5 +68,38 @@ def gather(
         starts=np.cumsum([0, *(len(c) for c in counts)], dtype=np.int32),
         moved=np.concatenate([vertices for vertices, _ in fields.values()]).astype(np.uint16),
         counts=np.concatenate(counts),
+        vertex_count=vertex_count,
+    )
+
+
+def compact(targets: Targets) -> dict[str, NDArray[np.generic]]:
+    """The targets as smaller arrays, without loss: vertices as runs of neighbours, and the counts' high bytes, most of
+    which say nothing, compressed."""
+    steps = np.diff(targets.moved, prepend=np.uint16(0))  # what goes down wraps around, here and back
+    runs = np.flatnonzero(steps != 1)
+    split = np.ascontiguousarray(targets.counts, "<i2").view(np.uint8).reshape(-1, 2)
+    return {
+        "names": np.array(targets.names),
+        "starts": targets.starts,
+        "runs": runs.astype(np.uint32),
+        "steps": steps[runs],
+        "low": np.ascontiguousarray(split[:, 0]),
+        "high": np.frombuffer(zlib.compress(split[:, 1].tobytes()), np.uint8),
+    }
+
+
+def expand(stored: Mapping[str, NDArray[np.generic]], vertex_count: int) -> Targets:
+    """The inverse of `compact`."""
+    low = stored["low"]
+    split = np.empty((len(low), 2), np.uint8)
+    split[:, 0] = low
+    split[:, 1] = np.frombuffer(zlib.decompress(stored["high"].tobytes()), np.uint8)
+    steps = np.ones(len(low) // 3, np.uint16)
+    steps[stored["runs"].astype(np.intp)] = stored["steps"]
+    return Targets(
+        names=tuple(str(name) for name in stored["names"]),
+        starts=stored["starts"].astype(np.int32),
+        moved=np.cumsum(steps, dtype=np.uint16),
+        counts=split.view("<i2").reshape(-1, 3),
         vertex_count=vertex_count,
     )
