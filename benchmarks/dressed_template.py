@@ -11,8 +11,8 @@ from scipy.sparse import coo_array
 from scipy.spatial.transform import Rotation
 
 from benchmarks.known_person import Person
-from engine.body.body_space import RIG
 from engine.body.rest_pose import t_pose
+from engine.body.rig import HUMAN
 from engine.body.shape import Phenotype, load_shape_space
 from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig, load_template
@@ -104,7 +104,7 @@ LOOKS = (
 
 def dress(look: Look) -> Person:
     """Shape, pose, dress and paint the template."""
-    template, rig = load_template(), load_rig(RIG)
+    template, rig = load_template(), load_rig(HUMAN)
     shape = load_shape_space()
     standing = template.vertices_of("body")
     skeleton, _, rest = t_pose(rig, shape.shape(look.phenotype), standing)

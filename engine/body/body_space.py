@@ -7,13 +7,14 @@ same coefficients (a linear joint regression).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.cache import cached_arrays
 from engine.body.rest_pose import t_pose
+from engine.body.rig import HUMAN, Rig
 from engine.body.shape import Phenotype, ShapeSpace, load_shape_space
 from engine.body.template import load_rig, load_template
 from engine.motion.skeleton import Skeleton
@@ -21,7 +22,6 @@ from engine.motion.skeleton import Skeleton
 COMPONENTS = 40
 SAMPLES = 600
 SEED = 20
-RIG = "mixamo"
 
 CHANGED = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
 """The parts of the body of which some are changed in each sample ..."""
@@ -60,6 +60,17 @@ class BodySpace:
         """The skeleton for up to K coefficients."""
         return Skeleton(self.names, self.parents, self.joints(coefficients))
 
+    def with_joints_of(self, rig: Rig) -> BodySpace:
+        """The same bodies with the joints of another rig alone, all of which this one has."""
+        at = [self.names.index(name) for name in rig.names]
+        return replace(
+            self,
+            names=rig.names,
+            parents=rig.parents,
+            joint_mean=self.joint_mean[at],
+            joint_basis=self.joint_basis[:, at],
+        )
+
 
 def load_body_space() -> BodySpace:
     """Load the space; the first time, sample and analyse it (about a minute)."""
@@ -79,7 +90,7 @@ def load_body_space() -> BodySpace:
 def sample_bodies(count: int, seed: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Random bodies in T-pose: vertices (count, V, 3) and joints (count, J, 3) float32 metres."""
     random = np.random.default_rng(seed)
-    space, rig = load_shape_space(), load_rig(RIG)
+    space, rig = load_shape_space(), load_rig(HUMAN)
     standing = load_template().vertices_of("body")
     bodies, joints = [], []
     for _ in range(count):
@@ -116,7 +127,7 @@ def _convert() -> dict[str, np.ndarray]:
     basis = directions.reshape(COMPONENTS, -1, 3)
     split = bodies.shape[1]
     scale = np.abs(basis[:, :split]).max((1, 2)) / np.iinfo(np.int16).max
-    rig = load_rig(RIG)
+    rig = load_rig(HUMAN)
     return {
         "mean": mean.reshape(-1, 3)[:split].astype(np.float32),
         "joint_mean": mean.reshape(-1, 3)[split:].astype(np.float32),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
+from engine.body.face_points import EYE_CORNERS, MOUTH_CORNERS, face_points, nose_tip
 from engine.body.rig import Rig
 from engine.body.template import Template
 
@@ -46,7 +47,7 @@ class LandmarkModel:
 
 
 def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkModel:
-    """The landmarks of `engine.perception.body.LANDMARKS` that the template has: all but inner and outer eyes and mouth."""
+    """The landmarks of `engine.perception.body.LANDMARKS` on the template. `rig` has the joints of `space`."""
     found: dict[str, tuple[str, NDArray[np.intp] | None]] = {}
     for side, _ in SIDES:
         found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in AT_JOINTS.items()}
@@ -79,7 +80,7 @@ def carrier(name: str) -> str:
 
 
 def surface_points(template: Template, space: BodySpace, rig: Rig) -> Mapping[str, NDArray[np.intp]]:
-    """Vertices whose mean is a landmark: nose, eyes, ears, heels and the tips of the feet, found on the mean body."""
+    """Vertices whose mean is a landmark: nose, eyes, mouth, ears, heels and tips of the feet, found on the mean body."""
     body = template.vertices_of("body")
     mesh = space.mean
     strongest = rig.bones[:, 0]
@@ -87,8 +88,9 @@ def surface_points(template: Template, space: BodySpace, rig: Rig) -> Mapping[st
     eyes = {f"{side}Eye": template.vertices_of(f"{side.lower()}_eye").astype(np.intp) for side, _ in SIDES}
     height = mesh[np.concatenate(list(eyes.values())), 1].mean()
     points: dict[str, NDArray[np.intp]] = dict(eyes)
-    face = head[(np.abs(mesh[head, 0]) < 0.01) & (mesh[head, 1] < height) & (mesh[head, 1] > height - 0.07)]
-    points["Nose"] = _furthest(mesh, face, 2, 1.0)
+    points["Nose"] = np.array([nose_tip(template, space)])
+    on_face = face_points(template, space)
+    points |= {name: on_face[[number]] for name, number in (EYE_CORNERS | MOUTH_CORNERS).items()}
     for side, sign in SIDES:
         beside = head[(np.abs(mesh[head, 1] - height + 0.01) < 0.02) & (sign * mesh[head, 0] > 0)]
         points[f"{side}Ear"] = _furthest(mesh, beside, 0, sign)

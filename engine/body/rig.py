@@ -12,6 +12,14 @@ from numpy.typing import NDArray
 RIGS = ("default", "mixamo", "game_engine")
 """`default` has 163 bones (fingers, toes, face), `mixamo` 52, `game_engine` those of common game engines."""
 
+TINY = 1e-6
+"""Weights below which a bone does not move a vertex."""
+
+HUMAN = "human"
+"""The rig that the project's people are made with: Mixamo's, then the joints of `FACE`."""
+FACE = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
+"""Joints of the head that Mixamo's rig lacks, and the bones of `default` that they are."""
+
 
 @dataclass(frozen=True)
 class Rig:
@@ -41,6 +49,14 @@ class Rig:
         sums = np.add.reduceat(np.asarray(vertices, np.float64)[self.anchors], self.starts[:-1])
         ends = (sums / np.diff(self.starts)[:, None]).astype(np.float32)
         return ends[0::2], ends[1::2]
+
+    def weights_below(self, name: str) -> NDArray[np.float64]:
+        """What a bone and all that hang on it weigh at each vertex together, (V,) in [0, 1]."""
+        below = np.zeros(len(self.names), np.bool_)
+        below[self.index(name)] = True
+        for bone, parent in enumerate(self.parents):
+            below[bone] |= parent >= 0 and below[parent]
+        return np.asarray((self.weights.astype(np.float64) * below[self.bones]).sum(1))
 
 
 def build_rig(
@@ -76,6 +92,37 @@ def build_rig(
         rolls=np.array([bones[name]["roll"] for name in names], np.float32),
         bones=by_bone,
         weights=by_weight,
+    )
+
+
+def with_face(body: Rig, face: Rig) -> Rig:
+    """`body` (Mixamo's rig) and, after its own, the joints of `FACE`, children of `Head`, from `face` (`default`).
+
+    Jaw and eyes take of the weight that the head has at a vertex what they have of it in `face`; lower lip and tongue,
+    whose bones hang on the jaw there, go with the jaw.
+    """
+    carried = face.weights_below("head")
+    head = body.weights_below("Head")
+    own = np.stack([face.weights_below(bone) for bone in FACE.values()], 1)
+    moved = head[:, None] * own / np.maximum(carried, 1e-9)[:, None]
+    table = np.zeros((len(head), len(body.names) + len(FACE)))
+    for rank in range(body.bones.shape[1]):
+        table[np.arange(len(head)), body.bones[:, rank]] += body.weights[:, rank]
+    table[:, body.index("Head")] -= moved.sum(1)
+    table[:, len(body.names) :] = moved
+    order = np.argsort(-table, axis=1, kind="stable")[:, : int((table > TINY).sum(1).max())]
+    weights = np.take_along_axis(table, order, 1)
+    weights = np.where(weights > TINY, weights, 0)
+    at = [face.index(bone) for bone in FACE.values()]
+    spans = [face.anchors[face.starts[2 * b + end] : face.starts[2 * b + end + 1]] for b in at for end in (0, 1)]
+    return Rig(
+        names=(*body.names, *FACE),
+        parents=np.append(body.parents, [body.index("Head")] * len(FACE)).astype(np.int32),
+        starts=np.append(body.starts, body.starts[-1] + np.cumsum([len(span) for span in spans])).astype(np.int32),
+        anchors=np.concatenate([body.anchors, *spans]),
+        rolls=np.append(body.rolls, face.rolls[at]),
+        bones=np.where(weights > 0, order, 0).astype(np.uint8),
+        weights=(weights / weights.sum(1, keepdims=True)).astype(np.float32),
     )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
-from engine.body.rig import Rig, build_rig
+from engine.body.rig import HUMAN, Rig, build_rig, with_face
 from engine.body.targets import Targets, gather
 
 PARTS = {
@@ -103,7 +103,7 @@ def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
 
 
 def load_rig(name: str) -> Rig:
-    """Load one of `engine.body.rig.RIGS`; the first time, convert it (some seconds)."""
+    """Load `engine.body.rig.HUMAN` or one of `RIGS`; the first time, convert it (some seconds)."""
     stored = cached_arrays(f"rig-{name}", lambda: _convert_rig(name))
     arrays = {key: value for key, value in stored.items() if key != "names"}
     return Rig(names=tuple(str(bone) for bone in stored["names"]), **arrays)
@@ -129,6 +129,9 @@ def _convert() -> dict[str, np.ndarray]:
 
 
 def _convert_rig(name: str) -> dict[str, np.ndarray]:
+    if name == HUMAN:
+        human = with_face(load_rig("mixamo"), load_rig("default"))
+        return {**vars(human), "names": np.array(human.names)}
     bones, weights = makehuman.read_rig(name)
     vertex_count = len(makehuman.read_base_mesh().vertices)
     rig = build_rig(bones, weights, makehuman.read_vertex_groups(), vertex_count)

@@ -56,11 +56,9 @@ def wake_up(
 
 def _prepare() -> None:
     from engine.character import pipeline  # noqa: F401 - importing it is half of the preparation
-    from engine.character.head import face_vertices
     from engine.character.template_fit import load_human
 
     load_human()  # a job may not read the user's cache, in which it lies
-    face_vertices()  # nor this
 
 
 def _rehearse(folder: Path) -> None:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from engine.body import load_template
-from engine.body.body_space import RIG, load_body_space
+from engine.body.body_space import load_body_space
 from engine.body.first_guess import first_guess
 from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Seen, fit_body, forward, rotation_matrices
 from engine.body.landmarks import landmark_model
+from engine.body.rig import HUMAN
 from engine.body.template import load_rig
 
 SPACE = load_body_space()
-MARKS = landmark_model(load_template(), SPACE, load_rig(RIG))
+MARKS = landmark_model(load_template(), SPACE, load_rig(HUMAN))
 FOCAL, CENTRE = 1400.0, (320.0, 400.0)
 
 

@@ -5,12 +5,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body import Template
-from engine.body.rig import RIGS, Rig
+from engine.body.rig import FACE, HUMAN, RIGS, Rig
 from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
 
 
-@pytest.fixture(scope="module", params=RIGS)
+@pytest.fixture(scope="module", params=[*RIGS, HUMAN])
 def rig(request: pytest.FixtureRequest) -> Rig:
     return load_rig(request.param)
 
@@ -68,3 +68,40 @@ def test_a_turned_head_carries_the_eyes_and_leaves_the_feet(template: Template) 
     np.testing.assert_allclose(posed[eye], turn.apply(template.vertices[eye] - pivot) + pivot, atol=1e-5)
     low = template.vertices[:, 1] < 0
     np.testing.assert_allclose(posed[low], template.vertices[low], atol=1e-6)
+
+
+def test_the_face_takes_its_weights_from_the_head() -> None:
+    human, mixamo = load_rig(HUMAN), load_rig("mixamo")
+    assert human.names == (*mixamo.names, *FACE)
+    assert {human.names[human.parents[human.index(joint)]] for joint in FACE} == {"Head"}
+    for joint in mixamo.names:
+        np.testing.assert_allclose(human.weights_below(joint), mixamo.weights_below(joint), atol=1e-5)
+
+
+def test_the_jaw_carries_chin_teeth_and_tongue(template: Template) -> None:
+    rig = load_rig(HUMAN)
+    heads, _ = rig.joints(template.vertices)
+    turn = Rotation.from_euler("x", 0.3)
+    posed = skin(template.vertices, rig.bones, rig.weights, bone_transforms(rig, heads, turns(rig, Jaw=turn)))
+    moved = posed - template.vertices
+    lower, pivot = template.vertices_of("lower_teeth"), heads[rig.index("Jaw")]
+    np.testing.assert_allclose(posed[lower], turn.apply(template.vertices[lower] - pivot) + pivot, atol=1e-4)
+    assert moved[lower, 1].max() < -0.005
+    assert moved[template.vertices_of("tongue"), 1].mean() < -0.005
+    assert np.abs(moved[template.vertices_of("upper_teeth")]).max() < 1e-4
+    for part in ("left_eye", "right_eye", "left_upper_lashes"):
+        assert np.abs(moved[template.vertices_of(part)]).max() < 1e-4
+
+
+def test_eyes_turn_about_their_middle(template: Template) -> None:
+    rig = load_rig(HUMAN)
+    heads, _ = rig.joints(template.vertices)
+    turn = Rotation.from_euler("y", 0.3)
+    posed = skin(template.vertices, rig.bones, rig.weights, bone_transforms(rig, heads, turns(rig, LeftEye=turn)))
+    eye, pivot = template.vertices_of("left_eye"), heads[rig.index("LeftEye")]
+    around = template.vertices[eye]
+    assert np.ptp(np.linalg.norm(around - pivot, axis=1)) < 0.005, "the joint is the ball's middle"
+    np.testing.assert_allclose(posed[eye], turn.apply(around - pivot) + pivot, atol=1e-3)
+    np.testing.assert_array_equal(
+        posed[template.vertices_of("right_eye")], template.vertices[template.vertices_of("right_eye")]
+    )
