@@ -9,6 +9,7 @@ joints within what bodies can do (their 3.2) and the shape near the mean (equati
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
+from engine.body.least_squares import descend
 
 TURNED = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
@@ -62,11 +64,6 @@ UPRIGHT, LEVEL = 0.12, 0.2
 who stand. From the picture alone somebody who leans is somebody with shorter legs."""
 BALANCE = 0.07
 """Metres by which the ankles' middle is before or behind the hips, usually: else one would fall."""
-TINY = 1e-4
-TURNS = 40
-"""Most steps of the search ..."""
-LEAST_GAIN = 1e-5
-"""... which ends when a step makes less of a difference than this."""
 
 
 @dataclass(frozen=True)
@@ -154,37 +151,15 @@ def rotation_matrices(vectors: NDArray[np.floating]) -> NDArray[np.float64]:
 def fit_body(space: BodySpace, landmarks: LandmarkModel, seen: Seen, start: NDArray[np.floating]) -> Fit:
     """Fit pose, shape and place to what is seen of a person.
 
-    `start` (P,): first guess (`engine.body.first_guess.first_guess`). By Levenberg and Marquardt's method, with the
-    derivatives from differences: all of them come out of one vectorised evaluation.
+    `start` (P,): first guess (`engine.body.first_guess.first_guess`).
     """
     body = _Body(space, landmarks)
     height = max(float(np.ptp(seen.points[seen.confidence > 0.3, 1], axis=0)), 1.0)
-    parameters = np.asarray(start, np.float64).copy()
-    parameters = _descend(body, replace(seen, noise=max(NOISE, seen.noise)), height, parameters)
+    rough = replace(seen, noise=max(NOISE, seen.noise))
+    parameters = descend(partial(_residuals, body, rough, height), np.asarray(start, np.float64))
     if seen.noise < NOISE:  # near the end only: robust penalties pull no more at what is many deviations off
-        parameters = _descend(body, seen, height, parameters)
+        parameters = descend(partial(_residuals, body, seen, height), parameters)
     return _fit(body, seen, parameters)
-
-
-def _descend(body: _Body, seen: Seen, height: float, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
-    damping = 1e-2
-    residuals = _residuals(body, seen, height, parameters[None])[0]
-    for _ in range(TURNS):
-        nudged = parameters + TINY * np.eye(body.count)
-        jacobian = (_residuals(body, seen, height, nudged) - residuals).T / TINY
-        gradient, hessian = jacobian.T @ residuals, jacobian.T @ jacobian
-        gain = 0.0
-        for _ in range(6):
-            step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian) + 1e-6), -gradient)
-            tried = _residuals(body, seen, height, (parameters + step)[None])[0]
-            if tried @ tried < residuals @ residuals:
-                gain = float(1 - (tried @ tried) / (residuals @ residuals))
-                parameters, residuals, damping = parameters + step, tried, damping / 3
-                break
-            damping *= 4
-        if gain < LEAST_GAIN:
-            break
-    return parameters
 
 
 def _fit(body: _Body, seen: Seen, parameters: NDArray[np.float64]) -> Fit:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -17,16 +17,21 @@ from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS, Body
 from engine.perception.faces import find_faces
+from engine.perception.hands import JOINTS as HAND_JOINTS
+from engine.perception.hands import Side, find_hands
 from engine.perception.people import covered_by, find_body_within, find_people, person_box
 
 LONGEST_SIDE = 1920
 """Pixels: larger pictures are made smaller first."""
 NEEDED = ("LeftShoulder", "RightShoulder", "LeftHip", "RightHip")
+SIDES: tuple[Side, Side] = ("Left", "Right")
+ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"}
+"""Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
 LEGS = ("LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
 PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
 """The joints that can be placed by hand."""
 WHOLE_SKELETON = tuple(
-    f"{side}{joint}" for side in ("Left", "Right") for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
+    f"{side}{joint}" for side in SIDES for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
 )
 """What must be placed where nobody is found."""
 SEEN = 0.35
@@ -57,7 +62,8 @@ class Figure:
     `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `scale`: pixels of `rgb` for
     each of the original picture. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
     `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
-    `engine.perception.faces.find_faces` gives it; None where none is seen."""
+    `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
+    `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen."""
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None
@@ -70,6 +76,7 @@ class Figure:
     index: int
     others: NDArray[np.bool_]
     face: NDArray[np.float32] | None
+    hands: tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
 
     def point(self, name: str) -> NDArray[np.float32]:
         """The pixel (2,) of one of the landmarks."""
@@ -109,6 +116,12 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     for name, place in joints.items():
         points[LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
         confidence[LANDMARKS.index(name)] = 1
+    hands = (None, None) if body is None else _hands(rgb, replace(body, points=points))
+    for side, hand in zip(SIDES, hands, strict=True):
+        for mark, joint in ON_HANDS.items():
+            if hand is not None and f"{side}{mark}" not in joints:
+                points[LANDMARKS.index(f"{side}{mark}")] = hand[HAND_JOINTS.index(joint), :2]
+                confidence[LANDMARKS.index(f"{side}{mark}")] = 1
     figure = Figure(
         rgb=rgb,
         alpha=alpha,
@@ -121,6 +134,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         index=index,
         others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
         face=None if body is None else _face(rgb, points),
+        hands=hands,
     )
     _check_whole(figure, partial, warn)
     check_posture(figure.points, figure.world if figure.spatial else None, warn)
@@ -178,6 +192,12 @@ def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.flo
     mesh = meshes[0] / np.float32(larger)
     mesh[:, :2] += [left + 0.5 / larger - 0.5, top + 0.5 / larger - 0.5]
     return np.asarray(mesh, np.float32) if np.linalg.norm(mesh[1, :2] - at["Nose"]) < 0.4 * reach else None
+
+
+def _hands(rgb: NDArray[np.uint8], body: Body) -> tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]:
+    """The hands (21, 3) at a body's wrists, looked at closely."""
+    seen = {hand.side: np.column_stack([hand.points, hand.depth]) for hand in find_hands(rgb, body)}
+    return seen.get(SIDES[0]), seen.get(SIDES[1])
 
 
 def _same(one: Body, other: Body | None) -> bool:

@@ -1,63 +1,26 @@
 """The head turned as the face says it is: the paper's head pose correction (section 5, first half).
 
-The 68 fiducials are known on the template's face by laying a canonical face mesh on it; where they are seen in the picture,
-the head's turn follows by PnP. Skipped where no face is seen.
+The 68 fiducials are known on the template's face (`engine.body.face_points`); where they are seen in the picture, the head's
+turn follows by PnP. Skipped where no face is seen.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
-from scipy.spatial.transform import Rotation
 
-from engine.body import load_template
-from engine.body.landmarks import surface_points
+from engine.body.face_points import FLIP
 from engine.character.figure import Figure
 from engine.character.template_fit import FittedBody, load_human
-from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import fiducials
 
-FLIP = np.diag([1.0, -1.0, -1.0])
-"""From axes with y up and z to the viewer to those of a camera, and back."""
-ROUNDS = 12
-"""Rounds in which the canonical face is laid on the template's."""
 OFF = 0.2
 """Distances of the eyes by which fiducials may be off on the average; beyond, the face is not believed."""
 TURN = 70.0
 """Degrees by which the face may correct what the body's fit says."""
-
-
-@cache
-def face_vertices() -> NDArray[np.intp]:
-    """(68,) the template's vertices at which the fiducials are."""
-    human = load_human()
-    template = load_template()
-    mesh = human.space.mean.astype(np.float64)
-    points = surface_points(template, human.space, human.rig)
-    left, right = (mesh[points[f"{side}Eye"]].mean(0) for side in ("Left", "Right"))
-    middle, unit = (left + right) / 2, float(np.linalg.norm(left - right))
-    body = template.vertices_of("body")
-    near = body[np.linalg.norm(mesh[body] - middle, axis=1) < 2.5 * unit]
-    face = near[mesh[near, 2] > middle[2] - 0.6 * unit]
-    laid = canonical_face().astype(np.float64) @ FLIP * unit + middle
-    laid += mesh[points["Nose"]].mean(0) - laid[1]
-    tree = cKDTree(mesh[face])
-    for _ in range(ROUNDS):
-        laid = _similar(laid, mesh[face][tree.query(laid)[1]])
-    return np.asarray(face[tree.query(fiducials(laid))[1]])
-
-
-def _similar(points: NDArray[np.float64], target: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points moved, turned and scaled so as to come as near as they can to their targets (S. Umeyama, 1991)."""
-    a, b = points - points.mean(0), target - target.mean(0)
-    turn = Rotation.align_vectors(b, a)[0]
-    scale = np.sqrt((b**2).sum() / (a**2).sum())
-    return np.asarray(scale * turn.apply(a) + target.mean(0))
 
 
 def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
@@ -67,8 +30,8 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
     fit, human = fitted.fit, load_human()
     rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)
     head = human.rig.index("Head")
-    worlds, places = _worlds(human.rig.parents, fit.rotations, heads, fit.place)
-    model = (rest[face_vertices()] - heads[head]).astype(np.float64)
+    worlds, places = joint_axes(human.rig.parents, fit.rotations, heads, fit.place)
+    model = (rest[human.face] - heads[head]).astype(np.float64)
     seen = fiducials(figure.face[:, :2]).astype(np.float64)
     camera = np.array([[fitted.focal, 0, fitted.centre[0]], [0, fitted.focal, fitted.centre[1]], [0, 0, 1]])
     start = cv2.Rodrigues(FLIP @ worlds[head])[0]
@@ -88,7 +51,7 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
     return replace(fitted, fit=replace(fit, rotations=rotations))
 
 
-def _worlds(
+def joint_axes(
     parents: NDArray[np.integer],
     rotations: NDArray[np.floating],
     heads: NDArray[np.floating],

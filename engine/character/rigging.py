@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
-from engine.body.fitting import Fit
 from engine.body.skinning import pose_transforms
 from engine.character.picture_space import PictureCamera
 from engine.character.sheets import ClosedMesh
+from engine.character.template_fit import FittedBody
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
@@ -37,7 +37,7 @@ class Character:
 def bind(
     mesh: ClosedMesh,
     camera: PictureCamera,
-    fit: Fit,
+    fitted: FittedBody,
     space: BodySpace,
     texture: NDArray[np.uint8],
     uv: NDArray[np.float32],
@@ -52,8 +52,10 @@ def bind(
     eye = np.array([0.0, -seen[:, 1].min(), camera.distance])
     posed = seen + eye
     bones, weights = mesh.bones.astype(np.intp), mesh.weights.copy()
-    rest = space.skeleton(fit.coefficients)
-    turns = Rotation.from_matrix(fit.rotations.astype(np.float64)).as_quat()
+    fit = fitted.fit
+    rest = rest_skeleton(fitted, space)
+    own = np.where(fitted.kept[:, None, None], np.eye(3), fit.rotations.astype(np.float64))
+    turns = Rotation.from_matrix(own).as_quat()
     root = fit.place + eye
     transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
         np.float64
@@ -70,3 +72,12 @@ def bind(
     )
     pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
     return Character(bound, pictured, eye, tile)
+
+
+def rest_skeleton(fitted: FittedBody, space: BodySpace) -> Skeleton:
+    """The skeleton in T-pose, but for the joints that are kept as they are in the picture."""
+    straight = space.skeleton(fitted.fit.coefficients)
+    turns = Rotation.from_matrix(np.where(fitted.kept[:, None, None], fitted.fit.rotations, np.eye(3))).as_quat()
+    transforms = pose_transforms(straight, turns[None].astype(np.float32), straight.heads[None, 0])[0]
+    heads = np.einsum("jab,jb->ja", transforms[:, :3, :3], straight.heads) + transforms[:, :3, 3]
+    return Skeleton(straight.names, straight.parents, heads.astype(np.float32))

@@ -13,7 +13,8 @@ from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.face_region import face_ellipse
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
-from engine.character.head import face_vertices, turn_head
+from engine.character.hands import turn_hands
+from engine.character.head import turn_head
 from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
 from engine.character.options import LabelStroke
@@ -73,8 +74,8 @@ def label(
 
 
 def fit_template(figure: Figure) -> FittedBody:
-    """The template fitted to the figure, its head to the face (sections 3 and 5)."""
-    return turn_head(fit_figure(figure), figure)
+    """The template fitted to the figure, its head to the face (sections 3 and 5), its hands to the hands."""
+    return turn_hands(turn_head(fit_figure(figure), figure), figure)
 
 
 def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> ClosedMesh:
@@ -85,7 +86,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
     if figure.face is not None:
         seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
         on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
-        laid = posed.vertices[face_vertices()[JAW:], :2]
+        laid = posed.vertices[human.face[JAW:], :2]
         face = Face(on_grid, laid, labels.labels == PARTS.index("head"))
     return close(build_layers(silhouette.mask, labels, posed, human.rig, face), silhouette.soft)
 
@@ -105,7 +106,7 @@ def make_character(
     texture, uv = atlas(tiles, mesh, 0)
     tile = tiles.seen.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())
-    character = bind(mesh, camera, fitted.fit, load_human().space, texture, uv, tile)
+    character = bind(mesh, camera, fitted, load_human().space, texture, uv, tile)
     return replace(character, mesh=fewer_triangles(character.mesh, triangles))
 
 

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body import load_template
-from engine.body.body_space import RIG, BodySpace, load_body_space
+from engine.body.body_space import BodySpace, load_body_space
+from engine.body.face_points import face_points
 from engine.body.first_guess import first_guess
 from engine.body.fitting import LIMBS, Fit, Seen, fit_body
+from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
 from engine.body.rig import Rig
 from engine.body.skinning import bone_transforms, skin
@@ -23,10 +25,21 @@ from engine.character.picture_space import PictureCamera
 from engine.perception.body import LANDMARKS
 from engine.render.surface import triangulate
 
+RIG = "mixamo"
+"""The rig of a character, who is one surface: the joints of `engine.body.rig.FACE` would move nothing that opens or turns."""
 FOCAL = 2.2
 """Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
-RELIABLE = {"Pinky": 0.3, "Index": 0.3, "Thumb": 0.2, "Heel": 0.5, "FootIndex": 0.6, "Ear": 0.6, "Hip": 0.5}
-"""How much these landmarks count; the others count 1."""
+RELIABLE = {
+    "Pinky": 0.3,
+    "Index": 0.3,
+    "Thumb": 0.2,
+    "Heel": 0.5,
+    "FootIndex": 0.6,
+    "Ear": 0.6,
+    "Hip": 0.5,
+} | dict.fromkeys(("EyeInner", "EyeOuter", "MouthLeft", "MouthRight"), 0.0)
+"""How much these landmarks count; the others count 1. Nose, eyes and ears say enough of the head, whose turn is found by all
+of its face points."""
 BEFORE, NARROWER, SEEN = 0.2, 0.9, 0.5
 """Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
 confidence from which a joint is seen and not hidden."""
@@ -36,11 +49,13 @@ JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip"
 
 @dataclass(frozen=True)
 class FittedBody:
-    """The fit, and the picture's camera: `focal` pixels, `centre` (2,)."""
+    """The fit, and the picture's camera: `focal` pixels, `centre` (2,). `kept` (J,): the joints that stay turned as they are
+    in the picture when the character stands in T-pose."""
 
     fit: Fit
     focal: float
     centre: tuple[float, float]
+    kept: NDArray[np.bool_]
 
     def camera(self) -> PictureCamera:
         """The camera of the picture."""
@@ -49,20 +64,29 @@ class FittedBody:
 
 @dataclass(frozen=True)
 class Human:
-    """The template's data that a character is made of."""
+    """The template's data that a character is made of. `face` (68,): the vertices at the face points."""
 
     space: BodySpace
     rig: Rig
     triangles: NDArray[np.int32]
     landmarks: LandmarkModel
+    face: NDArray[np.intp]
+    hands: tuple[HandModel, HandModel]
 
 
 @cache
 def load_human() -> Human:
     """Load the template, its rig and its space of bodies, once for the process."""
-    template, space, rig = load_template(), load_body_space(), load_rig(RIG)
-    landmarks = landmark_model(template, space, rig)
-    return Human(space, rig, triangulate(template.quads[template.faces("body")]), landmarks)
+    template, rig = load_template(), load_rig(RIG)
+    space = load_body_space().with_joints_of(rig)
+    return Human(
+        space,
+        rig,
+        triangulate(template.quads[template.faces("body")]),
+        landmark_model(template, space, rig),
+        face_points(template, space),
+        (hand_model(template, space, rig, "Left"), hand_model(template, space, rig, "Right")),
+    )
 
 
 def fit_figure(figure: Figure) -> FittedBody:
@@ -91,7 +115,8 @@ def fit_figure(figure: Figure) -> FittedBody:
         centre,
     )
     start = first_guess(human.space, landmarks, seen, {joint: world[place] for joint, place in places.items()})
-    return FittedBody(fit_body(human.space, landmarks, seen, start), focal, centre)
+    kept = np.zeros(len(human.space.names), np.bool_)
+    return FittedBody(fit_body(human.space, landmarks, seen, start), focal, centre, kept)
 
 
 def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:

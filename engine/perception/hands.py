@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Any, Literal
 
@@ -33,12 +33,14 @@ class Hand:
     ----------
     side : the person's own "Left" or "Right".
     points : (21, 2) float32, x and y in pixels.
+    depth : (21,) float32, pixels by which each point is nearer to the viewer than the wrist: of one scale with `points`.
     world : (21, 3) float32, metres around the hand's middle: x to the picture's right, y up, z to the viewer.
     confidence : [0, 1].
     """
 
     side: Side
     points: NDArray[np.float32]
+    depth: NDArray[np.float32]
     world: NDArray[np.float32]
     confidence: float
 
@@ -97,7 +99,12 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
     with _hands(video=False, hands=2, confidence=confidence) as network:
         hands = _read(network.process(np.ascontiguousarray(crop, np.uint8)), (CROP_SIZE, CROP_SIZE))
     hands = [
-        Hand(side, ((hand.points - into_crop[:, 2]) / scale).astype(np.float32), hand.world, hand.confidence)
+        replace(
+            hand,
+            side=side,
+            points=((hand.points - into_crop[:, 2]) / scale).astype(np.float32),
+            depth=(hand.depth / scale).astype(np.float32),
+        )
         for hand in hands
     ]
     hands = [hand for hand in hands if np.linalg.norm(hand.points[0] - wrist) < reach / 2]
@@ -126,8 +133,9 @@ def _read(result: Any, shape: tuple[int, int]) -> list[Hand]:
     ):
         label = handedness.classification[0]
         points = np.array([(p.x * width - 0.5, p.y * height - 0.5) for p in marks.landmark], np.float32)
+        depth = np.array([-p.z * width for p in marks.landmark], np.float32)
         metres = np.array([(p.x, -p.y, -p.z) for p in world.landmark], np.float32)
         # the network was trained on mirrored selfies: its left is our right
         side: Side = "Right" if label.label == "Left" else "Left"
-        hands.append(Hand(side, points, metres, float(label.score)))
+        hands.append(Hand(side, points, depth, metres, float(label.score)))
     return sorted(hands, key=lambda hand: -hand.confidence)

@@ -16,9 +16,11 @@ from engine.character.part_surface import Surface, outline, part_surface, warp_p
 from engine.character.picture_space import PictureCamera
 from engine.character.rigging import bind
 from engine.character.sheets import Layer, close
+from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
 from engine.character.texture import continued_colours
 from engine.geometry.welding import is_closed
+from engine.motion.kinematics import joint_places
 
 
 def disk(size: int, radius: float, x: float, y: float) -> np.ndarray:
@@ -109,7 +111,9 @@ def test_a_waist_of_one_pixel_is_no_pinch() -> None:
     assert is_closed(point.ravel()[mesh.triangles])
 
 
-def test_posed_as_pictured_the_vertices_are_where_they_were() -> None:
+@pytest.mark.parametrize("held", [(), ("LeftHandIndex1", "LeftHandIndex2", "LeftHandIndex3")])
+def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...]) -> None:
+    """Whether fingers are stretched in T-pose or kept as they are."""
     space, random = load_body_space(), np.random.default_rng(4)
     turns = Rotation.from_rotvec(random.normal(0, 0.3, (len(space.names), 3))).as_matrix()
     fit = Fit(
@@ -125,14 +129,21 @@ def test_posed_as_pictured_the_vertices_are_where_they_were() -> None:
     bones = random.integers(0, 22, (len(mesh.vertices), 4)).astype(np.uint8)
     mesh = type(mesh)(mesh.vertices, mesh.triangles, mesh.front, mesh.layer, bones, weights)
     camera = PictureCamera(100.0, (32, 32), 3.0)
+    kept = np.isin(space.names, held)
+    fitted = FittedBody(fit, 100.0, (32, 32), kept)
     character = bind(
-        mesh, camera, fit, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
+        mesh, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
     )
     bound, pictured = character.mesh, character.pictured
     transforms = pose_transforms(bound.skeleton, pictured.rotations, pictured.root)[0]
     posed = skin(bound.vertices, bound.bones, bound.weights, transforms)
     np.testing.assert_allclose(posed, camera.to_metres(mesh.vertices) + character.eye, atol=2e-4)
     assert abs(bound.vertices[:, 1].min()) < 1e-5, "the T-pose stands on the ground"
+    plain = FittedBody(fit, 100.0, (32, 32), np.zeros_like(kept))
+    straight = bind(mesh, camera, plain, space, bound.texture, bound.uv, 1.0)
+    places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
+    np.testing.assert_allclose(*places, atol=1e-4)
+    np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
 
 
 def test_bones_belong_to_parts() -> None:

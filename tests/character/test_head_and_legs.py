@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from engine.body.fitting import COEFFICIENTS, Fit
 from engine.character.face_warp import Face, with_face
 from engine.character.figure import Figure
-from engine.character.head import face_vertices, turn_head
+from engine.character.head import turn_head
 from engine.character.legs import hem
 from engine.character.part_surface import Surface, warp_part
 from engine.character.sheets import Layer, close
@@ -25,13 +25,13 @@ def standing() -> FittedBody:
     human = load_human()
     turns = np.broadcast_to(np.eye(3, dtype=np.float32), (len(human.rig.names), 3, 3)).copy()
     fit = Fit(np.zeros(COEFFICIENTS, np.float32), turns, PLACE.astype(np.float32), 0.0, np.zeros(1))
-    return FittedBody(fit, FOCAL, CENTRE)
+    return FittedBody(fit, FOCAL, CENTRE, np.zeros(len(turns), np.bool_))
 
 
 def figure_with(face: np.ndarray | None) -> Figure:
     nothing = np.zeros((33, 3), np.float32)
     return Figure(np.zeros((800, 600, 3), np.uint8), None, nothing[:, :2], nothing[:, 0], nothing, True, 1.0,
-                  np.zeros((1, 4), np.float32), 0, np.zeros((800, 600), np.bool_), face)  # fmt: skip
+                  np.zeros((1, 4), np.float32), 0, np.zeros((800, 600), np.bool_), face, (None, None))  # fmt: skip
 
 
 def seen_face(turn: np.ndarray) -> np.ndarray:
@@ -40,7 +40,7 @@ def seen_face(turn: np.ndarray) -> np.ndarray:
     nobody = np.zeros(COEFFICIENTS, np.float32)
     rest, heads = human.space.vertices(nobody), human.space.joints(nobody)
     joint = heads[human.rig.index("Head")]
-    at = (rest[face_vertices()] - joint) @ turn.T + joint - heads[0] + PLACE
+    at = (rest[human.face] - joint) @ turn.T + joint - heads[0] + PLACE
     pixels = at[:, :2] * [FOCAL, -FOCAL] / -at[:, 2:] + CENTRE
     return mesh_from_fiducials(pixels.astype(np.float32))
 

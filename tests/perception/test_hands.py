@@ -75,3 +75,16 @@ def test_names_of_the_joints() -> None:
 
 def test_no_hands_there() -> None:
     assert find_hands(np.full((240, 320, 3), 128, np.uint8)) == []
+
+
+def test_depth_and_places_in_space_agree(media: Media) -> None:
+    """Both answers to which fingers are nearer, in pixels and in metres, of an open hand."""
+    picture = read(media("fullbody/scan_render_corey_wave.jpg"))
+    body = find_body(picture)
+    assert body is not None
+    waving = next(hand for hand in find_hands(picture, body) if hand.side == "Right")
+    assert abs(waving.depth[0]) < 1
+    world = waving.world - waving.world[0]
+    scale = np.linalg.norm(waving.points[12] - waving.points[0]) / np.linalg.norm(world[12, :2])
+    length = np.linalg.norm(waving.points[12] - waving.points[0])
+    assert np.median(np.abs(waving.depth - scale * world[:, 2])) < 0.15 * length

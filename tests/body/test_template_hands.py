@@ -1,0 +1,127 @@
+"""Hands: landmarks where they belong, fingers that bend to the palm, and known turns that come back from landmarks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from engine.body import Template
+from engine.body.body_space import BodySpace, load_body_space
+from engine.body.hand_fitting import HandFit, Standpoint, fit_hand, hand_length
+from engine.body.hands import FINGERS, HandModel, chain, hand_model
+from engine.body.rig import HUMAN
+from engine.body.skinning import bone_transforms
+from engine.body.template import load_rig
+from engine.perception.hands import JOINTS
+
+FOCAL, CENTRE, WRIST = 2000.0, (500.0, 500.0), np.array([0.4, 0.1, -3.5])
+BODY = np.zeros(4)
+
+
+@pytest.fixture(scope="module")
+def space() -> BodySpace:
+    return load_body_space()
+
+
+@pytest.fixture(scope="module", params=["Left", "Right"])
+def model(request: pytest.FixtureRequest, space: BodySpace, template: Template) -> HandModel:
+    return hand_model(template, space, load_rig(HUMAN), request.param)
+
+
+def bent(model: HandModel, space: BodySpace, turns: dict[str, Rotation], arm: np.ndarray) -> np.ndarray:
+    """The landmarks (21, 3), metres around the wrist, of a hand whose joints are turned, on a forearm with these axes."""
+    rig = load_rig(HUMAN)
+    own = np.tile(np.eye(3), (len(rig.names), 1, 1))
+    for name, turn in turns.items():
+        own[space.names.index(f"{model.side}Hand{name}")] = turn.as_matrix()
+    transforms = bone_transforms(rig, space.joint_mean, own)[model.joints]
+    places = np.einsum("nij,nj->ni", transforms[:, :3, :3], model.mean) + transforms[:, :3, 3]
+    return (places - places[0]) @ arm.T
+
+
+def seen(places: np.ndarray) -> np.ndarray:
+    """What perception would say of landmarks around the wrist: pixels, and pixels towards the viewer."""
+    at = WRIST + places
+    pixels = at[:, :2] * [FOCAL, -FOCAL] / -at[:, 2:] + CENTRE
+    return np.column_stack([pixels, places[:, 2] * FOCAL / -WRIST[2]])
+
+
+def refit(model: HandModel, arm: np.ndarray, marks: np.ndarray) -> HandFit:
+    return fit_hand(model, BODY, Standpoint(arm, WRIST, np.eye(3), FOCAL, CENTRE), marks)
+
+
+def test_fingers_lie_beside_each_other_and_end_in_their_tips(model: HandModel) -> None:
+    sign = 1 if model.side == "Left" else -1
+    for finger in FINGERS:
+        out = sign * model.mean[chain(finger), 0]
+        assert (np.diff(out) > 0.01).all()
+        assert np.linalg.norm(np.diff(model.mean[chain(finger)], axis=0), axis=1)[2] > 0.012  # the tip is not the joint
+    knuckles = model.mean[[JOINTS.index(f"{finger}1") for finger in FINGERS[1:]], 2]
+    assert (np.diff(knuckles) < 0).all(), "from the index, in front, to the little finger"
+
+
+def test_both_hands_are_each_others_mirror_images(space: BodySpace, template: Template) -> None:
+    left, right = (hand_model(template, space, load_rig(HUMAN), side) for side in ("Left", "Right"))
+    np.testing.assert_allclose((left.mean - left.mean[0]) * [-1, 1, 1], right.mean - right.mean[0], atol=0.003)
+    np.testing.assert_allclose(
+        left.bend * [1, -1, -1], right.bend, atol=0.03
+    )  # axes of turns are mirrored the other way
+
+
+def test_bent_fingers_make_a_fist(model: HandModel, space: BodySpace) -> None:
+    """Tips come to the palm: below the hand, whose palm looks down in T-pose, and nearer to the wrist."""
+    turns = {
+        f"{finger}{k}": Rotation.from_rotvec(0.8 * axis)
+        for finger, axis in zip(FINGERS[1:], model.bend[1:], strict=True)
+        for k in (1, 2, 3)
+    }
+    flat, fist = bent(model, space, {}, np.eye(3)), bent(model, space, turns, np.eye(3))
+    tips = [chain(finger)[3] for finger in FINGERS[1:]]
+    knuckles = [chain(finger)[0] for finger in FINGERS[1:]]
+    assert (fist[tips, 1] < fist[knuckles, 1] - 0.01).all()
+    assert (np.linalg.norm(fist[tips], axis=1) < 0.75 * np.linalg.norm(flat[tips], axis=1)).all()
+    thumb = chain("Thumb")[3]
+    bends = {f"Thumb{k}": Rotation.from_rotvec(0.6 * model.bend[0]) for k in (2, 3)}
+    across = bent(model, space, bends, np.eye(3))[thumb], flat[thumb]
+    little = flat[chain("Pinky")[0]]
+    assert np.linalg.norm(across[0] - little) < np.linalg.norm(across[1] - little)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_known_turns_come_back(model: HandModel, space: BodySpace, seed: int) -> None:
+    """Seen from the wrist: joints within five millimetres in the median, and none a centimetre away."""
+    random = np.random.default_rng(seed)
+    turns = {"": Rotation.from_rotvec(random.uniform(-0.4, 0.4, 3))}
+    for finger, axis in zip(FINGERS, model.bend, strict=True):
+        curl = random.uniform(0, 0.9)
+        spread = Rotation.from_rotvec(random.uniform(-0.1, 0.1) * model.spread)
+        turns[f"{finger}1"] = spread * Rotation.from_rotvec((0.2 if finger == "Thumb" else curl) * axis)
+        turns[f"{finger}2"] = Rotation.from_rotvec(curl * axis)
+        turns[f"{finger}3"] = Rotation.from_rotvec(0.6 * curl * axis)
+    arm = Rotation.from_euler("xyz", [random.uniform(-0.6, 0.6), random.uniform(-0.5, 0.5), random.uniform(-1, 0.5)])
+    truth = bent(model, space, turns, arm.as_matrix())
+    fit = refit(model, arm.as_matrix(), seen(truth))
+    turned = [0, *(mark for finger in FINGERS for mark in chain(finger)[:3])]
+    found = {JOINTS[mark]: Rotation.from_matrix(r) for mark, r in zip(turned, fit.rotations, strict=True)}
+    away = np.linalg.norm(bent(model, space, found, arm.as_matrix()) - truth, axis=1)
+    assert np.median(away[1:]) < 0.005
+    assert away.max() < 0.01
+    assert fit.off < 0.01
+    assert abs(fit.scale - 1) < 0.05
+
+
+def test_a_hand_elsewhere_and_larger_is_said_to_be(model: HandModel, space: BodySpace) -> None:
+    marks = seen(bent(model, space, {}, np.eye(3)))
+    moved = marks.copy()
+    moved[:, :2] = (marks[:, :2] - marks[0, :2]) * 1.2 + marks[0, :2] + [6, -4]
+    moved[:, 2] *= 1.2
+    fit = refit(model, np.eye(3), moved)
+    np.testing.assert_allclose(fit.shift, [6, -4], atol=0.1 * hand_length(marks))
+    assert 1.1 < fit.scale < 1.25
+    assert fit.off < 0.02
+
+
+def test_what_is_no_hand_fits_badly(model: HandModel) -> None:
+    noise = np.random.default_rng(3).uniform(-50, 50, (21, 3)) + np.array([700, 450, 0])
+    assert refit(model, np.eye(3), noise).off > 0.08
