@@ -57,7 +57,8 @@ def stretched(character: Character) -> float:
 def front_and_stretch(photo: Path, partial: bool) -> tuple[float, float]:
     """(decibels, share of stretched edges) of a picture's character."""
     figure = find_figure(photo, Choice(), partial, Limits(), lambda code, message: None)
-    silhouette, fitted = cut_out(figure, None, (), Limits(), None, None), fit_template(figure)
+    silhouette = cut_out(figure, None, (), Limits(), None, None)
+    fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, (), Limits())
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, 60_000, "mirror")

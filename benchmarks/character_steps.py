@@ -33,7 +33,7 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     choice = Choice(asked.person_box, asked.person_index, placed)
     figure = find_figure(photo, choice, asked.partial, Limits(), lambda code, message: None)
     silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None)
-    fitted = fit_template(figure)
+    fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits())
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)

@@ -2,8 +2,9 @@
 
 The role of F. Bogo et al., Keep it SMPL: Automatic Estimation of 3D Human Pose and Shape from a Single Image, ECCV 2016,
 with other data terms: besides the landmarks in the picture (their equation 2, with the same robust penalty), the
-directions of limbs in space as perception believes them, which settle what lies in front and what behind. Priors keep
-joints within what bodies can do (their 3.2) and the shape near the mean (equation 6).
+directions of limbs in space as perception believes them, which settle what lies in front and what behind, and the
+outline of the person's mask. Priors keep joints within what bodies can do (their 3.2) and the shape near the mean
+(equation 6).
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from scipy.spatial.transform import Rotation
 from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
 from engine.body.least_squares import descend
+from engine.body.outline import POINTS, Outline, Skin, meet
 
 TURNED = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
@@ -64,6 +66,14 @@ UPRIGHT, LEVEL = 0.12, 0.2
 who stand. From the picture alone somebody who leans is somebody with shorter legs."""
 BALANCE = 0.07
 """Metres by which the ankles' middle is before or behind the hips, usually: else one would fall."""
+WORN, BARE = 0.02, 0.01
+"""How far the body stays behind the outline, usually, and stands out of it, as shares of the body's height."""
+CLOTHES = 2.0
+"""Deviations at which the pull of an outline is at its strongest: skirts and coats say little about who wears them."""
+INDEPENDENT = 60.0
+"""As how many independent measurements all points of an outline count."""
+ROUNDS, STEPS = 4, 4
+"""How often the outline's points are met anew, and the most steps of the search each time."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +107,20 @@ class Fit:
     parameters: NDArray[np.float64]
 
 
-class _Body:
-    """The model's joints and landmarks for many parameters at once."""
+@dataclass(frozen=True)
+class Met:
+    """Points of the body's surface, `skin`, and the points (R, 2) of the outline that they meet, with normals (R, 2)."""
 
-    def __init__(self, space: BodySpace, landmarks: LandmarkModel):
-        self.space, self.landmarks = space, landmarks
+    skin: Skin
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+
+
+class _Body:
+    """The model's joints, landmarks and points of the surface for many parameters at once."""
+
+    def __init__(self, space: BodySpace, landmarks: LandmarkModel, met: Met | None = None):
+        self.space, self.landmarks, self.met = space, landmarks, met
         self.turned = [space.names.index(name) for name in TURNED]
         self.count = 3 + 3 * len(TURNED) + COEFFICIENTS
 
@@ -112,12 +131,11 @@ class _Body:
         place, turns, shape = np.split(parameters, [3, 3 + 3 * len(TURNED)], axis=-1)
         return place, turns.reshape(*turns.shape[:-1], len(TURNED), 3), shape
 
-    def __call__(self, parameters: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Joints (N, J, 3) and landmarks (N, L, 3) for parameters (N, P)."""
+    def __call__(self, parameters: NDArray[np.float64]) -> Posed:
+        """Posed by parameters (N, P)."""
         place, turns, shape = self.split(parameters)
         own = rotation_matrices(turns)
         rest = self.space.joints(shape).astype(np.float64)
-        marks = self.landmarks.mean + np.tensordot(shape, self.landmarks.basis[:COEFFICIENTS], 1)
         world = np.empty((len(parameters), len(self.space.names), 3, 3))
         joints = np.empty_like(rest)
         for joint, parent in enumerate(self.space.parents):
@@ -129,17 +147,33 @@ class _Body:
                 world[:, joint] = world[:, parent]
             if joint in self.turned:
                 world[:, joint] = world[:, joint] @ own[:, self.turned.index(joint)]
-        at = self.landmarks.joints
-        points = joints[:, at] + np.einsum("nlij,nlj->nli", world[:, at], marks - rest[:, at])
-        return joints, points
+        return Posed(shape, rest, joints, world)
+
+
+@dataclass(frozen=True)
+class Posed:
+    """N bodies: coefficients `shape` (N, K), joints at `rest` (N, J, 3), `joints` (N, J, 3) in the pose, and the turns of
+    their axes in the `world` (N, J, 3, 3)."""
+
+    shape: NDArray[np.float64]
+    rest: NDArray[np.float64]
+    joints: NDArray[np.float64]
+    world: NDArray[np.float64]
+
+    def carried(self, model: LandmarkModel | Skin) -> NDArray[np.float64]:
+        """Where points (L) that joints carry are, (N, L, 3)."""
+        marks = model.mean + np.tensordot(self.shape, model.basis[: self.shape.shape[1]], 1)
+        at = model.joints
+        turned = self.world[:, at] @ (marks - self.rest[:, at])[..., None]
+        return np.asarray(self.joints[:, at] + turned[..., 0])
 
 
 def forward(
     space: BodySpace, landmarks: LandmarkModel, parameters: NDArray[np.floating]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Joints (J, 3) and landmarks (L, 3), metres from the camera, for the parameters (P,) of a fit."""
-    joints, points = _Body(space, landmarks)(np.asarray(parameters, np.float64)[None])
-    return joints[0], points[0]
+    posed = _Body(space, landmarks)(np.asarray(parameters, np.float64)[None])
+    return posed.joints[0], posed.carried(landmarks)[0]
 
 
 def rotation_matrices(vectors: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -148,10 +182,18 @@ def rotation_matrices(vectors: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.asarray(found.reshape(*np.shape(vectors), 3))
 
 
-def fit_body(space: BodySpace, landmarks: LandmarkModel, seen: Seen, start: NDArray[np.floating]) -> Fit:
+def fit_body(
+    space: BodySpace,
+    landmarks: LandmarkModel,
+    seen: Seen,
+    start: NDArray[np.floating],
+    outline: Outline | None = None,
+    skin: Skin | None = None,
+) -> Fit:
     """Fit pose, shape and place to what is seen of a person.
 
-    `start` (P,): first guess (`engine.body.first_guess.first_guess`).
+    `start` (P,): first guess (`engine.body.first_guess.first_guess`). `outline` of the person's mask, and the `skin` that
+    is to meet it.
     """
     body = _Body(space, landmarks)
     height = max(float(np.ptp(seen.points[seen.confidence > 0.3, 1], axis=0)), 1.0)
@@ -159,14 +201,27 @@ def fit_body(space: BodySpace, landmarks: LandmarkModel, seen: Seen, start: NDAr
     parameters = descend(partial(_residuals, body, rough, height), np.asarray(start, np.float64))
     if seen.noise < NOISE:  # near the end only: robust penalties pull no more at what is many deviations off
         parameters = descend(partial(_residuals, body, seen, height), parameters)
+    if outline is not None and skin is not None and len(outline.points):
+        for _ in range(ROUNDS):
+            met = _meet(body, seen, height, parameters, outline, skin)
+            parameters = descend(partial(_residuals, _Body(space, landmarks, met), seen, height), parameters, STEPS)
     return _fit(body, seen, parameters)
+
+
+def _meet(body: _Body, seen: Seen, height: float, parameters: NDArray[np.float64], outline: Outline, skin: Skin) -> Met:
+    """The parts of the skin that the outline's points ask for, as the body stands now."""
+    posed = body(parameters[None])
+    pixels = _project(posed.carried(skin), seen)[0]
+    normals = (posed.world[0, skin.joints] @ skin.normals[..., None])[..., 0] * [1, -1, 1]
+    which, at = meet(outline, pixels, normals, height)
+    return Met(skin.some(at), outline.points[which], outline.normals[which])
 
 
 def _fit(body: _Body, seen: Seen, parameters: NDArray[np.float64]) -> Fit:
     place, turns, shape = body.split(parameters)
     rotations = np.broadcast_to(np.eye(3), (len(body.space.names), 3, 3)).copy()
     rotations[body.turned] = rotation_matrices(turns)
-    off = _project(body(parameters[None])[1], seen)[0] - seen.points
+    off = _project(body(parameters[None]).carried(body.landmarks), seen)[0] - seen.points
     believed = seen.confidence > 0.5
     error = float(np.sqrt((off[believed] ** 2).sum(-1).mean())) if believed.any() else 0.0
     return Fit(shape.astype(np.float32), rotations.astype(np.float32), place.astype(np.float32), error, parameters)
@@ -180,7 +235,8 @@ def _project(points: NDArray[np.float64], seen: Seen) -> NDArray[np.float64]:
 
 def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
     """(N, R): what is to be small, in standard deviations."""
-    joints, points = body(parameters)
+    posed = body(parameters)
+    joints, points = posed.joints, posed.carried(body.landmarks)
     _, turns, shape = body.split(parameters)
     off = (_project(points, seen) - seen.points) / (seen.noise * height)
     squared = (off**2).sum(-1, keepdims=True)
@@ -198,7 +254,16 @@ def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.fl
     stance = (joints[:, ankles, 2].mean(1) - joints[:, names.index("Hips"), 2]) / BALANCE
     count = len(parameters)
     data = [off.reshape(count, -1), limbs.reshape(count, -1)]
+    if body.met is not None:
+        data.append(_behind_the_outline(body.met, posed, seen, height))
     return np.concatenate([*data, lean[:, None], stance[:, None], legs, _prior(turns), _beyond(turns), shape], axis=1)
+
+
+def _behind_the_outline(met: Met, posed: Posed, seen: Seen, height: float) -> NDArray[np.float64]:
+    """(N, R) how far the skin is from the outline that it meets, in standard deviations: of clothes, or of skin."""
+    across = ((_project(posed.carried(met.skin), seen) - met.points) * met.normals).sum(-1)
+    off = across / (np.where(across > 0, BARE, WORN) * height)
+    return np.asarray(off * np.sqrt(INDEPENDENT / POINTS / (1 + off**2 / CLOTHES**2)))
 
 
 def _prior(turns: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -19,15 +19,16 @@ LEAST_GAIN = 1e-5
 
 
 def descend(
-    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]], start: NDArray[np.float64]
+    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]], start: NDArray[np.float64], steps: int = STEPS
 ) -> NDArray[np.float64]:
-    """The parameters (P,) near `start` for which the sum of squares of `residuals`, (N, P) to (N, R), is least.
+    """The parameters (P,) near `start` for which the sum of squares of `residuals`, (N, P) to (N, R), is least, as far as so
+    many `steps` lead.
 
     By Levenberg and Marquardt's method, with the derivatives from differences: all of them come out of one evaluation.
     """
     parameters, damping = start, 1e-2
     now = residuals(parameters[None])[0]
-    for _ in range(STEPS):
+    for _ in range(steps):
         jacobian = (residuals(parameters + TINY * np.eye(len(parameters))) - now).T / TINY
         gradient, hessian = jacobian.T @ now, jacobian.T @ jacobian
         gain = 0.0

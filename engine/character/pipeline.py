@@ -135,7 +135,7 @@ def reconstruct(
     figure: Figure, silhouette: Silhouette, label_map: Path | None, options: CharacterOptions, run: Run
 ) -> Person:
     """From the mask to the character."""
-    fitted = run.stage("fit_template", fit_template, figure)
+    fitted = run.stage("fit_template", fit_template, figure, silhouette)
     labels = run.stage("label_parts", label, figure, silhouette, fitted, label_map, options.label_strokes, run.limits)
     mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
     character = run.stage(

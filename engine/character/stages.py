@@ -73,9 +73,9 @@ def label(
     )
 
 
-def fit_template(figure: Figure) -> FittedBody:
-    """The template fitted to the figure, its head to the face (sections 3 and 5), its hands to the hands."""
-    return turn_hands(turn_head(fit_figure(figure), figure), figure)
+def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:
+    """The template fitted to figure and silhouette, its head to the face (sections 3 and 5), its hands to the hands."""
+    return turn_hands(turn_head(fit_figure(figure, silhouette.alpha > 0.5), figure), figure)
 
 
 def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> ClosedMesh:

@@ -16,6 +16,7 @@ from engine.body.first_guess import first_guess
 from engine.body.fitting import LIMBS, Fit, Seen, fit_body
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
+from engine.body.outline import Skin, skin_model, trace
 from engine.body.rig import Rig
 from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
@@ -70,6 +71,7 @@ class Human:
     rig: Rig
     triangles: NDArray[np.int32]
     landmarks: LandmarkModel
+    skin: Skin
     face: NDArray[np.intp]
     hands: tuple[HandModel, HandModel]
 
@@ -84,13 +86,14 @@ def load_human() -> Human:
         rig,
         triangulate(template.quads[template.faces("body")]),
         landmark_model(template, space, rig),
+        skin_model(template, space, rig),
         face_points(template, space),
         (hand_model(template, space, rig, "Left"), hand_model(template, space, rig, "Right")),
     )
 
 
-def fit_figure(figure: Figure) -> FittedBody:
-    """Fit pose, shape and place."""
+def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
+    """Fit pose, shape and place to landmarks and mask (H, W)."""
     human = load_human()
     landmarks = human.landmarks
     at = [LANDMARKS.index(name) for name in landmarks.names]
@@ -115,8 +118,9 @@ def fit_figure(figure: Figure) -> FittedBody:
         centre,
     )
     start = first_guess(human.space, landmarks, seen, {joint: world[place] for joint, place in places.items()})
+    fit = fit_body(human.space, landmarks, seen, start, trace(mask), human.skin)
     kept = np.zeros(len(human.space.names), np.bool_)
-    return FittedBody(fit_body(human.space, landmarks, seen, start), focal, centre, kept)
+    return FittedBody(fit, focal, centre, kept)
 
 
 def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:

@@ -65,7 +65,7 @@ def silhouette(figure: Figure) -> Silhouette:
 
 @pytest.fixture(scope="module")
 def labels(figure: Figure, silhouette: Silhouette) -> Labels:
-    return label(figure, silhouette, fit_template(figure), None, (), LIMITS)
+    return label(figure, silhouette, fit_template(figure, silhouette), None, (), LIMITS)
 
 
 def test_of_two_people_the_larger_is_meant_unless_said_otherwise(couple: Path) -> None:
@@ -145,7 +145,7 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     size = (figure.rgb.shape[1], figure.rgb.shape[0])
     shown = cv2.warpAffine(LABEL_COLOURS[labels.labels.astype(int)], back, size, flags=cv2.INTER_NEAREST)
     write_image(tmp_path / "labels.png", np.asarray(shown, np.uint8))
-    fitted = fit_template(figure)
+    fitted = fit_template(figure, silhouette)
     again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS)
     assert (again.labels != labels.labels).mean() < 0.01
     at = figure.point("LeftKnee")

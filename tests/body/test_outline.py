@@ -1,0 +1,122 @@
+"""The outline tells what landmarks do not: how stout somebody is."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from engine.body import load_template
+from engine.body.body_space import load_body_space
+from engine.body.first_guess import first_guess
+from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Fit, Seen, fit_body, forward, rotation_matrices
+from engine.body.landmarks import landmark_model
+from engine.body.outline import Outline, meet, skin_model, trace
+from engine.body.rig import HUMAN
+from engine.body.skinning import bone_transforms, skin
+from engine.body.template import load_rig
+from engine.render.surface import triangulate
+
+TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN)
+MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_model(TEMPLATE, SPACE, BONES)
+FOCAL, CENTRE, SIZE = 1400.0, (320.0, 400.0), (820, 640)
+LEAST = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(TURNED) + COEFFICIENTS)])
+
+
+def parameters(coefficients: dict[int, float], **turns: tuple[float, float, float]) -> np.ndarray:
+    """Somebody with these coefficients, arms half lowered unless said otherwise."""
+    given = {"LeftArm": (0, 0, -0.8), "RightArm": (0, 0, 0.8)} | turns
+    found = LEAST.copy()
+    for name, turn in given.items():
+        found[3 + 3 * TURNED.index(name) :][:3] = turn
+    for number, value in coefficients.items():
+        found[len(found) - COEFFICIENTS + number] = value
+    return found
+
+
+def seen_of(truth: np.ndarray) -> tuple[Seen, dict[str, np.ndarray]]:
+    """Exact landmarks."""
+    joints, points = forward(SPACE, MARKS, truth)
+    pixels = points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE
+    place = dict(zip(SPACE.names, joints, strict=True))
+    limbs = np.stack([place[b] - place[a] for a, b in LIMBS])
+    limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
+    sure = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+    return Seen(pixels.astype(np.float32), sure[0], limbs.astype(np.float32), sure[1], FOCAL, CENTRE), place
+
+
+def mask_of(truth: np.ndarray) -> np.ndarray:
+    """The body as the camera sees it."""
+    turns, coefficients = truth[3:-COEFFICIENTS].reshape(-1, 3), truth[-COEFFICIENTS:]
+    rotations = np.broadcast_to(np.eye(3), (len(SPACE.names), 3, 3)).copy()
+    rotations[[SPACE.names.index(name) for name in TURNED]] = rotation_matrices(turns)
+    heads = SPACE.joints(coefficients)
+    transforms = bone_transforms(BONES, heads, rotations.astype(np.float32), (truth[:3] - heads[0]).astype(np.float32))
+    at = skin(SPACE.vertices(coefficients), BONES.bones, BONES.weights, transforms)
+    pixels = at[:, :2] * [FOCAL, -FOCAL] / -at[:, 2:] + CENTRE
+    mask = np.zeros(SIZE, np.uint8)
+    for corners in np.rint(pixels[triangulate(TEMPLATE.quads[TEMPLATE.faces("body")])] * 16).astype(np.int32):
+        cv2.fillConvexPoly(mask, corners, (1,), shift=4)
+    return mask > 0
+
+
+def fitted(truth: np.ndarray, outline: Outline | None) -> Fit:
+    seen, place = seen_of(truth)
+    return fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place), outline, SKIN)
+
+
+def waist(coefficients: np.ndarray) -> float:
+    """Its width in metres."""
+    body = SPACE.vertices(coefficients)
+    hips = SPACE.joints(coefficients)[SPACE.names.index("Spine")]
+    around = body[(np.abs(body[:, 1] - hips[1]) < 0.03) & (np.abs(body[:, 0]) < 0.35)]
+    return float(np.ptp(around[:, 0]))
+
+
+def test_the_outline_of_a_disk_is_its_circle() -> None:
+    y, x = np.mgrid[:200, :240]
+    outline = trace((x - 120) ** 2 + (y - 90) ** 2 < 60**2)
+    away = outline.points - [120, 90]
+    np.testing.assert_allclose(np.linalg.norm(away, axis=1), 60, atol=1.5)
+    np.testing.assert_allclose(outline.normals, away / np.linalg.norm(away, axis=1, keepdims=True), atol=0.15)
+
+
+def test_what_the_picture_cuts_is_no_outline() -> None:
+    mask = np.zeros((100, 80), np.bool_)
+    mask[40:, 20:60] = True
+    outline = trace(mask)
+    assert len(outline.points) and outline.points[:, 1].max() < 98
+
+
+def test_an_outline_meets_what_faces_the_same_way_outermost() -> None:
+    outline = Outline(np.array([[50.0, 50.0]]), np.array([[1.0, 0.0]]))
+    pixels = np.array([[46.0, 50.0], [48.0, 50.5], [51.0, 50.0], [49.0, 58.0]])
+    right, left = [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]
+    which, at = meet(
+        outline, pixels, np.array([right, right, left, right]), 100
+    )  # the third faces back, the last is far
+    assert which.tolist() == [0] and at.tolist() == [1]
+
+
+def test_the_outline_draws_the_body_to_the_mask() -> None:
+    """Landmarks are exact here: what they leave open is a body's girth."""
+
+    def overlap(fit: Fit, mask: np.ndarray) -> float:
+        body = mask_of(fit.parameters)
+        return float((body & mask).sum() / (body | mask).sum())
+
+    bare, better = [], []
+    for number, value in ((2, 1.5), (4, -1.5), (5, -1.5), (6, 1.5)):
+        truth = parameters({number: value})
+        mask = mask_of(truth)
+        bare.append(overlap(fitted(truth, None), mask))
+        better.append(overlap(fitted(truth, trace(mask)), mask))
+    assert np.mean(better) > np.mean(bare) + 0.002
+    assert min(better) > 0.975
+
+
+def test_wide_clothes_do_not_make_stout_people() -> None:
+    """A coat around the same body: the fit stays nearer to the body than to the coat."""
+    truth = parameters({})
+    coat = cv2.dilate(mask_of(truth).astype(np.uint8), np.ones((61, 61), np.uint8)) > 0
+    found = fitted(truth, trace(coat))
+    assert waist(found.coefficients) - waist(truth[-COEFFICIENTS:]) < 0.04
