@@ -18,7 +18,7 @@ from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
 from engine.perception.models import MattingModel
-from engine.perception.person import person_mask
+from engine.perception.person import DOUBT, person_mask
 
 HEIGHT = 400
 """Pixels of the person's height on the grid."""
@@ -28,8 +28,11 @@ LEAST = 400
 """Pixels of a person."""
 AROUND = 0.15
 """How much of the picture around a person is looked at where others are in it, as a share of the box."""
-PALM, HAND = 0.02, 0.7
-"""Width of a hand's middle, as a share of the person's height, and the confidence from which it is seen."""
+FOREARM, PALM, FINGER, JOINT = 0.02, 0.02, 0.006, 0.7
+"""Widths of what is surely a forearm, a hand or a finger, as shares of the person's height, and the confidence from which
+a joint is seen ..."""
+NEAR = 0.043
+"""... and how far around them the rest of forearm and hand may be."""
 LIMB = 0.03
 """Width of a limb that is known to be the person's, as a share of its skeleton's height."""
 
@@ -95,9 +98,9 @@ def cut_out(
 
 def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     """The mask that is found of itself, (H, W). Where others are in the picture, the networks look at this one alone."""
-    seed = _hands(figure) if figure.spatial else _limbs(figure)
+    seed = _seen(figure) if figure.spatial else _limbs(figure)
     if len(figure.people) < 2:
-        return person_mask(figure.rgb, seed, figure.alpha, model)
+        return person_mask(figure.rgb, seed, figure.alpha, model, whole=True)
     x, y, wide, high = figure.people[figure.index]
     height, width = figure.rgb.shape[:2]
     rows = slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1))
@@ -110,23 +113,35 @@ def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
         None if figure.alpha is None else figure.alpha[part],
         model,
         figure.others[part],
+        whole=True,
     )
     return alpha
 
 
-def _hands(figure: Figure) -> NDArray[np.float32]:
-    """The middle of each hand that is seen: the network that cuts people out misses hands, the one that finds their joints
-    does not, and by colour a hand is not like the sleeve beside it."""
+def _seen(figure: Figure) -> NDArray[np.float32]:
+    """Where the person surely is by the joints that are seen: along forearms, and in hands. The network that cuts people
+    out misses them, the one that finds their joints does not, and by colour a hand is not like the sleeve beside it."""
     seed = np.zeros(figure.rgb.shape[:2], np.uint8)
-    width = max(1, round(PALM * float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))))
-    for side in ("Left", "Right"):
-        names = (f"{side}Wrist", f"{side}Index", f"{side}Pinky")
-        if min(figure.confidence[LANDMARKS.index(name)] for name in names) > HAND:
-            wrist, *fingers = (figure.point(name) for name in names)
-            middle = np.mean(fingers, axis=0)
-            line = np.rint(np.stack([wrist, middle])).astype(int)
-            cv2.polylines(seed, [line], False, (1,), width)
-    return seed.astype(np.float32)
+    height = float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))
+
+    def line(points: NDArray[np.floating], width: float) -> None:
+        cv2.polylines(seed, [np.rint(points).astype(np.int32)], False, (1,), max(1, round(width * height)))
+
+    for side, hand in zip(("Left", "Right"), figure.hands, strict=True):
+        names = [f"{side}{joint}" for joint in ("Elbow", "Wrist", "Index", "Pinky")]
+        elbow, wrist, *fingers = (figure.point(name) for name in names)
+        sure = figure.confidence[[LANDMARKS.index(name) for name in names]]
+        if min(sure[:2]) > JOINT:
+            line(np.stack([elbow, wrist]), FOREARM)
+        if hand is not None:
+            cv2.fillConvexPoly(seed, np.rint(hand[[0, 1, 5, 9, 13, 17], :2]).astype(np.int32), (1,))
+            for first in (1, 5, 9, 13, 17):
+                line(hand[first : first + 4, :2], FINGER)
+        elif min(sure[1:]) > JOINT:
+            line(np.stack([wrist, np.mean(fingers, axis=0)]), PALM)
+    reach = max(1, round(NEAR * height))
+    near = cv2.dilate(seed, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
+    return np.asarray(np.maximum(seed, DOUBT * near), np.float32)
 
 
 def _limbs(figure: Figure) -> NDArray[np.float32]:

@@ -31,8 +31,12 @@ CUT_SIZE = 480
 KEPT = 0.6
 """Belief from which a pixel stays with the person whatever its colour."""
 
-SELFIE_SHARE = 2 / 3
-"""Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas)."""
+DOUBT = 0.35
+"""Belief of what the networks may have missed: colours decide."""
+
+SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
+"""Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
+pictures that show somebody whole, who are what the body pose's network knows best."""
 
 
 def person_mask(
@@ -41,6 +45,7 @@ def person_mask(
     alpha: NDArray[np.uint8] | Mask | None = None,
     model: MattingModel | None = None,
     others: NDArray[np.bool_] | None = None,
+    whole: bool = False,
 ) -> Mask:
     """Soft mask (H, W) in [0, 1] of the people in a picture; all zero where nobody is seen.
 
@@ -48,13 +53,14 @@ def person_mask(
     ----------
     rgb : (H, W, 3) uint8.
     seed : (H, W) float32, 1 where a person is known to be (a face's region): helps in drawings, where
-        the networks see little.
+        the networks see little. `DOUBT` where one may be, although the networks see nothing.
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
         out it is taken as the truth; a channel that is opaque throughout says nothing.
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
         follows but the last step, the guided upsampling.
     others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
         people, colours say whose it is.
+    whole : the picture shows people whole, not portraits.
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
@@ -64,27 +70,30 @@ def person_mask(
         whole = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
         return whole if others is None else np.where(others, 0, whole).astype(np.float32)
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
-    belief = believed_person(small)
+    belief = believed_person(small, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
     figure = figure_on_plain_ground(small, belief)
     if figure is not None:
         belief = figure
+    sure = np.zeros(belief.shape, np.float32)
     if seed is not None:
-        belief = np.maximum(belief, resized(seed.astype(np.float32), (small.shape[1], small.shape[0])))
+        sure = resized(seed.astype(np.float32), (small.shape[1], small.shape[0]))
+        belief = np.maximum(belief, sure)
     if others is not None:
         apart = resized(others.astype(np.float32), (small.shape[1], small.shape[0]))
         belief = np.asarray(belief * (1 - apart), np.float32)
     if figure is None:
         belief = settle_by_colour(small, belief)
     trimap = outline_trimap(small, belief)
-    matte = alpha_matte(small, trimap.known, trimap.prior, trimap.weight)
+    known = np.where(sure > SURE, 1, trimap.known).astype(np.float32)
+    matte = alpha_matte(small, known, trimap.prior, trimap.weight)
     return matte if small.shape == rgb.shape else upsample_guided(matte, small, rgb)
 
 
-def believed_person(rgb: NDArray[np.uint8]) -> Mask:
-    """What the networks believe to be a person, (H, W) in [0, 1]."""
+def believed_person(rgb: NDArray[np.uint8], share: float = SELFIE_SHARE) -> Mask:
+    """What the networks believe to be a person, (H, W) in [0, 1]; `share` is the selfie network's."""
     posed = _pose_mask(rgb)
     selfie = _selfie_mask(rgb, posed)
-    return selfie if posed is None else (SELFIE_SHARE * selfie + (1 - SELFIE_SHARE) * posed).astype(np.float32)
+    return selfie if posed is None else (share * selfie + (1 - share) * posed).astype(np.float32)
 
 
 def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:

@@ -139,3 +139,14 @@ def test_large_pictures_get_fine_edges(media: Media) -> None:
     assert large_mask.shape == large.shape[:2]
     enlarged = cv2.resize(mask, large.shape[1::-1], interpolation=cv2.INTER_LINEAR)
     assert overlap(large_mask, enlarged) > 0.985
+
+
+def test_what_is_known_to_be_the_persons_is_in_the_mask(media: Media) -> None:
+    """A line through the background, narrower than the band along the outline."""
+    picture = read(media("fullbody/man_sweater_boots.png"))
+    seed = np.zeros(picture.shape[:2], np.float32)
+    height, width = seed.shape
+    rows, columns = slice(height // 2, height // 2 + 8), slice(0, width // 3)
+    seed[rows, columns] = 1
+    mask = person_mask(picture, seed=seed)
+    assert mask[rows, columns][2:-2].mean() > 0.9
