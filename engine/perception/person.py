@@ -67,8 +67,8 @@ def person_mask(
         if np.mean(channel < 0.5) > 0.01:
             return channel
     if model is not None:
-        whole = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
-        return whole if others is None else np.where(others, 0, whole).astype(np.float32)
+        found = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
+        return found if others is None else np.where(others, 0, found).astype(np.float32)
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
     figure = figure_on_plain_ground(small, belief)
