@@ -139,7 +139,9 @@ def build_layers(
     ]
     for arm, reached in limbs.items():
         limb = _layer(reached, template, np.asarray((part == arm).any(1) | near[arm][0]), rig)
-        layers.append(_sunk(limb, layers[0], found.labels == arm))
+        own = found.labels == arm
+        layers[0] = _behind(layers[0], limb, own)
+        layers.append(_sunk(limb, layers[0], own))
     return layers
 
 
@@ -210,3 +212,13 @@ def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
     front[over] = np.maximum(np.minimum(front, inside_front), middle)[over]
     back[over] = np.minimum(np.maximum(back, inside_back), middle)[over]
     return replace(limb, front=Surface(front, limb.front.weights), back=Surface(back, limb.back.weights))
+
+
+def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
+    """The body with its front beneath the limb's where the limb is seen (`own` (h, w)) and so hides it; at most as deep as the
+    middle of the body."""
+    hidden = body.mask & limb.mask & own
+    front = body.front.depth.copy()
+    middle = (body.front.depth + body.back.depth) / 2
+    front[hidden] = np.clip(limb.front.depth - BENEATH, middle, front)[hidden]
+    return replace(body, front=Surface(front, body.front.weights))

@@ -13,16 +13,17 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import PARTS
+from engine.character.labels import PARTS, complete_labels
 from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
 from engine.imaging.inpaint import background_plate
+from engine.imaging.poisson import poisson_blend
 
 BackTexture = Literal["mirror", "inpaint"]
 
 SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
-BESIDE = 0.008
+BESIDE = 0.004
 """How far an arm's colours may reach beyond its label, as a share of the person's height."""
 ENOUGH = 0.12
 """Share of a head from which the rest can be filled."""
@@ -32,6 +33,8 @@ THICK = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
 SIDES = 0.4
 """How far the sides of a part reach in, as a share of the way to its middle."""
+SEAM_FROM, SEAM_TO = 2.0, 8.0
+"""Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 TALLEST = 1024
 """Pixels of height of a tile, at most."""
 
@@ -81,15 +84,13 @@ def paint_tiles(
         in_front.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(BESIDE * size[1]))
     )
     seen = continued_colours(seen, own)
-    body = seen
-    if arms.any():
-        hidden = np.asarray(around > 0) & own
-        body = _filled(continued_colours(seen, own & ~hidden), hidden, own)
+    oval = None if face is None else face * np.array([*[scale] * 4, 1])
+    body = _behind_the_arms(seen, labels, np.asarray(around > 0), own, oval) if arms.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
-    if face is not None and head.any():
-        behind = _without_face(behind, head, face * np.array([*[scale] * 4, 1]))
-    return Tiles(seen, body, behind, scale)
+    if oval is not None and head.any():
+        behind = _without_face(behind, head, oval)
+    return Tiles(seen, body, joined_at_the_outline(body, behind, own, scale), scale)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -115,23 +116,50 @@ def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray
     return np.where(own[..., None], rgb, soft).astype(np.uint8)
 
 
-def _filled(
-    rgb: NDArray[np.uint8],
-    hole: NDArray[np.bool_],
-    within: NDArray[np.bool_],
-    into: NDArray[np.uint8] | None = None,
+def _behind_the_arms(
+    seen: NDArray[np.uint8],
+    labels: Labels,
+    arms: NDArray[np.bool_],
+    own: NDArray[np.bool_],
+    face: NDArray[np.floating] | None,
 ) -> NDArray[np.uint8]:
-    """The hole filled with patches, of the part of the picture around `within`; the rest is that of `into`, or as it was."""
-    if not hole.any():
+    """The body (h, w, 3) where `arms` (h, w) hide it: the head is filled from the head without its face, all else from all
+    else, so that no dress is made of hair."""
+    size = (own.shape[1], own.shape[0])
+    bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
+    beneath = complete_labels(labels.labels >= 0, bare)
+    head = _enlarged(beneath == PARTS.index("head"), size)
+    body = continued_colours(seen, own & ~arms)
+    shown = own & ~arms
+    if face is not None:
+        shown &= ~(head & _ellipse(face, shown.shape))
+    for part in (head, ~head):
+        body = _filled(body, arms & own & part, shown & part)
+    return continued_colours(body, own)
+
+
+def joined_at_the_outline(
+    front: NDArray[np.uint8], back: NDArray[np.uint8], own: NDArray[np.bool_], scale: float
+) -> NDArray[np.uint8]:
+    """The back (h, w, 3) with the front's colours at the outline of `own` (h, w), and from there inward its own gradients (the
+    paper's Poisson-blended seam). `scale`: pixels for each of the grid's."""
+    depth = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+    band = (depth > SEAM_FROM * scale) & (depth < SEAM_TO * scale)
+    held = np.where((depth <= SEAM_FROM * scale)[..., None], front, back).astype(np.float32)
+    joined = poisson_blend(back.astype(np.float32), held, band)
+    return np.asarray(np.clip(joined + 0.5, 0, 255), np.uint8)
+
+
+def _filled(rgb: NDArray[np.uint8], hole: NDArray[np.bool_], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """The hole (h, w) filled with patches of what is `known` (h, w), and of nothing else."""
+    if not hole.any() or not known.any():
         return rgb
-    rows, columns = np.flatnonzero(within.any(1)), np.flatnonzero(within.any(0))
+    rows, columns = (np.flatnonzero((hole | known).any(axis)) for axis in (1, 0))
     box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-    if into is not None:
-        filled = _filled(rgb, hole, within)
-        return np.where(hole[..., None], filled, into).astype(np.uint8)
-    out = rgb.copy()
     reach = float(np.sqrt(hole.sum()))
-    out[box] = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach)
+    filled = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach, known=known[box])
+    out = rgb.copy()
+    out[box] = np.where(hole[box][..., None], filled, rgb[box])
     return out
 
 
@@ -148,16 +176,15 @@ def _from_the_sides(
         depth = np.asarray(cv2.distanceTransform(np.pad(region.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
         if (thick := float(depth.max())) < THICK:
             continue
-        out = _filled(continued_colours(out, region), depth > SIDES * thick, region, out)
+        middle = depth > SIDES * thick
+        out = _filled(out, middle, region & ~middle)
     return out
 
 
 def _without_face(rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray[np.floating]) -> NDArray[np.uint8]:
     """The head with hair, or whatever surrounds it, in the face's place."""
-    hole = np.zeros(head.shape, np.uint8)
-    x, y, wide, high, angle = (float(value) for value in face)
-    cv2.ellipse(hole, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
-    oval = (hole > 0) & head
+    _, y, wide, high, _ = (float(value) for value in face)
+    oval = _ellipse(face, head.shape) & head
     above_chin = np.arange(head.shape[0])[:, None] < y + high
     inner = cv2.erode(head.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(0.15 * wide))) > 0
     # what is left must be enough to fill from; of a head that is all face, the outline
@@ -167,9 +194,14 @@ def _without_face(rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray
             break
     if not inside.any() or not around.any():
         return rgb
-    only_head = continued_colours(rgb, around)
-    filled = _filled(only_head, inside, head)
-    return np.where(head[..., None], filled, rgb).astype(np.uint8)
+    return _filled(rgb, inside & head, around)
+
+
+def _ellipse(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    x, y, wide, high, angle = (float(value) for value in face)
+    inside = np.zeros(shape, np.uint8)
+    cv2.ellipse(inside, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
+    return inside > 0
 
 
 def _like_skin(

@@ -36,7 +36,11 @@ LEAST_REACH = 20.0
 
 
 def background_plate(
-    rgb: NDArray[np.uint8], alpha: NDArray[np.float32], reach: float | None = None, seed: int = 0
+    rgb: NDArray[np.uint8],
+    alpha: NDArray[np.float32],
+    reach: float | None = None,
+    seed: int = 0,
+    known: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.uint8]:
     """The picture (H, W, 3) uint8 with the layer of `alpha` (H, W) taken away and filled from around it.
 
@@ -45,6 +49,8 @@ def background_plate(
     reach : how far behind the outline, in pixels, the plate is filled in full detail (default: a tenth of
         the square root of the layer's area, about what a head that moves by 10% of its size lays bare).
     seed : of the randomised search.
+    known : (H, W), all that may be copied from and must be matched (default: whatever the layer does not cover). What is
+        neither known nor covered by the layer has no say, and stays as it was.
 
     Pixels away from the layer are unchanged. A layer that covers the whole picture leaves nothing to fill
     from: its plate is the picture's mean colour.
@@ -52,11 +58,12 @@ def background_plate(
     hole = hole_behind(alpha)
     if not hole.any():
         return rgb.copy()
-    if hole.all():
+    unknown = hole if known is None else hole | ~known
+    if unknown.all():
         return np.broadcast_to(rgb.mean((0, 1)).astype(np.uint8), rgb.shape).copy()
     if reach is None:
         reach = 0.1 * float(np.sqrt(alpha.sum()))
-    filled = _fill(rgb.astype(np.float32), hole, reach + MARGIN * max(rgb.shape), seed)
+    filled = _fill(rgb.astype(np.float32), unknown, hole, reach + MARGIN * max(rgb.shape), seed)
     return np.where(hole[..., None], np.clip(filled + 0.5, 0, 255), rgb).astype(np.uint8)
 
 
@@ -69,15 +76,18 @@ def hole_behind(alpha: NDArray[np.float32]) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class _Level:
-    """One picture of the pyramid: 0 is the finest."""
+    """One picture of the pyramid: 0 is the finest. `hole`: what is not known of it; `wanted`: what of this is asked for."""
 
     number: int
     picture: NDArray[np.float32]
     hole: NDArray[np.bool_]
+    wanted: NDArray[np.bool_]
 
 
-def _fill(image: NDArray[np.float32], hole: NDArray[np.bool_], reach: float, seed: int) -> NDArray[np.float32]:
-    levels = _pyramid(image, hole)
+def _fill(
+    image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_], reach: float, seed: int
+) -> NDArray[np.float32]:
+    levels = _pyramid(image, hole, wanted)
     coarsest = levels[-1]
     guess = np.where(
         coarsest.hole[..., None], membrane(coarsest.picture, coarsest.hole, cycles=6), coarsest.picture
@@ -92,7 +102,7 @@ def _fill(image: NDArray[np.float32], hole: NDArray[np.bool_], reach: float, see
         if not sources.any():
             continue
         depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
-        active = level.hole & ((depth <= max(reach / 2**level.number, LEAST_REACH)) | (level is coarsest))
+        active = level.wanted & ((depth <= max(reach / 2**level.number, LEAST_REACH)) | (level is coarsest))
         targets = _centres_over(active)
         field = _start(field, targets, sources, seed)
         weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
@@ -102,17 +112,18 @@ def _fill(image: NDArray[np.float32], hole: NDArray[np.bool_], reach: float, see
     return guess
 
 
-def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_]) -> list[_Level]:
+def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
     """The picture at full size, half, quarter, ...; means of known pixels only, while enough is known."""
-    levels = [_Level(0, image, hole)]
+    levels = [_Level(0, image, hole, wanted)]
     while max(hole.shape) > COARSEST:
         half = (max(1, hole.shape[1] // 2), max(1, hole.shape[0] // 2))
         known = resized((~hole).astype(np.float32), half)
         image = (resized(image * ~hole[..., None], half) / np.maximum(known, 1e-6)[..., None]).astype(np.float32)
         hole = known < 0.5
+        wanted = hole & (resized(wanted.astype(np.float32), half) > 0)
         if valid_centres(~hole).sum() < 32:
             break
-        levels.append(_Level(len(levels), image, hole))
+        levels.append(_Level(len(levels), image, hole, wanted))
     return levels
 
 
