@@ -49,13 +49,14 @@ class ClosedMesh:
     `vertices` (V, 3) float64: x, y, z; `triangles` (T, 3) int32, counter-clockwise seen from outside for one who looks at
     the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
     it meets the front's colours and the back's.
-    `layer` (V,) int: the part. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
+    `rim` (V,) bool: on such a border. `layer` (V,) int: the part. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
     summing to one.
     """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int32]
     front: NDArray[np.bool_]
+    rim: NDArray[np.bool_]
     layer: NDArray[np.intp]
     bones: NDArray[np.uint8]
     weights: NDArray[np.float32]
@@ -99,6 +100,7 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
         vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge]]),
         triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
         front=np.repeat([True, False, True], [count, count, len(edge)]),
+        rim=np.concatenate([border, border, np.ones(len(edge), np.bool_)]),
         layer=np.concatenate([owners, owners, owners[edge]]),
         bones=bones,
         weights=kept,

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from engine.character.labels import PARTS, complete_labels
 from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
+from engine.character.sides import places_on_the_picture
 from engine.imaging.inpaint import background_plate
 from engine.imaging.poisson import poisson_blend
 
@@ -33,6 +34,8 @@ THICK = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
 SIDES = 0.4
 """How far the sides of a part reach in, as a share of the way to its middle."""
+OFF = 8.0
+"""Levels by which front and back differ where they are not the same."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 TALLEST = 1024
@@ -42,11 +45,13 @@ TALLEST = 1024
 @dataclass(frozen=True)
 class Tiles:
     """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: what is `seen`, the `body`
-    without the arms before it, and its `back`. `scale`: their pixels for each of the grid's."""
+    without the arms before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
+    grid's."""
 
     seen: NDArray[np.uint8]
     body: NDArray[np.uint8]
     back: NDArray[np.uint8]
+    head: NDArray[np.bool_]
     scale: float
 
 
@@ -90,7 +95,7 @@ def paint_tiles(
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
-    return Tiles(seen, body, joined_at_the_outline(body, behind, own, scale), scale)
+    return Tiles(seen, body, joined_at_the_outline(body, behind, own, scale), head, scale)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -99,7 +104,10 @@ def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.u
     pictures = [tiles.seen, tiles.body, tiles.back] if arms_apart else [tiles.seen, tiles.back]
     tile = np.where(mesh.layer == body_layer, np.where(mesh.front, len(pictures) - 2, len(pictures) - 1), 0)
     height, width = tiles.seen.shape[:2]
-    place = (mesh.vertices[:, :2] + 0.5) * tiles.scale / [width, height]
+    apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > OFF
+    grid = (round(width / tiles.scale), round(height / tiles.scale))
+    barred = cv2.resize((apart | tiles.head).astype(np.float32), grid, interpolation=cv2.INTER_AREA) > 0.25
+    place = (places_on_the_picture(mesh, barred, body_layer) + 0.5) * tiles.scale / [width, height]
     place[:, 0] = (np.clip(place[:, 0], 0, 1) + tile) / len(pictures)
     return np.concatenate(pictures, 1), place.astype(np.float32)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -127,7 +129,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     weights = random.uniform(0, 1, (len(mesh.vertices), 4)).astype(np.float32)
     weights = -np.sort(-weights, 1) / weights.sum(1, keepdims=True)
     bones = random.integers(0, 22, (len(mesh.vertices), 4)).astype(np.uint8)
-    mesh = type(mesh)(mesh.vertices, mesh.triangles, mesh.front, mesh.layer, bones, weights)
+    mesh = replace(mesh, bones=bones, weights=weights)
     camera = PictureCamera(100.0, (32, 32), 3.0)
     kept = np.isin(space.names, held)
     fitted = FittedBody(fit, 100.0, (32, 32), kept)
