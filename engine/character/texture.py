@@ -28,6 +28,8 @@ BESIDE = 0.004
 """How far an arm's colours may reach beyond its label, as a share of the person's height."""
 ENOUGH = 0.12
 """Share of a head from which the rest can be filled."""
+NAPE = 0.4
+"""How far below the face's middle the hair reaches at the back, as a share of the way to the chin."""
 ALIKE = 25.0
 """Distance of two colours (CIE Lab, 8 bits) below which skin cannot be told from hair."""
 THICK = 4.0
@@ -202,7 +204,13 @@ def _without_face(rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray
             break
     if not inside.any() or not around.any():
         return rgb
-    return _filled(rgb, inside & head, around)
+    rows = np.arange(head.shape[0])[:, None]
+    above = around & (rows < y)  # hair, if there is any; the nape is below it
+    covered = inside & head & (rows < y + NAPE * high)
+    if above.sum() > ENOUGH * head.sum():
+        rgb = _filled(rgb, covered, above)
+        around = around | covered
+    return _filled(rgb, inside & head & ~around, around)
 
 
 def _ellipse(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.bool_]:

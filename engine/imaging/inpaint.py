@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
@@ -89,9 +90,10 @@ def _fill(
 ) -> NDArray[np.float32]:
     levels = _pyramid(image, hole, wanted)
     coarsest = levels[-1]
-    guess = np.where(
-        coarsest.hole[..., None], membrane(coarsest.picture, coarsest.hole, cycles=6), coarsest.picture
-    ).astype(np.float32)
+    nearest = distance_transform_edt(coarsest.hole, return_distances=False, return_indices=True)
+    around = coarsest.picture[nearest[0], nearest[1]]  # what is not asked for only has to be plausible
+    stretched = membrane(around, coarsest.wanted, cycles=6)
+    guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
         guess = exemplar_fill(guess, coarsest.hole, sources)
     field: NDArray[np.int32] | None = None
