@@ -26,8 +26,8 @@ ACROSS = 1.5
 """Pixels over which warped normals are smoothed."""
 WORN = 6.0
 """The same where clothes are: they hide what the body has beneath."""
-SPREAD_BARE, SPREAD_WORN = 6, 110
-"""Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 9 pixels."""
+SPREAD_BARE, SPREAD_WORN = 6, 220
+"""Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 12 pixels."""
 DEEPER = 0.15
 """By how much of the template's own depth a part may reach beyond it: limbs that point at the viewer have normals that say
 little, and their depth would run away."""
