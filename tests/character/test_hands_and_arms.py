@@ -1,0 +1,60 @@
+"""What the joints say of the mask and of depth: hands belong to the person, arms before the trunk are before it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from engine.character.figure import Figure
+from engine.character.silhouette import _hands
+from engine.character.template_fit import BEFORE, _arms_before_the_trunk
+from engine.perception.body import LANDMARKS
+
+TRUNK = {"LeftShoulder": (120, 50), "RightShoulder": (80, 50), "RightHip": (85, 120), "LeftHip": (115, 120)}
+
+
+def figure(places: dict[str, tuple[float, float]], confidence: float, world_z: float = 0.0) -> Figure:
+    points, sure = np.zeros((len(LANDMARKS), 2), np.float32), np.zeros(len(LANDMARKS), np.float32)
+    world = np.zeros((len(LANDMARKS), 3), np.float32)
+    for name, place in (TRUNK | places).items():
+        points[LANDMARKS.index(name)], sure[LANDMARKS.index(name)] = place, confidence
+    world[[LANDMARKS.index(name) for name in places], 2] = world_z
+    none = np.zeros((240, 200), np.bool_)
+    return Figure(np.zeros((240, 200, 3), np.uint8), None, points, sure, world, True, 1.0,
+                  np.zeros((1, 4), np.float32), 0, none, None)  # fmt: skip
+
+
+HAND = {"LeftWrist": (150, 120), "LeftIndex": (150, 140), "LeftPinky": (154, 140)}
+
+
+def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
+    seed = _hands(figure(HAND, 0.95)) > 0
+    for x, y in ((150, 121), (151, 130), (152, 139)):
+        assert seed[y, x]
+    assert not seed[150:].any() and not seed[:110].any()
+    rows, columns = np.nonzero(seed)
+    assert np.ptp(columns) <= 8, "as narrow as a palm"
+    assert np.ptp(rows) >= 19
+
+
+def test_a_hand_that_is_not_surely_seen_says_nothing() -> None:
+    assert not _hands(figure(HAND, 0.6)).any()
+    assert not _hands(figure({"LeftWrist": (150, 120)}, 0.95)).any(), "a wrist without fingers"
+
+
+@pytest.mark.parametrize(
+    ("place", "confidence", "expected"),
+    [((100, 90), 0.9, BEFORE), ((150, 90), 0.9, -0.1), ((100, 90), 0.3, -0.1)],
+    ids=["before the trunk", "beside it", "hidden"],
+)
+def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confidence: float, expected: float) -> None:
+    wrist = figure({"LeftWrist": place}, confidence, -0.1)
+    found = _arms_before_the_trunk(wrist)
+    assert found[LANDMARKS.index("LeftWrist"), 2] == pytest.approx(expected)
+    others = [k for k, name in enumerate(LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")]
+    np.testing.assert_array_equal(found[others], wrist.world[others])
+
+
+def test_an_arm_already_further_forward_stays() -> None:
+    found = _arms_before_the_trunk(figure({"LeftWrist": (100, 90)}, 0.9, 0.45))
+    assert found[LANDMARKS.index("LeftWrist"), 2] == pytest.approx(0.45)

@@ -1,0 +1,104 @@
+"""Arms and the body behind them: pieces of an arm made one, and which of two surfaces lies beneath the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from engine.character.labels import PARTS
+from engine.character.layers import BENEATH, Labels, PosedTemplate, _behind, _limb, _sunk
+from engine.character.part_surface import Surface
+from engine.character.sheets import Layer
+
+SHAPE = (60, 120)
+LEFT, RIGHT, TORSO = (PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
+
+
+def rectangle(rows: tuple[int, int], columns: tuple[int, int]) -> np.ndarray:
+    mask = np.zeros(SHAPE, np.bool_)
+    mask[slice(*rows), slice(*columns)] = True
+    return mask
+
+
+def slab(mask: np.ndarray, front: float, back: float) -> Layer:
+    weights = np.ones((*SHAPE, 1), np.float32)
+    sides = [Surface(np.where(mask, depth, np.nan).astype(np.float32), weights) for depth in (front, back)]
+    return Layer(mask, sides[0], sides[1], np.zeros(SHAPE, np.int8))
+
+
+def bar(rows: tuple[int, int], columns: tuple[int, int]) -> PosedTemplate:
+    """A template of one flat arm, a rectangle, clockwise on the picture as what faces the viewer is."""
+    (top, bottom), (left, right) = rows, columns
+    corners = np.array([[left, top, 0], [right, top, 0], [right, bottom, 0], [left, bottom, 0]], float)
+    triangles = np.array([[0, 2, 1], [0, 3, 2]], np.int32)
+    nothing = np.zeros((1, 3))
+    return PosedTemplate(corners, corners.astype(np.float32), triangles, nothing, nothing.astype(np.float32), 100.0)
+
+
+def found(labels: np.ndarray) -> Labels:
+    none = np.zeros(SHAPE, np.bool_)
+    return Labels(labels.astype(np.int8), none, np.array([LEFT, RIGHT], np.int8), none)
+
+
+def limb(labels: np.ndarray, shoulder: np.ndarray) -> np.ndarray:
+    template = bar((20, 30), (10, 110))
+    part = np.full(template.triangles.shape, LEFT, np.intp)
+    return _limb(LEFT, found(labels), labels >= 0, template, shoulder, np.isin(labels, (LEFT, RIGHT)), part)
+
+
+def test_an_arm_in_one_piece_is_what_is_seen_of_it() -> None:
+    own, shoulder = rectangle((20, 30), (10, 110)), rectangle((20, 30), (8, 14))
+    labels = np.where(own, LEFT, -1)
+    np.testing.assert_array_equal(limb(labels, shoulder), own)
+
+
+def test_an_arm_torn_by_the_other_goes_on_beneath_it() -> None:
+    own, across = rectangle((20, 30), (10, 110)), rectangle((0, 60), (50, 60))
+    labels = np.where(own, LEFT, -1)
+    labels[across] = RIGHT
+    whole = limb(labels, rectangle((20, 30), (8, 14)))
+    assert whole[25, 10:110].all(), "from the shoulder to the hand"
+    assert not whole[:10].any() and not whole[50:].any(), "the rest of the other arm is not its own"
+
+
+def test_an_arm_that_does_not_reach_its_shoulder_is_led_there_over_the_body() -> None:
+    labels = np.full(SHAPE, -1)
+    labels[5:55, 5:115] = TORSO
+    labels[20:30, 60:110] = LEFT
+    shoulder = rectangle((20, 30), (8, 14))
+    whole = limb(labels, shoulder)
+    assert (whole & shoulder).any()
+    assert whole[25, 14:110].all()
+    assert not whole[:10].any()
+
+
+def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
+    body, shared = slab(rectangle((5, 55), (5, 60)), 10.0, -10.0), rectangle((20, 30), (40, 60))
+    arm, own = slab(rectangle((20, 30), (40, 100)), 14.0, -12.0), rectangle((20, 30), (60, 100))
+    sunk = _sunk(arm, body, own)
+    assert np.allclose(sunk.front.depth[shared], 10 - BENEATH) and np.allclose(sunk.back.depth[shared], BENEATH - 10)
+    np.testing.assert_array_equal(sunk.front.depth[own], arm.front.depth[own])
+    np.testing.assert_array_equal(sunk.back.depth[own], arm.back.depth[own])
+
+
+def test_a_limb_sinks_no_deeper_than_the_middle_of_the_body() -> None:
+    body = slab(rectangle((5, 55), (5, 60)), 10.0, 4.0)
+    arm = slab(rectangle((20, 30), (40, 60)), -5.0, -9.0)
+    sunk, there = _sunk(arm, body, np.zeros(SHAPE, np.bool_)), rectangle((20, 30), (40, 60))
+    assert np.allclose(sunk.front.depth[there], 7)
+    assert (sunk.front.depth[there] >= sunk.back.depth[there]).all()
+
+
+def test_what_an_arm_hides_lies_behind_it() -> None:
+    mask, arm_mask = rectangle((5, 55), (5, 115)), rectangle((20, 30), (40, 80))
+    arm = slab(arm_mask, 6.0, 2.0)
+    seen = rectangle((20, 30), (40, 60))  # of the rest the body hides the arm
+    body = _behind(slab(mask, 10.0, -10.0), arm, seen)
+    assert np.allclose(body.front.depth[seen], 6 - BENEATH)
+    assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
+    assert np.allclose(body.back.depth[mask], -10)
+    lower = _behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
+    assert np.allclose(lower.front.depth[seen], 0), "the body keeps half of its depth"
+    before = _behind(slab(mask, 1.0, -1.0), replace(arm), seen)
+    assert np.allclose(before.front.depth[mask], 1), "an arm that is before it anyway changes nothing"

@@ -1,0 +1,109 @@
+"""Colours of a character where the picture has none: behind arms, at the sides, on the back."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from engine.character.labels import PARTS
+from engine.character.layers import Labels
+from engine.character.part_surface import Surface
+from engine.character.sheets import Layer, close
+from engine.character.sides import FURTHEST, places_on_the_picture
+from engine.character.texture import joined_at_the_outline, paint_tiles
+
+SAME = np.array([[1.0, 0, 0], [0, 1, 0]])
+GREEN, RED, BROWN, SKIN = (20, 160, 60), (210, 40, 30), (70, 45, 30), (230, 180, 150)
+
+
+def person() -> tuple[np.ndarray, np.ndarray]:
+    """A round head with hair above and a face, a dress with an arm before it, on a red wall; and its labels."""
+    labels = np.full((240, 160), -1)
+    labels[90:220, 40:120] = PARTS.index("torso")
+    cv2.circle(head := np.zeros((240, 160), np.uint8), (80, 50), 38, (1,), -1)
+    labels[head > 0] = PARTS.index("head")
+    rgb = np.empty((240, 160, 3), np.uint8)
+    rgb[:] = RED
+    rgb[labels == PARTS.index("torso")] = GREEN
+    rgb[(labels == PARTS.index("head"))] = SKIN
+    rgb[:40][labels[:40] == PARTS.index("head")] = BROWN
+    labels[140:165, 40:100] = PARTS.index("right_arm")
+    rgb[140:165, 40:100] = SKIN
+    return rgb, labels
+
+
+def painted(back: str = "mirror"):  # type: ignore[no-untyped-def]
+    rgb, labels = person()
+    none = np.zeros(labels.shape, np.bool_)
+    apart = np.array([PARTS.index("right_arm")], np.int8)
+    face = np.array([80, 58, 22, 26, 0], np.float32)
+    alpha = (labels >= 0).astype(np.float32)
+    return paint_tiles(rgb, alpha, SAME, Labels(labels.astype(np.int8), none, apart, none), face, back), labels  # type: ignore[arg-type]
+
+
+def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
+    tiles, labels = painted()
+    hidden = labels == PARTS.index("right_arm")
+    assert np.abs(tiles.body[hidden].astype(int) - GREEN).max() <= 6, "neither arm, nor wall, nor hair"
+    np.testing.assert_array_equal(tiles.seen[hidden], person()[0][hidden])
+
+
+def test_a_face_is_not_on_the_back_and_hair_is() -> None:
+    tiles, _ = painted()
+    rgb = person()[0]
+    middle = slice(40, 66), slice(66, 94)
+    assert np.abs(tiles.back[middle].astype(int) - BROWN).max() <= 12
+    np.testing.assert_array_equal(tiles.body[middle], rgb[middle])
+
+
+def test_front_and_back_are_one_at_the_outline_and_the_back_keeps_its_gradients() -> None:
+    own = np.zeros((120, 120), np.bool_)
+    own[10:110, 10:110] = True
+    ramp = np.arange(120, dtype=np.uint8)[None, :, None]
+    front, back = np.full((120, 120, 3), 90, np.uint8), np.broadcast_to(100 + ramp // 4, (120, 120, 3)).copy()
+    joined = joined_at_the_outline(front, back, own, 2.0)
+    np.testing.assert_array_equal(joined[10:12, 10:110], front[10:12, 10:110])
+    np.testing.assert_array_equal(joined[40:80, 40:80], back[40:80, 40:80])
+    steps = np.abs(np.diff(joined[60, :, 0].astype(int)))
+    assert steps.max() <= 4, "no edge in between, where front and back differ by up to 38"
+
+
+def cylinder(radius: int = 20) -> tuple[Layer, np.ndarray]:
+    """A standing cylinder before the picture, its axis at x = 31.5."""
+    x = np.arange(64) - 31.5
+    mask = np.zeros((64, 64), np.bool_)
+    mask[4:60] = np.abs(x) < radius
+    deep = np.sqrt(np.maximum(radius**2 - x**2, 0))[None].repeat(64, 0)
+    weights = np.ones((64, 64, 1), np.float32)
+    sides = [Surface(np.where(mask, sign * deep, np.nan).astype(np.float32), weights) for sign in (1, -1)]
+    return Layer(mask, sides[0], sides[1], np.zeros(mask.shape, np.int8)), mask
+
+
+def test_the_side_of_a_cylinder_takes_colours_at_the_pace_of_its_surface() -> None:
+    layer, mask = cylinder()
+    mesh = close([layer], mask.astype(np.float32))
+    places = places_on_the_picture(mesh, np.zeros(mask.shape, np.bool_), 0)
+    np.testing.assert_array_equal(places[~mesh.rim], mesh.vertices[~mesh.rim, :2])
+    middle = mesh.rim & (np.abs(mesh.vertices[:, 1] - 31.5) < 10)
+    inward = np.abs(mesh.vertices[middle, 0] - 31.5) - np.abs(places[middle, 0] - 31.5)
+    assert ((inward > 3) & (inward <= FURTHEST)).all()
+    edges = np.concatenate([mesh.triangles[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
+    level = np.abs(np.ptp(mesh.vertices[edges, 1], axis=1)) < 0.1
+    steep = edges[level & (mesh.rim[edges].sum(1) == 1) & (np.abs(mesh.vertices[edges[:, 0], 1] - 31.5) < 10)]
+    space = np.linalg.norm(np.diff(mesh.vertices[steep], axis=1)[:, 0], axis=1)
+    shown = np.linalg.norm(np.diff(places[steep], axis=1)[:, 0], axis=1)
+    flat = np.linalg.norm(np.diff(mesh.vertices[steep, :2], axis=1)[:, 0], axis=1)
+    assert np.median(space / flat) > 3, "stretched, were it not folded"
+    assert 0.6 < np.median(space / shown) < 1.6
+
+
+def test_front_and_back_take_one_place_on_the_border_and_none_that_is_barred() -> None:
+    layer, mask = cylinder()
+    mesh = close([layer], mask.astype(np.float32))
+    places = places_on_the_picture(mesh, np.zeros(mask.shape, np.bool_), 0)
+    at = {}
+    for vertex in np.flatnonzero(mesh.rim):
+        key = tuple(mesh.vertices[vertex, :2])
+        assert np.array_equal(at.setdefault(key, places[vertex]), places[vertex])
+    barred = places_on_the_picture(mesh, np.ones(mask.shape, np.bool_), 0)
+    np.testing.assert_allclose(barred, mesh.vertices[:, :2], atol=1e-9)
