@@ -17,6 +17,7 @@ from scipy.ndimage import gaussian_filter1d
 from engine.character.template_maps import SideMaps
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.grid_diffusion import diffuse
+from engine.geometry.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
 
@@ -28,6 +29,8 @@ WORN = 6.0
 """The same where clothes are: they hide what the body has beneath."""
 SPREAD_BARE, SPREAD_WORN = 6, 220
 """Rounds in which skinning weights spread, on skin and then on clothes: over 2 and 12 pixels."""
+LOOSE = 2
+"""Pixels around those that are looked up which are filled, too: the face moves them a little."""
 DEEPER = 0.15
 """By how much of the template's own depth a part may reach beyond it: limbs that point at the viewer have normals that say
 little, and their depth would run away."""
@@ -51,12 +54,14 @@ def outline(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 @dataclass(frozen=True)
 class Warp:
     """The paper's f, from a part in the picture to the template's: the `border` (m, 2) and its `partners` (m, 2) on the
-    template's outline; `places` (H, W, 2): where each pixel goes; `filled`: the template's pixel that is nearest to each."""
+    template's outline; `places` (H, W, 2): where each pixel goes; `filled`: the template's pixel that is nearest to each;
+    `holes`: fills the maps where places fall beside the template (4.1.2)."""
 
     border: NDArray[np.float64]
     partners: NDArray[np.float64]
     places: NDArray[np.float32]
     filled: tuple[NDArray[np.intp], NDArray[np.intp]]
+    holes: HarmonicFill
 
 
 def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
@@ -67,7 +72,11 @@ def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
     ys, xs = np.nonzero(mask)
     places = np.full((*mask.shape, 2), -1, np.float32)
     places[ys, xs] = mean_value_warp(np.stack([xs, ys], 1), border, partners)
-    return Warp(border, partners, places, continued(template))
+    looked_up = np.zeros(mask.shape, np.uint8)
+    x, y = np.clip(np.rint(places[ys, xs]), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int).T
+    looked_up[y, x] = 1
+    wanted = cv2.dilate(looked_up, np.ones((3, 3), np.uint8), iterations=LOOSE) > 0
+    return Warp(border, partners, places, continued(template), harmonic_fill(template, wanted))
 
 
 def part_surface(
@@ -82,9 +91,11 @@ def part_surface(
     `template`: the part of the template, seen from that side; `weights` (H, W, J) its skinning weights there. `bare` (J,):
     the joints of head, hands and feet; what the others move wears clothes. None: nothing does.
     """
-    filled, places = warp.filled, warp.places
-    carried = _look_up(weights, filled, places)
-    looked = np.where(mask[..., None], _look_up(template.normals, filled, places), 0)
+    filled = warp.filled
+    carried = _look_up(weights, warp)
+    looked = _look_up(template.normals, warp)
+    looked /= np.maximum(np.linalg.norm(looked, axis=-1, keepdims=True), 1e-6)
+    looked = np.where(mask[..., None], looked, 0)
     normals = np.asarray(cv2.GaussianBlur(looked, (0, 0), ACROSS), np.float32)
     if bare is not None:
         worn = cv2.GaussianBlur(carried[..., ~bare].sum(-1), (0, 0), WORN)[..., None]
@@ -140,12 +151,11 @@ def continued(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.int
     return of_label[labels, 0], of_label[labels, 1]
 
 
-def _look_up(
-    values: NDArray[np.float32], filled: tuple[NDArray[np.intp], NDArray[np.intp]], places: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """Bilinear values (H, W, C) at places (H, W, 2), continued beyond where there are any."""
-    source = values[filled[1], filled[0]]
-    x, y = np.ascontiguousarray(places[..., 0]), np.ascontiguousarray(places[..., 1])
+def _look_up(values: NDArray[np.float32], warp: Warp) -> NDArray[np.float32]:
+    """Bilinear values (H, W, C) of the template where each pixel goes, holes filled smoothly."""
+    columns, rows = warp.filled
+    source = warp.holes(values[rows, columns])
+    x, y = np.ascontiguousarray(warp.places[..., 0]), np.ascontiguousarray(warp.places[..., 1])
     pieces = [
         cv2.remap(np.ascontiguousarray(source[..., k : k + 4]), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         for k in range(0, source.shape[-1], 4)

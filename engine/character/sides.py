@@ -87,7 +87,7 @@ def _followed(
     for step in range(1, int(FURTHEST) + 1):
         far = np.minimum(step, length)
         ahead = start + far[:, None] * inward
-        away = border.query(ahead)[0]
+        away = np.asarray(border.query(ahead)[0])
         x, y = np.clip(np.rint(ahead), 0, [barred.shape[1] - 1, barred.shape[0] - 1]).astype(int).T
         going &= (away - before >= NARROWING * (far - reached)) & (far > reached) & ~barred[y, x]
         reached[going], before[going] = far[going], away[going]

@@ -51,7 +51,9 @@ def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confi
     wrist = figure({"LeftWrist": place}, confidence, -0.1)
     found = _arms_before_the_trunk(wrist)
     assert found[LANDMARKS.index("LeftWrist"), 2] == pytest.approx(expected)
-    others = [k for k, name in enumerate(LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")]
+    others = [
+        k for k, name in enumerate(LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")
+    ]
     np.testing.assert_array_equal(found[others], wrist.world[others])
 
 

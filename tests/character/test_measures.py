@@ -40,6 +40,8 @@ def test_a_fin_on_a_surface_is_not_a_manifold() -> None:
 
 
 def test_a_triangle_that_turns_the_other_way_shows_its_back() -> None:
-    corners = np.array([[0, 0, 1], [0, 10, 1], [10, 0, 1]], np.float32)  # down, then right: counter-clockwise for y down
+    corners = np.array(
+        [[0, 0, 1], [0, 10, 1], [10, 0, 1]], np.float32
+    )  # down, then right: counter-clockwise for y down
     turned = _turned_away(corners, np.array([[0, 1, 2], [0, 2, 1]]))
     np.testing.assert_array_equal(turned, [False, True])
