@@ -1,16 +1,13 @@
 /** A frame around the person, drawn over the picture: a window of its own over the page. */
 
-import { useId, useReducer, useState } from 'preact/hooks';
+import { useId } from 'preact/hooks';
 import type { Frame } from '../api';
-import { Window } from '../components/window';
-import { begun, step } from '../stage/history';
+import { act, arrows, useEditing, zoomKeys } from '../stage/editing';
+import { EditorWindow } from '../stage/editor';
 import { inside, type Point } from '../stage/place';
 import { type Drag, Surface, type Touch } from '../stage/surface';
-import { HistoryTools, historyKey, StageFooter, ZoomTools } from '../stage/tools';
-import { type View, whole, zoomed } from '../stage/view';
 import { strings } from '../strings';
 import { enlarged, frameBetween, movedFrame, rounded } from './framing';
-import '../styles/stage.css';
 
 const words = strings.framePerson;
 
@@ -26,20 +23,12 @@ interface Props {
 }
 
 export default function FrameEditor({ url, size, start, onDone, onClose }: Props) {
-  const picture = whole(...size);
-  const [history, advance] = useReducer(step<Frame>, start, begun<Frame>);
-  const [view, setView] = useState<View>(picture);
+  const { history, advance, state: frame, change, view, setView, zoom } = useEditing(size, start);
   const help = useId();
-  const frame = history.state;
   const [x, y, width, height] = frame;
   const box = { x, y, width, height };
+  const zoomTo = (factor: number | null): void => zoom(factor, [x + width / 2, y + height / 2]);
 
-  const change = (state: Frame): void => {
-    advance({ type: 'begin' });
-    advance({ type: 'change', state });
-  };
-  const zoom = (factor: number | null): void =>
-    setView(factor === null ? picture : zoomed(view, factor, [x + width / 2, y + height / 2], picture));
   const grasp = ({ at: from, reach }: Touch): Drag => {
     advance({ type: 'begin' });
     const corner = oppositeOf(frame, from, reach);
@@ -53,31 +42,25 @@ export default function FrameEditor({ url, size, start, onDone, onClose }: Props
     };
   };
   const key = (event: KeyboardEvent): void => {
-    const unit = Math.max(...size) * NUDGE;
-    const alter = (dx: number, dy: number) => (): void =>
-      change(event.shiftKey ? enlarged(frame, dx, dy, size) : movedFrame(frame, dx, dy, size));
-    const actions: Record<string, () => void> = {
-      arrowleft: alter(-unit, 0),
-      arrowright: alter(unit, 0),
-      arrowup: alter(0, -unit),
-      arrowdown: alter(0, unit),
-      '+': () => zoom(1.5),
-      '-': () => zoom(1 / 1.5),
-    };
-    const command = event.ctrlKey || event.metaKey;
-    const action = command ? historyKey(event, advance) : actions[event.key.toLowerCase()];
-    if (!action) return;
-    event.preventDefault();
-    action();
+    const alter = event.shiftKey ? enlarged : movedFrame;
+    const moves = arrows(Math.max(...size) * NUDGE, (dx, dy) => change(alter(frame, dx, dy, size)));
+    act(event, { ...moves, ...zoomKeys(zoomTo) }, advance);
   };
 
   const told = rounded(frame);
   return (
-    <Window title={words.title} onClose={onClose}>
-      <div class="stage-tools" role="toolbar" aria-label={words.tools}>
-        <ZoomTools onZoom={zoom} />
-        <HistoryTools history={history} advance={advance} />
-      </div>
+    <EditorWindow
+      title={words.title}
+      toolsLabel={words.tools}
+      history={history}
+      advance={advance}
+      onZoom={zoomTo}
+      help={{ id: help, text: words.help, keys: words.keys }}
+      canReset={frame !== start}
+      onReset={() => change(start)}
+      onClose={onClose}
+      onDone={() => onDone(told)}
+    >
       <Surface
         class="framing"
         size={size}
@@ -98,19 +81,10 @@ export default function FrameEditor({ url, size, start, onDone, onClose }: Props
           [y, y + height].map((cy) => <path key={`${cx} ${cy}`} class="handle" d={`M${cx} ${cy}h0`} />),
         )}
       </Surface>
-      <p class="stage-help" id={help}>
-        {words.help} <span class="keys">{words.keys}</span>
-      </p>
       <p class="unseen" role="status">
         {words.box(told[2], told[3], told[0], told[1])}
       </p>
-      <StageFooter
-        canReset={frame !== start}
-        onReset={() => change(start)}
-        onCancel={onClose}
-        onDone={() => onDone(told)}
-      />
-    </Window>
+    </EditorWindow>
   );
 }
 

@@ -1,19 +1,17 @@
 /** Painting over what was cut out, or over the parts of the body: a window of its own over the page. */
 
-import { useId, useReducer, useState } from 'preact/hooks';
+import { useId, useState } from 'preact/hooks';
 import type { BodyPart } from '../api';
 import { Check } from '../components/check';
-import { Window } from '../components/window';
-import { begun, step } from '../stage/history';
+import { act, arrows, useEditing, zoomKeys } from '../stage/editing';
+import { EditorWindow } from '../stage/editor';
 import type { Point } from '../stage/place';
 import { type Drag, Surface, type Touch } from '../stage/surface';
-import { HistoryTools, historyKey, StageFooter, Tool, ZoomTools } from '../stage/tools';
-import { type View, whole, zoomed } from '../stage/view';
+import { Tool } from '../stage/tools';
 import { strings } from '../strings';
 import { bodyParts } from './choices';
 import { Painting } from './painting';
 import { type LabelStroke, type MaskStroke, partColours, radii, simplified } from './strokes';
-import '../styles/stage.css';
 import '../styles/painter.css';
 
 const words = strings.painter;
@@ -41,25 +39,21 @@ interface Props {
 }
 
 export default function Painter({ url, size, what, mask, labels, fresh, onDone, onClose }: Props) {
-  const picture = whole(...size);
   const start: readonly AnyStroke[] = fresh[what];
-  const [history, advance] = useReducer(step<readonly AnyStroke[]>, start, begun<readonly AnyStroke[]>);
+  const { history, advance, state: strokes, change, view, setView, zoom } = useEditing(size, start);
   const range = radii(size);
   const [radius, setRadius] = useState(range.usual);
   const [saying, setSaying] = useState<Saying>(what === 'mask' ? { person: true } : { part: 'left_arm' });
   const [carrying, setCarrying] = useState(false);
   const [coloured, setColoured] = useState(true);
-  const [view, setView] = useState<View>(picture);
   const [brush, setBrush] = useState<Point | null>(null);
   const [down, setDown] = useState(false);
   const help = useId();
-  const strokes = history.state;
 
   const strokeOf = (path: [number, number][]): AnyStroke => ({ path, radius, ...saying }) as AnyStroke;
   const widen = (by: number): void => setRadius(Math.min(range.most, Math.max(range.least, radius * by)));
   const middle: Point = [view.x + view.width / 2, view.y + view.height / 2];
-  const zoom = (factor: number | null): void =>
-    setView(factor === null ? picture : zoomed(view, factor, brush ?? middle, picture));
+  const zoomTo = (factor: number | null): void => zoom(factor, brush ?? middle);
 
   const grasp = ({ at: from }: Touch): Drag | null => {
     if (carrying) return null;
@@ -96,8 +90,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
       const last = strokes.at(-1);
       if (last) advance({ type: 'change', state: [...strokes.slice(0, -1), simplified(last)] });
     } else {
-      advance({ type: 'begin' });
-      advance({ type: 'change', state: [...strokes, strokeOf([[...at]])] });
+      change([...strokes, strokeOf([[...at]])]);
     }
     setDown(!down);
   };
@@ -107,54 +100,60 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
   };
   const key = (event: KeyboardEvent): void => {
     const unit = Math.max(...size) * NUDGE * (event.shiftKey ? FAR : 1);
-    const actions: Record<string, () => void> = {
-      arrowleft: () => lead(-unit, 0),
-      arrowright: () => lead(unit, 0),
-      arrowup: () => lead(0, -unit),
-      arrowdown: () => lead(0, unit),
+    const actions = {
+      ...arrows(unit, lead),
+      ...zoomKeys(zoomTo),
       ' ': setOrLift,
       '[': () => widen(1 / WIDER),
       ']': () => widen(WIDER),
-      '+': () => zoom(1.5),
-      '-': () => zoom(1 / 1.5),
     };
-    const command = event.ctrlKey || event.metaKey;
-    const action = command ? historyKey(event, back(advance)) : actions[event.key.toLowerCase()];
-    if (!action) return;
-    event.preventDefault();
-    action();
+    act(event, actions, back(advance));
   };
 
   const shown = { ...fresh, [what]: strokes };
   return (
-    <Window title={what === 'mask' ? words.maskTitle : words.labelsTitle} onClose={onClose}>
-      <div class="stage-tools" role="toolbar" aria-label={words.tools}>
-        <Paints what={what} value={saying} onChange={(next) => (setSaying(next), setDown(false))} />
-        <label class="inline brush-size">
-          <span>{words.size}</span>
-          <input
-            type="range"
-            min={Math.log(range.least)}
-            max={Math.log(range.most)}
-            step="any"
-            value={Math.log(radius)}
-            aria-label={words.size}
-            aria-valuetext={`${Math.round(2 * radius)} px`}
-            onInput={({ currentTarget }) => setRadius(Math.exp(currentTarget.valueAsNumber))}
-          />
-        </label>
-        <Check label={words.overlay} checked={coloured} onChange={setColoured} />
-        <span class="cluster">
-          <Tool
-            label={words.drag}
-            pressed={carrying}
-            onUse={() => setCarrying(!carrying)}
-            icon="M12 3v18M3 12h18M12 3 9 6m3-3 3 3M12 21l-3-3m3 3 3-3M3 12l3-3m-3 3 3 3M21 12l-3-3m3 3-3 3"
-          />
-        </span>
-        <ZoomTools onZoom={zoom} />
-        <HistoryTools history={history} advance={back(advance)} />
-      </div>
+    <EditorWindow
+      title={what === 'mask' ? words.maskTitle : words.labelsTitle}
+      toolsLabel={words.tools}
+      tools={
+        <>
+          <Paints what={what} value={saying} onChange={(next) => (setSaying(next), setDown(false))} />
+          <label class="inline brush-size">
+            <span>{words.size}</span>
+            <input
+              type="range"
+              min={Math.log(range.least)}
+              max={Math.log(range.most)}
+              step="any"
+              value={Math.log(radius)}
+              aria-label={words.size}
+              aria-valuetext={`${Math.round(2 * radius)} px`}
+              onInput={({ currentTarget }) => setRadius(Math.exp(currentTarget.valueAsNumber))}
+            />
+          </label>
+          <Check label={words.overlay} checked={coloured} onChange={setColoured} />
+          <span class="cluster">
+            <Tool
+              label={words.drag}
+              pressed={carrying}
+              onUse={() => setCarrying(!carrying)}
+              icon="M12 3v18M3 12h18M12 3 9 6m3-3 3 3M12 21l-3-3m3 3 3-3M3 12l3-3m-3 3 3 3M21 12l-3-3m3 3-3 3"
+            />
+          </span>
+        </>
+      }
+      history={history}
+      advance={back(advance)}
+      onZoom={zoomTo}
+      help={{ id: help, text: words.help, keys: words.keys }}
+      canReset={strokes.length > 0}
+      onReset={() => {
+        setDown(false);
+        change([]);
+      }}
+      onClose={onClose}
+      onDone={() => onDone(strokes.map(simplified))}
+    >
       <Surface
         class={carrying ? 'painter carrying' : 'painter'}
         size={size}
@@ -169,23 +168,10 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
         <Painting url={url} size={size} what={coloured ? what : null} mask={mask} labels={labels} strokes={shown} />
         {brush && !carrying && <circle class={down ? 'brush down' : 'brush'} cx={brush[0]} cy={brush[1]} r={radius} />}
       </Surface>
-      <p class="stage-help" id={help}>
-        {words.help} <span class="keys">{words.keys}</span>
-      </p>
       <p class="unseen" role="status">
         {down ? words.down : brush ? words.up : ''}
       </p>
-      <StageFooter
-        canReset={strokes.length > 0}
-        onReset={() => {
-          setDown(false);
-          advance({ type: 'begin' });
-          advance({ type: 'change', state: [] });
-        }}
-        onCancel={onClose}
-        onDone={() => onDone(strokes.map(simplified))}
-      />
-    </Window>
+    </EditorWindow>
   );
 }
 

@@ -2,9 +2,9 @@
 
 import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { clock } from '../format';
 import { plain, strings } from '../strings';
 import { apart, AT_REST, followerTime, TOLERANCE } from '../sync';
+import { Transport } from './transport';
 
 interface Props {
   /** What the whole is called, and what the result shows. */
@@ -21,7 +21,6 @@ interface Props {
 }
 
 const words = strings.player;
-const speeds = [1, 0.5, 0.25] as const;
 
 export function Player(props: Props) {
   const { result, poster, driver, chosen, start, hasSound } = props;
@@ -32,7 +31,7 @@ export function Player(props: Props) {
   const [total, setTotal] = useState(0);
   const [repeat, setRepeat] = useState(true);
   const [muted, setMuted] = useState(true);
-  const [speed, setSpeed] = useState<number>(1);
+  const [speed, setSpeed] = useState(1);
   const [unplayable, setUnplayable] = useState(false);
   const [aspects, setAspects] = useState({ result: 1, driver: 1 });
   useInStep(leader, follower, driver, start, playing, setTime);
@@ -105,27 +104,22 @@ export function Player(props: Props) {
           </figure>
         )}
       </div>
-      <div class="controls">
-        <button type="button" class="play" onClick={() => (playing ? leader.current?.pause() : play())}>
-          <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
-            <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
-          </svg>
-          <span class="unseen">{playing ? words.pause : words.play}</span>
-        </button>
-        <input
-          type="range"
-          class="scrub"
-          min="0"
-          max={total || 1}
-          step="0.01"
-          value={time}
-          aria-label={words.position}
-          aria-valuetext={words.time(clock(time, total), clock(total, total))}
-          onInput={(event) => seek(event.currentTarget.valueAsNumber)}
-        />
-        <span class="time" aria-hidden="true">
-          {clock(time, total)} / {clock(total, total)}
-        </span>
+      <Transport
+        time={time}
+        total={total}
+        playing={playing}
+        speed={speed}
+        onPlay={() => (playing ? leader.current?.pause() : play())}
+        onSeek={seek}
+        onSpeed={setSpeed}
+        after={
+          document.fullscreenEnabled && (
+            <button type="button" class="toggle" onClick={() => void leader.current?.requestFullscreen()}>
+              {words.fullScreen}
+            </button>
+          )
+        }
+      >
         <button type="button" class="toggle" aria-pressed={repeat} onClick={() => setRepeat(!repeat)}>
           {words.repeat}
         </button>
@@ -134,19 +128,7 @@ export function Player(props: Props) {
             {words.sound}
           </button>
         )}
-        <select aria-label={words.speed} onChange={(event) => setSpeed(Number(event.currentTarget.value))}>
-          {speeds.map((s) => (
-            <option key={s} value={s} selected={s === speed}>
-              {words.speeds[s]}
-            </option>
-          ))}
-        </select>
-        {document.fullscreenEnabled && (
-          <button type="button" class="toggle" onClick={() => void leader.current?.requestFullscreen()}>
-            {words.fullScreen}
-          </button>
-        )}
-      </div>
+      </Transport>
     </section>
   );
 }

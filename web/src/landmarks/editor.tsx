@@ -1,17 +1,16 @@
 /** The landmarks of a picture, to be put right by hand: a window of its own over the page. */
 
-import { useId, useMemo, useReducer, useState } from 'preact/hooks';
-import { Window } from '../components/window';
-import { begun, step } from '../stage/history';
+import { useId, useMemo, useState } from 'preact/hooks';
+import { act, arrows, useEditing } from '../stage/editing';
+import { EditorWindow } from '../stage/editor';
 import { boxAround, middle, moved, resized } from '../stage/moving';
-import { HistoryTools, historyKey, StageFooter, Tool, ZoomTools } from '../stage/tools';
-import { around, type View, whole, zoomed } from '../stage/view';
+import { Tool } from '../stage/tools';
+import { around } from '../stage/view';
 import { strings } from '../strings';
 import { type Selection, shares } from './moving';
 import { type Feature, features, membersOf, type Points } from './scheme';
 import { Stage } from './stage';
 import { facePlaced } from './template';
-import '../styles/stage.css';
 
 const words = strings.landmarks;
 
@@ -31,37 +30,26 @@ interface Props {
 }
 
 export default function LandmarkEditor({ url, size, found, onDone, onClose }: Props) {
-  const picture = whole(...size);
   const start = useMemo(() => found ?? facePlaced(...size), [found, size]);
-  const [history, advance] = useReducer(step<Points>, start, begun<Points>);
+  const near = found ? around.bind(null, boxAround(found), 0.2) : undefined;
+  const { history, advance, state: points, change, view, setView, zoom } = useEditing(size, start, near);
   const [selection, setSelection] = useState<Selection>(found ? { by: 'feature', feature: 'lips' } : { by: 'face' });
   const [soft, setSoft] = useState(true);
-  const [view, setView] = useState<View>(() => (found ? around(boxAround(found), 0.2, picture) : picture));
   const [said, setSaid] = useState('');
   const help = useId();
-  const points = history.state;
   const share = shares(selection, soft);
 
   const select = (next: Selection): void => {
     setSelection(next);
     setSaid(nameOf(next));
   };
-  const change = (next: Points): void => {
-    advance({ type: 'begin' });
-    advance({ type: 'change', state: next });
-  };
-  const nudge = (dx: number, dy: number): void => change(moved(points, share, dx, dy));
-  const zoom = (factor: number | null): void =>
-    setView(factor === null ? picture : zoomed(view, factor, middle(points, share), picture));
+  const zoomTo = (factor: number | null): void => zoom(factor, middle(points, share));
   const next = (by: 1 | -1): void => select(following(selection, by));
 
   const key = (event: KeyboardEvent): void => {
     const unit = Math.max(...size) * NUDGE * (event.shiftKey ? FAR : 1);
-    const actions: Record<string, () => void> = {
-      arrowleft: () => nudge(-unit, 0),
-      arrowright: () => nudge(unit, 0),
-      arrowup: () => nudge(0, -unit),
-      arrowdown: () => nudge(0, unit),
+    const actions = {
+      ...arrows(unit, (dx, dy) => change(moved(points, share, dx, dy))),
       pageup: () => next(-1),
       pagedown: () => next(1),
       '+': () => change(resized(points, share, GROW, 0)),
@@ -70,65 +58,76 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
       '[': () => change(resized(points, share, 1, -TURN)),
       ']': () => change(resized(points, share, 1, TURN)),
     };
-    const command = event.ctrlKey || event.metaKey;
-    const action = command ? historyKey(event, advance) : actions[event.key.toLowerCase()];
-    if (!action) return;
-    event.preventDefault();
-    action();
+    act(event, actions, advance);
   };
 
   const single = selection.by === 'point';
   return (
-    <Window title={found ? words.title : words.placeTitle} onClose={onClose}>
-      <div class="stage-tools" role="toolbar" aria-label={words.tools}>
-        <label class="inline">
-          <span aria-hidden="true">{words.what}</span>
-          <select
-            aria-label={words.what}
-            value={selection.by === 'face' ? 'face' : selection.feature}
-            onChange={({ currentTarget: { value } }) => select(chosenAs(value as Feature | 'face', single))}
-          >
-            <option value="face">{words.face}</option>
-            {features.map((feature) => (
-              <option key={feature} value={feature}>
-                {words.features[feature]}
-              </option>
-            ))}
-          </select>
-        </label>
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={single}
-            onChange={({ currentTarget: { checked } }) =>
-              select(chosenAs(selection.by === 'face' ? 'lips' : selection.feature, checked))
-            }
-          />
-          <span>{words.single}</span>
-        </label>
-        {single && (
-          <>
-            <label class="check">
-              <input type="checkbox" checked={soft} onChange={() => setSoft(!soft)} />
-              <span>{words.soft}</span>
-            </label>
+    <EditorWindow
+      title={found ? words.title : words.placeTitle}
+      toolsLabel={words.tools}
+      tools={
+        <>
+          <label class="inline">
+            <span aria-hidden="true">{words.what}</span>
+            <select
+              aria-label={words.what}
+              value={selection.by === 'face' ? 'face' : selection.feature}
+              onChange={({ currentTarget: { value } }) => select(chosenAs(value as Feature | 'face', single))}
+            >
+              <option value="face">{words.face}</option>
+              {features.map((feature) => (
+                <option key={feature} value={feature}>
+                  {words.features[feature]}
+                </option>
+              ))}
+            </select>
+          </label>
+          <label class="check">
+            <input
+              type="checkbox"
+              checked={single}
+              onChange={({ currentTarget: { checked } }) =>
+                select(chosenAs(selection.by === 'face' ? 'lips' : selection.feature, checked))
+              }
+            />
+            <span>{words.single}</span>
+          </label>
+          {single && (
+            <>
+              <label class="check">
+                <input type="checkbox" checked={soft} onChange={() => setSoft(!soft)} />
+                <span>{words.soft}</span>
+              </label>
+              <span class="cluster">
+                <Tool label={words.previous} onUse={() => next(-1)} icon="M15 5 8 12l7 7" />
+                <Tool label={words.next} onUse={() => next(1)} icon="m9 5 7 7-7 7" />
+              </span>
+            </>
+          )}
+          {!single && (
             <span class="cluster">
-              <Tool label={words.previous} onUse={() => next(-1)} icon="M15 5 8 12l7 7" />
-              <Tool label={words.next} onUse={() => next(1)} icon="m9 5 7 7-7 7" />
+              <Tool label={words.smaller} onUse={() => change(resized(points, share, 1 / GROW, 0))} icon="M9 4v5H4m11-5v5h5M9 20v-5H4m11 5v-5h5" />
+              <Tool label={words.larger} onUse={() => change(resized(points, share, GROW, 0))} icon="M4 9V4h5m6 0h5v5M4 15v5h5m6 0h5v-5" />
+              <Tool label={words.turnLeft} onUse={() => change(resized(points, share, 1, -TURN))} icon="M4 10a8 8 0 1 1 1 7M4 4v6h6" />
+              <Tool label={words.turnRight} onUse={() => change(resized(points, share, 1, TURN))} icon="M20 10a8 8 0 1 0-1 7m1-13v6h-6" />
             </span>
-          </>
-        )}
-        {!single && (
-          <span class="cluster">
-            <Tool label={words.smaller} onUse={() => change(resized(points, share, 1 / GROW, 0))} icon="M9 4v5H4m11-5v5h5M9 20v-5H4m11 5v-5h5" />
-            <Tool label={words.larger} onUse={() => change(resized(points, share, GROW, 0))} icon="M4 9V4h5m6 0h5v5M4 15v5h5m6 0h5v-5" />
-            <Tool label={words.turnLeft} onUse={() => change(resized(points, share, 1, -TURN))} icon="M4 10a8 8 0 1 1 1 7M4 4v6h6" />
-            <Tool label={words.turnRight} onUse={() => change(resized(points, share, 1, TURN))} icon="M20 10a8 8 0 1 0-1 7m1-13v6h-6" />
-          </span>
-        )}
-        <ZoomTools onZoom={zoom} />
-        <HistoryTools history={history} advance={advance} />
-      </div>
+          )}
+        </>
+      }
+      history={history}
+      advance={advance}
+      onZoom={zoomTo}
+      help={{
+        id: help,
+        text: single ? words.helpPoint : selection.by === 'face' ? words.helpFace : words.helpFeature,
+        keys: words.keys,
+      }}
+      canReset={points !== start}
+      onReset={() => change(start)}
+      onClose={onClose}
+      onDone={() => onDone(points)}
+    >
       <Stage
         url={url}
         size={size}
@@ -144,20 +143,10 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
         onPoints={(changed) => advance({ type: 'change', state: changed })}
         onKey={key}
       />
-      <p class="stage-help" id={help}>
-        {single ? words.helpPoint : selection.by === 'face' ? words.helpFace : words.helpFeature}{' '}
-        <span class="keys">{words.keys}</span>
-      </p>
       <p class="unseen" role="status">
         {said}
       </p>
-      <StageFooter
-        canReset={points !== start}
-        onReset={() => change(start)}
-        onCancel={onClose}
-        onDone={() => onDone(points)}
-      />
-    </Window>
+    </EditorWindow>
   );
 }
 

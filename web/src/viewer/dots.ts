@@ -2,7 +2,7 @@
 
 import {
   BufferGeometry,
-  CanvasTexture,
+  type CanvasTexture,
   Color,
   Float32BufferAttribute,
   type Object3D,
@@ -13,6 +13,7 @@ import {
   type WebGLRenderer,
 } from 'three';
 import { type Handle, handles } from './handles';
+import { painted } from './painted';
 import { placeOf } from './reach';
 
 /** Pixels of the page. */
@@ -116,17 +117,12 @@ export function moved(place: Vector3, camera: PerspectiveCamera, canvas: HTMLEle
   return camera.position.clone().addScaledVector(ray, distance / ray.dot(facing));
 }
 
-function disc(): CanvasTexture {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 64;
-  const pen = canvas.getContext('2d');
-  if (pen) {
-    pen.arc(32, 32, 25, 0, 2 * Math.PI);
+const disc = (): CanvasTexture =>
+  painted(64, (pen, side) => {
+    pen.arc(side / 2, side / 2, 25, 0, 2 * Math.PI);
     pen.fillStyle = '#fff';
     pen.fill();
     pen.lineWidth = 9;
     pen.strokeStyle = '#24201b';
     pen.stroke();
-  }
-  return new CanvasTexture(canvas);
-}
+  });

@@ -3,13 +3,13 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { type AnimationClip, Box3, Vector3 } from 'three';
+import { Transport } from '../components/transport';
 import { plain, strings } from '../strings';
 import { type Character, IN_PLACE, rootOf } from './character';
 import { placeOf } from './reach';
 import { Playback } from './playback';
 import type { Stage } from './stage';
 import { Tool } from '../stage/tools';
-import { Transport } from './transport';
 
 const words = strings.viewer;
 /** Metres from the joints to the outline of the body. */

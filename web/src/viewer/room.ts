@@ -2,7 +2,6 @@
 
 import {
   BoxGeometry,
-  CanvasTexture,
   DirectionalLight,
   Group,
   HemisphereLight,
@@ -16,6 +15,7 @@ import {
   TextureLoader,
 } from 'three';
 import type { Hanging } from './hanging';
+import { painted } from './painted';
 
 /** Metres. */
 const MOULDING = 0.09;
@@ -155,11 +155,7 @@ export class Room {
   }
 
   private painted(draw: (pen: CanvasRenderingContext2D, side: number) => void): Texture {
-    const canvas = document.createElement('canvas');
-    canvas.width = canvas.height = 256;
-    const pen = canvas.getContext('2d');
-    if (pen) draw(pen, 256);
-    const texture = new CanvasTexture(canvas);
+    const texture = painted(256, draw);
     texture.colorSpace = SRGBColorSpace;
     this.made.push(texture);
     return texture;

@@ -1,7 +1,7 @@
 /** The ground under somebody: a soft disc, and on it the darkness of what comes near it. */
 
 import {
-  CanvasTexture,
+  type CanvasTexture,
   Color,
   CustomBlending,
   Group,
@@ -18,6 +18,7 @@ import {
   WebGLRenderTarget,
 } from 'three';
 import type { Character } from './character';
+import { painted } from './painted';
 
 /** Metres that the shadow's picture covers, and its pixels. */
 const SIDE = 2.6;
@@ -179,16 +180,11 @@ export class Ground {
   }
 }
 
-function fading(): CanvasTexture {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = PIXELS;
-  const pen = canvas.getContext('2d');
-  if (pen) {
-    const half = PIXELS / 2;
+const fading = (): CanvasTexture =>
+  painted(PIXELS, (pen, side) => {
+    const half = side / 2;
     const fade = pen.createRadialGradient(half, half, 0, half, half, half);
     for (const [at, alpha] of [[0, 1], [0.35, 0.75], [1, 0]] as const) fade.addColorStop(at, `rgb(255 255 255 / ${alpha})`);
     pen.fillStyle = fade;
-    pen.fillRect(0, 0, PIXELS, PIXELS);
-  }
-  return new CanvasTexture(canvas);
-}
+    pen.fillRect(0, 0, side, side);
+  });

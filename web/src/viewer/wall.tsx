@@ -3,6 +3,7 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Vector3 } from 'three';
+import { PlayButton } from '../components/transport';
 import { strings } from '../strings';
 import type { Character } from './character';
 import { Emerging } from './emerging';
@@ -99,12 +100,7 @@ export function Wall({ stage, character, view, dark, tools }: Props) {
         <Tool label={words.reset} onUse={() => visitor.current?.comeBack()} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
       </div>
       <div class="controls">
-        <button type="button" class="play" onClick={() => act((steps) => steps.set(!playing))}>
-          <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
-            <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
-          </svg>
-          <span class="unseen">{playing ? strings.player.pause : strings.player.play}</span>
-        </button>
+        <PlayButton playing={playing} onPlay={() => act((steps) => steps.set(!playing))} />
         <button type="button" class="button" onClick={() => act((steps) => steps.restart(false))}>
           {words.wallBack}
         </button>

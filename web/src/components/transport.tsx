@@ -1,4 +1,4 @@
-/** Play and pause, where one is, and how fast. */
+/** Play and pause, where one is, and how fast: of videos and of clips. */
 
 import type { ComponentChildren } from 'preact';
 import { clock } from '../format';
@@ -6,6 +6,17 @@ import { strings } from '../strings';
 
 const words = strings.player;
 const speeds = [1, 0.5, 0.25] as const;
+
+export function PlayButton({ playing, onPlay }: { playing: boolean; onPlay: () => void }) {
+  return (
+    <button type="button" class="play" onClick={onPlay}>
+      <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
+        <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
+      </svg>
+      <span class="unseen">{playing ? words.pause : words.play}</span>
+    </button>
+  );
+}
 
 interface Props {
   time: number;
@@ -15,18 +26,16 @@ interface Props {
   onPlay: () => void;
   onSeek: (time: number) => void;
   onSpeed: (speed: number) => void;
+  /** Before the choice of the speed. */
   children?: ComponentChildren;
+  /** Behind it. */
+  after?: ComponentChildren;
 }
 
-export function Transport({ time, total, playing, speed, onPlay, onSeek, onSpeed, children }: Props) {
+export function Transport({ time, total, playing, speed, onPlay, onSeek, onSpeed, children, after }: Props) {
   return (
     <div class="controls">
-      <button type="button" class="play" onClick={onPlay}>
-        <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
-          <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
-        </svg>
-        <span class="unseen">{playing ? words.pause : words.play}</span>
-      </button>
+      <PlayButton playing={playing} onPlay={onPlay} />
       <input
         type="range"
         class="scrub"
@@ -49,6 +58,7 @@ export function Transport({ time, total, playing, speed, onPlay, onSeek, onSpeed
           </option>
         ))}
       </select>
+      {after}
     </div>
   );
 }
