@@ -22,7 +22,7 @@ from engine.perception.body import LANDMARKS
 
 
 def write_findings(out: Path, people: Sequence[Person]) -> None:
-    """Write them: mask and labels of all who were woken, the skeleton of the first."""
+    """Write them: mask and labels of all who were woken, the skeleton of the first, and where each of them stands."""
     alpha = np.max([person.silhouette.alpha for person in people], axis=0)
     write_image(out / "mask.png", np.repeat(np.round(alpha * 255).astype(np.uint8)[..., None], 3, 2))
     first = people[0]
@@ -34,7 +34,17 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
         own = cv2.warpAffine(coloured, back, (width, height), flags=cv2.INTER_NEAREST)
         shown = np.asarray(np.where(own.any(-1, keepdims=True), own, shown), np.uint8)
     write_image(out / "labels.png", shown)
-    (out / "skeleton.json").write_text(json.dumps(_skeleton(first)) + "\n")
+    (out / "skeleton.json").write_text(json.dumps({**_skeleton(first), "woken": woken(people)}) + "\n")
+
+
+def woken(people: Sequence[Person]) -> list[dict[str, Any]]:
+    """Who each character is, in the order of their files: which of the people found, and the place of its origin in the
+    world of the first, metres; one camera took them all. On level ground y is 0; it is not where somebody stands
+    on something, or is smaller than they seem."""
+    eye = people[0].character.eye
+    return [
+        {"person": person.figure.index, "place": np.round(eye - person.character.eye, 5).tolist()} for person in people
+    ]
 
 
 def _skeleton(person: Person) -> dict[str, Any]:

@@ -1,11 +1,13 @@
 /** The service's HTTP API, as far as this page uses it; its types come from the service's own description. */
 
 import createClient from 'openapi-fetch';
+import { randomKey } from './key';
 import type {
   CharacterChanges,
   CharacterOptions,
   Frame,
   Landmarks,
+  MotionDetails,
   NewJob,
   PortraitChanges,
   PortraitOptions,
@@ -194,11 +196,31 @@ export const listJobs = (
 export const listDrivers = async (signal?: AbortSignal): Promise<Driver[]> =>
   (await answer(service.GET('/v1/drivers', aborted(signal)))).items;
 
-/** The motions that the service keeps for the user, those that can move somebody. */
+/** The motions that the service keeps for the user: those that can move somebody, if need be once their joints are told. */
 export const listOwnMotions = async (signal?: AbortSignal): Promise<KeptMotion[]> =>
   (await answer(service.GET('/v1/motions', aborted(signal)))).items.filter(
-    ({ source, check_status, error }) => source === 'own' && check_status === 'ready' && !error,
+    ({ source, check_status, error, missing }) =>
+      source === 'own' && check_status === 'ready' && (!error || (missing?.length ?? 0) > 0),
   );
+
+/** What is known of a motion that the service keeps. */
+export const getMotion = (name: string, signal?: AbortSignal): Promise<KeptMotion> =>
+  answer(service.GET('/v1/motions/{name}', { params: { path: { name } }, ...aborted(signal) }));
+
+/** Have the service look into a motion file: one that it has, or one at hand, which it keeps no longer than the job. */
+export function orderMotionCheck(motion: string | File): Promise<Job> {
+  const header = { 'idempotency-key': randomKey() };
+  const body = { kind: 'motion' as const, inputs: { motion: motion as string } };
+  if (typeof motion === 'string') return answer(service.POST('/v1/jobs', { params: { header }, body }));
+  const form = new FormData();
+  form.append('kind', body.kind);
+  form.append('motion', motion);
+  return answer(service.POST('/v1/jobs', { params: { header }, body, bodySerializer: () => form }));
+}
+
+/** What such a look has found. */
+export const getMotionDetails = (of: Job, signal?: AbortSignal): Promise<MotionDetails | null> =>
+  artifact(of, 'motion.json', signal);
 
 /** Keep a video as a driver of one's own; it is searched for moments then. */
 export const createDriver = (name: string, file: File): Promise<Driver> => {

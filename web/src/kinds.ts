@@ -15,6 +15,8 @@ export interface Stroke {
 export type BodyPart = 'head' | 'torso' | 'left_arm' | 'right_arm' | 'left_leg' | 'right_leg';
 /** x, y, width and height in pixels of the picture. */
 export type Frame = [x: number, y: number, width: number, height: number];
+/** Which joint of a motion's file moves which of ours, where it is not as found; null leaves one out. */
+export type MotionJoints = Readonly<Record<string, string | null>>;
 export interface CharacterCorrections {
   /** Where the person is looked for. */
   person_box?: Frame;
@@ -24,11 +26,15 @@ export interface CharacterCorrections {
   joints?: Record<string, [number, number]>;
   mask_strokes?: (Stroke & { person: boolean })[];
   label_strokes?: (Stroke & { part: BodyPart })[];
-  /** A file, in place of the motion that is named. */
+  motion_joints?: MotionJoints;
+  /** A file or a kept motion, in place of the motion that is named. */
   motion?: string;
+  /** Files in place of what would be found, of the picture's size. */
+  mask?: string;
+  labels?: string;
 }
 export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof CharacterCorrections> &
-  Omit<CharacterCorrections, 'motion'> & {
+  Omit<CharacterCorrections, 'motion' | 'mask' | 'labels'> & {
     motion?: NonNullable<Schemas['CharacterOptions']['motion']>;
     back_texture?: 'mirror' | 'inpaint';
   };
@@ -61,6 +67,35 @@ export interface Landmarks {
 export interface Skeleton {
   size: [number, number];
   joints: Record<string, { place: [number, number]; confidence: number }>;
+  /** From where the picture was taken; earlier versions did not say it. */
+  camera?: PictureCamera;
+  /** Who character.glb, character-2.glb and so on are, in their order; earlier versions did not say it. */
+  woken?: Woken[];
+}
+
+/** The picture's camera in the character's world: y up, ground at 0, looking along -z. */
+export interface PictureCamera {
+  /** Metres. */
+  eye: [number, number, number];
+  /** Pixels of the picture. */
+  focal: number;
+  centre: [number, number];
+  size: [width: number, height: number];
+}
+
+export interface Woken {
+  /** Which of the people found, counted from 0. */
+  person: number;
+  /** Where the origin of their world is in that of the first, in metres. */
+  place: [x: number, y: number, z: number];
+}
+
+/** What is in a motion file (motion.json); only what this page reads. */
+export interface MotionDetails {
+  /** The joints of its skeleton. */
+  joints: readonly { name: string }[];
+  /** Which of them moves which of ours, as it was found. */
+  mapping: Readonly<Record<string, string>>;
 }
 
 /** What is ordered; `metadata` holds the names that this page gives it. */

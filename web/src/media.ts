@@ -5,6 +5,8 @@ const videos = /\.(mp4|m4v|mov|webm|mkv|gif)$/i;
 const motions = /\.(bvh|glb)$/i;
 
 export const pictureTypes = 'image/jpeg,image/png,image/webp,image/heic,image/heif,.heic,.heif';
+/** Of masks, which every browser reads and which lose nothing: PNG before all. */
+export const maskTypes = 'image/png,image/webp,image/bmp,image/jpeg';
 export const videoTypes = 'video/*,image/gif,.mkv,.mov';
 export const motionTypes = '.bvh,.glb,model/gltf-binary';
 

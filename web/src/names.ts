@@ -60,4 +60,4 @@ export function performanceUrl(job: Job, chosen?: string | null): string | null 
   return `/v1/drivers/${encodeURIComponent(name)}/video`;
 }
 
-const isUrl = (value: string): boolean => /^https?:/.test(value);
+export const isUrl = (value: string): boolean => /^https?:/.test(value);

@@ -9,8 +9,8 @@ import { keepPending } from './pending';
 import { plain, strings } from './strings';
 import { uploadFile, type Valve } from './upload';
 
-/** The files that an order may hold. */
-export type FilePart = 'portrait' | 'video' | 'photo' | 'motion';
+/** The files that an order, or a correction, may hold. */
+export type FilePart = 'portrait' | 'video' | 'photo' | 'motion' | 'mask' | 'labels';
 export type Sending = { step: FilePart; fraction: number } | { step: 'ordering' };
 
 /** How a character moves: one of our clips, or a file. */

@@ -1,14 +1,17 @@
 /** What a revision of a character asks for: nothing but what differs from the job before. */
 
-import { characterOptions, type CharacterChanges, type Frame, type Job } from '../api';
+import { characterOptions, type CharacterChanges, type Frame, type Job, type MotionJoints } from '../api';
+import type { Pose } from '../components/redo';
 import { stem } from '../format';
 import { USUAL_MOTION } from '../names';
 import type { Motion } from '../order';
-import type { Pose } from '../components/redo';
 import { plain } from '../strings';
 import { changedOptions, type Choices, choicesOf } from './choices';
 import type { Joints } from './skeleton';
 import type { LabelStroke, MaskStroke } from './strokes';
+
+/** What is kept of a job: the file that it had before. */
+export type Held = { by: 'held'; input: string };
 
 export interface Wishes extends Choices {
   /** Which of the people found, counted from the largest. */
@@ -19,14 +22,33 @@ export interface Wishes extends Choices {
   joints: Joints;
   mask: readonly MaskStroke[];
   labels: readonly LabelStroke[];
-  /** `held`: the file that the job had before. */
-  motion: Motion | { by: 'held' };
+  /** Files in place of what is found; strokes are painted over them. */
+  maskFile: File | Held | null;
+  labelsFile: File | Held | null;
+  motion: Motion | Held;
+  motionJoints: MotionJoints;
   pose: Pose;
+}
+
+/** What of the wishes is files to be sent, and their ids once they are. */
+export const fileParts = ['motion', 'mask', 'labels'] as const;
+export type Sent = { [Part in (typeof fileParts)[number]]?: string };
+
+/** The file to be sent for a part; null where there is none. */
+export function fileOf(wishes: Wishes, part: keyof Sent): File | null {
+  const { motion, maskFile, labelsFile } = wishes;
+  if (part === 'motion') return motion.by === 'file' ? motion.file : null;
+  const file = part === 'mask' ? maskFile : labelsFile;
+  return file instanceof File ? file : null;
 }
 
 /** What a job was made with. */
 export function wishesOf(job: Job): Wishes {
   const made = characterOptions(job);
+  const held = (name: string): Held | null => {
+    const input = job.inputs[name];
+    return typeof input === 'string' ? { by: 'held', input } : null;
+  };
   return {
     ...choicesOf(made),
     person: made.person_index ?? 0,
@@ -34,7 +56,10 @@ export function wishesOf(job: Job): Wishes {
     joints: made.joints ?? {},
     mask: made.mask_strokes ?? [],
     labels: made.label_strokes ?? [],
-    motion: job.inputs.motion ? { by: 'held' } : { by: 'name', name: made.motion ?? USUAL_MOTION },
+    maskFile: held('mask'),
+    labelsFile: held('labels'),
+    motion: held('motion') ?? { by: 'name', name: made.motion ?? USUAL_MOTION },
+    motionJoints: made.motion_joints ?? {},
     pose: (made.pose as Pose | undefined) ?? {},
   };
 }
@@ -42,13 +67,13 @@ export function wishesOf(job: Job): Wishes {
 /** Somebody else in the picture: what was put right of the one before is no longer wanted. */
 export const another = (who: { person: number | 'all' } | { box: Frame | null }): Partial<Wishes> => ({
   ...('person' in who ? { person: who.person, box: null } : { person: 0, box: who.box }),
-  ...{ joints: {}, mask: [], labels: [], pose: {} },
+  ...{ joints: {}, mask: [], labels: [], maskFile: null, labelsFile: null, pose: {} },
 });
 
 const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
-/** `motionFile` is the id of the file that was sent, where the motion is one. */
-export function changesOf(before: Wishes, now: Wishes, motionFile: string | null): CharacterChanges {
+/** `sent`: the ids of the files that were sent. */
+export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterChanges {
   const filled = <T extends object>(value: T): T | null => (Object.keys(value).length ? value : null);
   const { motion } = now;
   const renamed = motion.by === 'name' && !same(before.motion, motion);
@@ -56,10 +81,14 @@ export function changesOf(before: Wishes, now: Wishes, motionFile: string | null
     ...(!same(before.person, now.person) && { person_index: now.person || null }),
     ...(!same(before.box, now.box) && { person_box: now.box }),
     ...(!same(before.joints, now.joints) && { joints: filled(now.joints) }),
+    ...(before.maskFile && !now.maskFile && { mask: null }),
+    ...(before.labelsFile && !now.labelsFile && { labels: null }),
     ...(!same(before.mask, now.mask) && { mask_strokes: filled(now.mask) }),
     ...(!same(before.labels, now.labels) && { label_strokes: filled(now.labels) }),
-    ...(motionFile && { motion: motionFile }),
     ...(renamed && before.motion.by === 'held' && { motion: null }),
+    ...(motion.by === 'kept' && { motion: motion.name }),
+    ...(!same(before.motionJoints, now.motionJoints) && { motion_joints: filled(now.motionJoints) }),
+    ...sent,
   };
   const options = {
     ...changedOptions(before, now),
@@ -70,9 +99,12 @@ export function changesOf(before: Wishes, now: Wishes, motionFile: string | null
 }
 
 export const isChanged = (before: Wishes, now: Wishes): boolean => {
-  const { corrections, options } = changesOf(before, now, now.motion.by === 'file' ? 'file' : null);
-  return Object.keys({ ...corrections, ...options }).length > 0;
+  const { corrections, options } = changesOf(before, now, {});
+  return fileParts.some((part) => fileOf(now, part)) || Object.keys({ ...corrections, ...options }).length > 0;
 };
 
-/** The job's own notes, with the name of its new motion. */
-export const notesFor = (job: Job, motion: File): Job['metadata'] => ({ ...job.metadata, motion: plain(stem(motion.name)) });
+/** The job's own notes, with the name of its new motion; nothing where it has none. */
+export function notesFor(job: Job, { motion }: Wishes): { metadata?: Job['metadata'] } {
+  const name = motion.by === 'file' ? stem(motion.file.name) : motion.by === 'kept' ? motion.name : null;
+  return name === null ? {} : { metadata: { ...job.metadata, motion: plain(name) } };
+}

@@ -1,60 +1,89 @@
-/** The motion of a character that is made again: as before, another of ours, or a file. */
+/** The motion of a character that is made again: as before, another of ours or one's own, or a file. */
 
 import { useId } from 'preact/hooks';
-import type { MotionName } from '../api';
-import { Dropzone } from '../components/dropzone';
-import { isMotion, motionTypes } from '../media';
-import { motionName } from '../names';
-import { strings } from '../strings';
-import type { Wishes } from './changes';
-import { motionNames } from './motions';
+import { type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
+import { useLoaded } from '../loading';
+import { isFileId, isUrl, motionName } from '../names';
+import { plain, strings } from '../strings';
+import type { Held, Wishes } from './changes';
+import { JointMap } from './jointmap';
+import { MotionDrop } from './motiondrop';
+import { detailsIn, motionNames } from './motions';
 
 const words = strings.character;
 
 interface Props {
+  job: Job;
   value: Wishes['motion'];
-  /** Whether the job moved by a file. */
-  held: boolean;
-  onChange: (motion: Wishes['motion']) => void;
+  /** What the job moved by before. */
+  before: Wishes['motion'];
+  joints: MotionJoints;
+  onChange: (wishes: Pick<Wishes, 'motion' | 'motionJoints'>) => void;
 }
 
-export function MotionField({ value, held, onChange }: Props) {
+export function MotionField({ job, value, before, joints, onChange }: Props) {
   const id = useId();
+  const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
+  const held = before.by === 'held' ? before : null;
+  const made = job.options.motion_joints as MotionJoints | undefined;
+  const choose = (motion: Wishes['motion']): void =>
+    onChange({ motion, motionJoints: motion.by === 'held' ? (made ?? {}) : {} });
+  const known = value.by === 'kept' ? detailsIn(kept, value.name) : value.by === 'held' ? listedIn(job) : null;
   return (
     <>
       <div class="field">
         <label for={id}>{words.motion}</label>
         <select
           id={id}
-          value={value.by === 'name' ? value.name : value.by}
-          onChange={({ currentTarget }) =>
-            onChange(
-              currentTarget.value === 'held' ? { by: 'held' } : { by: 'name', name: currentTarget.value as MotionName },
-            )
-          }
+          value={value.by === 'name' || value.by === 'kept' ? `${value.by} ${value.name}` : value.by}
+          onChange={({ currentTarget }) => {
+            const [by, name = ''] = currentTarget.value.split(' ');
+            if (by === 'held' && held) choose(held);
+            else if (by === 'kept') choose({ by, name });
+            else if (by === 'name') choose({ by, name: name as MotionName });
+          }}
         >
-          {held && <option value="held">{words.heldMotion}</option>}
+          {held && <option value="held">{nameOf(held)}</option>}
           {value.by === 'file' && <option value="file">{value.file.name}</option>}
           {motionNames.map((name) => (
-            <option key={name} value={name}>
+            <option key={name} value={`name ${name}`}>
               {motionName(name)}
             </option>
           ))}
+          {kept.length > 0 && (
+            <optgroup label={words.keptMotions}>
+              {kept.map(({ name, title }) => (
+                <option key={name} value={`kept ${name}`}>
+                  {title || plain(name)}
+                </option>
+              ))}
+            </optgroup>
+          )}
         </select>
       </div>
-      <Dropzone
-        media="motion"
+      <MotionDrop
         file={value.by === 'file' ? value.file : null}
-        accept={motionTypes}
-        accepts={isMotion}
-        words={{
-          drop: words.motionDrop,
-          browse: words.motionBrowse,
-          chosen: words.motionChosen,
-          wrong: words.wrongMotion,
-        }}
-        onFile={(file) => onChange({ by: 'file', file })}
+        onFile={(file) => choose({ by: 'file', file })}
       />
+      {value.by !== 'name' && (
+        <JointMap
+          motion={value}
+          known={known}
+          wanted={value.by === 'held' && (job.error?.correctable ?? []).includes('motion_joints')}
+          value={joints}
+          onChange={(motionJoints) => onChange({ motion: value, motionJoints })}
+        />
+      )}
     </>
   );
+}
+
+const nameOf = ({ input }: Held): string =>
+  isUrl(input) || isFileId(input) ? words.heldMotion : plain(input);
+
+/** What the error of a job that could not map its motion lists; what was said by hand is among it, so that it tells nothing then. */
+function listedIn(job: Job): MotionDetails | null {
+  const { joints, mapping } = (job.error?.found ?? {}) as { joints?: string[]; mapping?: Record<string, string> };
+  const said = Object.keys((job.options.motion_joints as object | undefined) ?? {}).length > 0;
+  return joints && mapping && !said ? { joints: joints.map((name) => ({ name })), mapping } : null;
 }

@@ -1,13 +1,13 @@
 /** The motions on offer: ours as drawn figures, or a file at hand. */
 
-import { listOwnMotions, type MotionName } from '../api';
+import { type KeptMotion, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
 import { SymbolCard } from '../components/card';
-import { Dropzone } from '../components/dropzone';
 import { useLoaded } from '../loading';
-import { isMotion, motionTypes } from '../media';
 import { motionName } from '../names';
 import type { Motion } from '../order';
 import { plain, strings } from '../strings';
+import { JointMap } from './jointmap';
+import { MotionDrop } from './motiondrop';
 import '../styles/motions.css';
 
 const words = strings.character;
@@ -33,10 +33,20 @@ export const motionNames = Object.keys(figures) as MotionName[];
 interface Props {
   chosen: Motion;
   onChoose: (motion: Motion) => void;
+  /** Of a motion of one's own: what moves which joint otherwise than found. */
+  joints: MotionJoints;
+  onJoints: (joints: MotionJoints) => void;
 }
 
-export function Motions({ chosen, onChoose }: Props) {
+/** What the list of motions says of one of them. */
+export const detailsIn = (kept: readonly KeptMotion[], name: string): MotionDetails | null => {
+  const { joints = [], mapping = {} } = kept.find((one) => one.name === name) ?? {};
+  return joints.length ? { joints, mapping } : null;
+};
+
+export function Motions({ chosen, onChoose, joints, onJoints }: Props) {
   const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
+  const known = chosen.by === 'kept' ? detailsIn(kept, chosen.name) : null;
   return (
     <>
       <fieldset class="performances">
@@ -72,19 +82,8 @@ export function Motions({ chosen, onChoose }: Props) {
         </fieldset>
       )}
       <h3>{words.ownMotion}</h3>
-      <Dropzone
-        media="motion"
-        file={chosen.by === 'file' ? chosen.file : null}
-        accept={motionTypes}
-        accepts={isMotion}
-        words={{
-          drop: words.motionDrop,
-          browse: words.motionBrowse,
-          chosen: words.motionChosen,
-          wrong: words.wrongMotion,
-        }}
-        onFile={(file) => onChoose({ by: 'file', file })}
-      />
+      <MotionDrop file={chosen.by === 'file' ? chosen.file : null} onFile={(file) => onChoose({ by: 'file', file })} />
+      {chosen.by !== 'name' && <JointMap motion={chosen} known={known} value={joints} onChange={onJoints} />}
     </>
   );
 }

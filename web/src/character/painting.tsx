@@ -8,8 +8,9 @@ interface Props {
   size: readonly [width: number, height: number];
   /** What is coloured: what is not the person, the parts of the body, or nothing. */
   what: 'mask' | 'labels' | null;
-  mask: string;
-  labels: string;
+  /** Pictures of what was found; without a mask, all is the person. */
+  mask: string | null;
+  labels: string | null;
   strokes: { mask: readonly MaskStroke[]; labels: readonly LabelStroke[] };
 }
 
@@ -24,7 +25,7 @@ export function Painting({ url, size, what, mask, labels, strokes }: Props) {
       <defs>
         {/* white where the person is: strokes over what was found, the later ones over the earlier ones */}
         <mask id={id} maskUnits="userSpaceOnUse" {...area}>
-          <image href={mask} {...place} />
+          {mask === null ? <rect {...area} fill="#fff" /> : <image href={mask} {...place} />}
           {strokes.mask.map((stroke, index) => (
             <path
               key={index}
@@ -44,7 +45,7 @@ export function Painting({ url, size, what, mask, labels, strokes }: Props) {
       )}
       {what === 'labels' && (
         <g class="parts" mask={person}>
-          <image class="found" href={labels} {...place} />
+          {labels !== null && <image class="found" href={labels} {...place} />}
           {strokes.labels.map((stroke, index) => (
             <path
               key={index}

@@ -1,29 +1,20 @@
 /** Everything about a character that can be put right by hand, and the order to make it again. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import {
-  characterOptions,
-  foundPeople,
-  getReport,
-  getSkeleton,
-  type Job,
-  type Problem,
-  reviseCharacter,
-} from '../api';
+import { foundPeople, getReport, getSkeleton, type Job, type Problem } from '../api';
 import { later } from '../components/later';
 import type { Pose } from '../components/redo';
 import { SendingBar } from '../components/sendingbar';
 import { usePicture } from '../corrections/picture';
 import { randomKey } from '../key';
-import { asProblem, useLoaded } from '../loading';
-import { jobLink } from '../route';
+import { useLoaded } from '../loading';
 import { strings } from '../strings';
-import { GIVEN_UP, uploadFile, Valve } from '../upload';
-import { another, changesOf, isChanged, notesFor, type Wishes, wishesOf } from './changes';
+import { another, isChanged, type Wishes, wishesOf } from './changes';
 import { KeepField, VideoFields } from './choices';
 import { MotionField } from './motionfield';
 import { Paintings } from './paintings';
 import { People } from './people';
+import { useRevision } from './revision';
 import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from './skeleton';
 import '../styles/corrections.css';
 import '../styles/character.css';
@@ -67,6 +58,8 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
   const again = isChanged(before, wishes) || job.status !== 'succeeded';
   /** Whether the person is still the one that the job found. */
   const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
+  /** Whether there is an outline to be put right, or one was wanting. */
+  const outlined = 'mask.png' in job.artifacts || mendable.some((name) => /^(mask|label)/.test(name));
   const found = useMemo<Joints | null>(
     () => (skeleton && samePerson && wishes.person !== 'all' ? jointsOf(skeleton) : null),
     [skeleton, samePerson, wishes.person],
@@ -144,15 +137,17 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
       <section class="panel" aria-label={words.move}>
         <h3>{words.move}</h3>
         <MotionField
+          job={job}
           value={wishes.motion}
-          held={before.motion.by === 'held'}
-          onChange={(motion) => wish({ motion })}
+          before={before.motion}
+          joints={wishes.motionJoints}
+          onChange={wish}
         />
         <KeepField value={wishes} onChange={wish} />
         {Object.keys(wishes.pose).length > 0 && (
           <div class="actions">
             <p class="hint" role="status">
-              {words.posed(Object.keys(wishes.pose).length)}
+              {words.posed(Object.keys(wishes.pose).length)} {wishes.person === 'all' && words.posedAll}
             </p>
             <button type="button" class="button quiet" onClick={() => wish({ pose: {} })}>
               {words.poseBack}
@@ -162,13 +157,11 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
         <h3>{words.video}</h3>
         <VideoFields value={wishes} onChange={wish} />
       </section>
-      {picture && samePerson && wishes.person !== 'all' && (
+      {picture && samePerson && wishes.person !== 'all' && outlined && (
         <Paintings
           job={job}
           picture={picture}
-          made={characterOptions(job)}
-          mask={wishes.mask}
-          labels={wishes.labels}
+          wishes={wishes}
           onPaint={wish}
         />
       )}
@@ -217,56 +210,3 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
     </form>
   );
 }
-
-/** Sends the file of another motion, if there is one, then the revision; the page turns to its job. */
-function useRevision(job: Job, key: { current: string }, onProblem: Props['onProblem']) {
-  const [busy, setBusy] = useState(false);
-  const [fraction, setFraction] = useState<number | null>(null);
-  const [paused, setPaused] = useState(false);
-  const valve = useRef(new Valve());
-  const stopper = useRef<AbortController | null>(null);
-  /** What has arrived need not be sent again. */
-  const arrived = useRef<{ file: File; id: string } | null>(null);
-  useEffect(() => () => stopper.current?.abort(), []);
-
-  const upload = async (file: File, signal: AbortSignal): Promise<string> => {
-    if (arrived.current?.file === file) return arrived.current.id;
-    setFraction(0);
-    const id = await uploadFile(file, (sent) => setFraction(file.size ? sent / file.size : 1), valve.current, signal);
-    arrived.current = { file, id };
-    return id;
-  };
-  const pause = (on: boolean): void => {
-    setPaused(on);
-    valve.current.closed = on;
-  };
-  const send = async (before: Wishes, wishes: Wishes): Promise<void> => {
-    const { signal } = (stopper.current = new AbortController());
-    const { motion } = wishes;
-    if (!isChanged(before, wishes) && job.status === 'succeeded') return;
-    setBusy(true);
-    pause(false);
-    onProblem(null);
-    try {
-      const id = motion.by === 'file' ? await upload(motion.file, signal) : null;
-      setFraction(null);
-      const changes = changesOf(before, wishes, id);
-      const metadata = motion.by === 'file' && { metadata: notesFor(job, motion.file) };
-      const revised = await reviseCharacter(job.id, { ...changes, ...metadata }, key.current);
-      location.hash = jobLink(revised.id);
-    } catch (error) {
-      if (!signal.aborted) onProblem(asProblem(error));
-      setFraction(null);
-      setBusy(false);
-    }
-  };
-  return {
-    busy,
-    paused,
-    step: fraction === null ? null : ({ step: 'motion', fraction } as const),
-    pause,
-    stop: () => stopper.current?.abort(GIVEN_UP),
-    send: (before: Wishes, wishes: Wishes) => void send(before, wishes),
-  };
-}
-

@@ -1,9 +1,10 @@
 /** A finished character: the video, the character itself to take along, and what the run has to say. */
 
-import { type Artifact, getReport, type Job } from '../api';
+import { type Artifact, getReport, getSkeleton, type Job } from '../api';
 import { size } from '../format';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
+import { peopleOf } from '../viewer/people';
 import { later } from './later';
 import { Files, Sharing, Took, Warnings } from './left';
 import { Player } from './player';
@@ -21,13 +22,17 @@ interface Props {
 export default function CharacterResult({ job, onPose }: Props) {
   const report = useLoaded((signal) => getReport(job, signal), job.id);
   const { artifacts } = job;
+  const several = peopleOf(job, null).length > 1;
+  const skeleton = useLoaded(async (signal) => (several ? getSkeleton(job, signal) : null), job.id).value;
   const film = Object.entries(artifacts).find(([name]) => name.startsWith('animation.'));
   return (
     <div class="result">
       {film && <Film job={job} artifact={film[1]} />}
       {artifacts['character.glb'] && <Viewer job={job} onPose={onPose} />}
       <div class="actions">
-        <Download job={job} name="character.glb" label={words.glb} primary />
+        {peopleOf(job, skeleton).map(({ name, number }) => (
+          <Download key={name} job={job} name={`${name}.glb`} label={several ? words.glbOf(number) : words.glb} primary />
+        ))}
         <Download job={job} name="character.usdz" label={words.usdz} />
         <Download job={job} name="character.vrm" label={words.vrm1} />
         {film && <Download job={job} name={film[0]} label={words.video} />}

@@ -10,6 +10,8 @@ const parts = {
   video: words.uploadingVideo,
   photo: words.uploadingPhoto,
   motion: words.uploadingMotion,
+  mask: words.uploadingMask,
+  labels: words.uploadingLabels,
 };
 
 interface Props {

@@ -1,6 +1,7 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
 import { useEffect, useState } from 'preact/hooks';
+import type { CharacterOptions, MotionJoints } from '../api';
 import { type Choices, KeepField, optionsOf, usual, VideoFields } from '../character/choices';
 import { Motions } from '../character/motions';
 import { Capture } from '../components/capture';
@@ -17,14 +18,22 @@ import { strings } from '../strings';
 
 const words = strings.character;
 
+/** The option for it, where there is something to say. */
+const said = (joints: MotionJoints): CharacterOptions => (Object.keys(joints).length ? { motion_joints: joints } : {});
+
 export default function CharacterStudio() {
   const [photo, setPhoto] = useState<File | null>(null);
   const [motion, setMotion] = useState<Motion>({ by: 'name', name: USUAL_MOTION });
+  const [joints, setJoints] = useState<MotionJoints>({});
   const [choices, setChoices] = useState<Choices>(usual);
   const sending = useSending();
+  const move = (next: Motion): void => {
+    setMotion(next);
+    setJoints({}); // another motion has other joints
+  };
   useDropsAnywhere((file) => {
     if (isPicture(file)) setPhoto(file);
-    else if (isMotion(file)) setMotion({ by: 'file', file });
+    else if (isMotion(file)) move({ by: 'file', file });
   });
   useEffect(() => {
     document.title = `${strings.make.character} · ${strings.name}`;
@@ -32,7 +41,7 @@ export default function CharacterStudio() {
 
   const start = (event: Event): void => {
     event.preventDefault();
-    if (photo) sending.begin(characterOrder(photo, motion, optionsOf(choices)));
+    if (photo) sending.begin(characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints) }));
   };
   const change = (part: Partial<Choices>): void => setChoices((known) => ({ ...known, ...part }));
   return (
@@ -64,7 +73,7 @@ export default function CharacterStudio() {
         <section class="panel" aria-labelledby="motion-title">
           <h2 id="motion-title">{words.motion}</h2>
           <p class="hint">{words.motionHint}</p>
-          <Motions chosen={motion} onChoose={setMotion} />
+          <Motions chosen={motion} onChoose={move} joints={joints} onJoints={setJoints} />
           <details class="choices">
             <summary>{strings.studio.options}</summary>
             <div class="fields">

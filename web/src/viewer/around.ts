@@ -3,9 +3,9 @@
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import { LineBasicMaterial, SkeletonHelper } from 'three';
-import type { Character } from './character';
 import { ContactShadow, Ground } from './shadow';
 import type { Stage } from './stage';
+import type { Standing } from './staging';
 
 /** The page's own colours for sunken places, and a floor that is seen on them. */
 const backgrounds = { light: '#efeae1', dark: '#191714' };
@@ -26,44 +26,49 @@ function useDark(): [boolean, () => void] {
 }
 
 /** The empty surroundings; `elsewhere` where another room is built. */
-export function useSurroundings(stage: Stage, character: Character, elsewhere: boolean) {
+export function useSurroundings(stage: Stage, cast: readonly Standing[], elsewhere: boolean) {
   const [dark, toggle] = useDark();
   useEffect(() => {
     if (elsewhere) return;
-    const ground = new Ground();
-    const shadow = new ContactShadow(character);
-    stage.scene.add(ground.object, shadow.object);
+    const places = cast.map(({ character }) => character.root.position);
+    const middle = (values: number[]): number => (Math.min(...values) + Math.max(...values)) / 2;
+    const ground = new Ground(middle(places.map(({ x }) => x)), middle(places.map(({ z }) => z)));
+    const shadows = cast.map(({ character }) => new ContactShadow(character));
+    const objects = [ground.object, ...shadows.map(({ object }) => object)];
+    stage.scene.add(...objects);
     ground.paint(dark ? grounds.dark : grounds.light);
     stage.paint(dark ? backgrounds.dark : backgrounds.light);
-    const leave = stage.add(shadow);
+    const leave = shadows.map((shadow) => stage.add(shadow));
     return () => {
-      stage.scene.remove(ground.object, shadow.object);
-      ground.dispose();
-      shadow.dispose();
-      leave();
+      stage.scene.remove(...objects);
+      for (const one of [ground, ...shadows]) one.dispose();
+      for (const go of leave) go();
     };
-  }, [stage, character, elsewhere, dark]);
+  }, [stage, cast, elsewhere, dark]);
   return { dark, toggle };
 }
 
 /** The bones as lines over the mesh, where they are switched on. */
-export function useSkeletonLines(stage: Stage, character: Character, allowed: boolean) {
+export function useSkeletonLines(stage: Stage, cast: readonly Standing[], allowed: boolean) {
   const [on, setOn] = useState(false);
   const shown = on && allowed;
   useEffect(() => {
     if (!shown) return;
-    const lines = new SkeletonHelper(character.root);
-    const material = lines.material as LineBasicMaterial;
-    material.vertexColors = false;
-    material.color.set(BONES);
-    stage.scene.add(lines);
+    const all = cast.map(({ character }) => {
+      const lines = new SkeletonHelper(character.root);
+      const material = lines.material as LineBasicMaterial;
+      material.vertexColors = false;
+      material.color.set(BONES);
+      return lines;
+    });
+    stage.scene.add(...all);
     stage.invalidate();
     return () => {
-      stage.scene.remove(lines);
-      lines.dispose();
+      stage.scene.remove(...all);
+      for (const lines of all) lines.dispose();
       stage.invalidate();
     };
-  }, [stage, character, shown]);
+  }, [stage, cast, shown]);
   return { on, toggle: () => setOn(!on) };
 }
 

@@ -5,8 +5,8 @@ import { type MeshBasicMaterial, type SkinnedMesh, Vector3 } from 'three';
 /** Metres: how thick the paint is, so that an arm before the chest stays before it. */
 const PAINT = 0.02;
 const ABOVE_CANVAS = 0.004;
-/** Metres before and behind the middle of the person that count for the order of the paint. */
-const DEPTH = 1.5;
+/** Metres before the nearest and behind the furthest of the people that count for the order of the paint. */
+const AROUND = 1.5;
 
 export class Emerging {
   private readonly solid: SkinnedMesh['material'];
@@ -15,14 +15,17 @@ export class Emerging {
 
   /**
    * `eye`: from where the picture was taken; `plane`: the z of the picture; `lift`: how far the picture's ground is above
-   * the floor on which the person walks. All in metres of the room.
+   * the floor on which the person walks; `depths`: the z of whoever stands furthest and of whoever stands nearest. All in
+   * metres of the room.
    */
   constructor(
     private readonly mesh: SkinnedMesh,
     eye: Vector3,
     plane: number,
     lift: number,
+    depths: readonly [furthest: number, nearest: number],
   ) {
+    const [back, front] = [depths[0] - AROUND, depths[1] + AROUND].map((z) => z.toFixed(3));
     this.solid = mesh.material;
     this.material = (mesh.material as MeshBasicMaterial).clone();
     this.material.onBeforeCompile = (shader) => {
@@ -40,7 +43,7 @@ export class Emerging {
           // along the ray from the eye, where nothing seems to move
           `vec3 standing = (modelMatrix * vec4(transformed, 1.0)).xyz;
           vec3 ray = standing + vec3(0.0, lift, 0.0) - eye;
-          float canvas = plane + ${PAINT} * smoothstep(-${DEPTH}, ${DEPTH}, standing.z);
+          float canvas = plane + ${PAINT} * smoothstep(${back}, ${front}, standing.z);
           vec3 painted = eye + ray * ((canvas - eye.z) / min(ray.z, -0.01));
           vec4 mvPosition = viewMatrix * vec4(mix(standing, painted, flatness), 1.0);
           gl_Position = projectionMatrix * mvPosition;`,

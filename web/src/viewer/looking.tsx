@@ -2,13 +2,14 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
-import { type AnimationClip, Box3, Vector3 } from 'three';
+import { Box3, Vector3 } from 'three';
 import { Transport } from '../components/transport';
 import { plain, strings } from '../strings';
 import { type Character, IN_PLACE, rootOf } from './character';
 import { placeOf } from './reach';
 import { Playback } from './playback';
 import type { Stage } from './stage';
+import type { Standing } from './staging';
 import { Tool } from '../stage/tools';
 
 const words = strings.viewer;
@@ -17,75 +18,72 @@ const FLESH = 0.16;
 
 interface Props {
   stage: Stage;
-  character: Character;
+  cast: readonly Standing[];
   tools: ComponentChildren;
 }
 
-export function Looking({ stage, character, tools }: Props) {
-  const [clip, setClip] = useState(character.calm);
+export function Looking({ stage, cast, tools }: Props) {
+  const lead = cast[0]?.character;
+  const [clip, setClip] = useState(lead?.calm?.name ?? '');
   const [time, setTime] = useState(0);
   const [playing, setPlaying] = useState(() => !prefersStillness());
   const [speed, setSpeed] = useState(1);
   const playback = useMemo(() => {
-    if (!clip) return null;
-    return new Playback(character, clip, (now, goesOn) => {
+    const characters = cast.map(({ character }) => character);
+    return new Playback(characters, clip, (now, goesOn) => {
       setTime(now);
       setPlaying(goesOn);
     });
-  }, [character]);
+  }, [cast]);
 
   useEffect(() => {
-    if (!playback) return;
-    playback.playing = playing;
+    Object.assign(playback, { playing, speed });
     const leave = stage.add(playback);
     playback.advance(0);
-    resetView(stage, character, playback.clip);
+    resetView(stage, cast, clip);
     return () => {
       leave();
-      character.unbend();
+      for (const { character } of cast) character.unbend();
     };
   }, [stage, playback]);
 
-  const act = (change: (playback: Playback) => void): void => {
-    if (!playback) return;
-    change(playback);
+  const act = (change: () => void): void => {
+    change();
     setPlaying(playback.playing);
     setTime(playback.time);
     stage.invalidate();
   };
   const choose = (name: string): void => {
-    const chosen = character.clip(name);
-    if (!chosen) return;
-    setClip(chosen);
-    act((one) => {
-      one.choose(chosen);
-      if (!prefersStillness()) one.play();
+    setClip(name);
+    act(() => {
+      playback.choose(name);
+      playback.advance(0);
+      if (!prefersStillness()) playback.play();
     });
-    character.show(chosen, 0);
-    resetView(stage, character, chosen);
+    resetView(stage, cast, name);
   };
 
   return (
     <>
       <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
         {tools}
-        <Tool label={words.reset} onUse={() => resetView(stage, character, clip)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
+        <Tool label={words.reset} onUse={() => resetView(stage, cast, clip)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
       </div>
-      {clip && (
+      {lead?.clip(clip) && (
         <Transport
           time={time}
-          total={clip.duration}
+          total={playback.duration}
           playing={playing}
           speed={speed}
-          onPlay={() => act((one) => (one.playing ? (one.playing = false) : one.play()))}
-          onSeek={(to) => act((one) => (one.time = to))}
+          onPlay={() => act(() => (playback.playing ? (playback.playing = false) : playback.play()))}
+          onSeek={(to) => act(() => (playback.time = to))}
           onSpeed={(factor) => {
             setSpeed(factor);
-            act((one) => (one.speed = factor));
+            act(() => (playback.speed = factor));
           }}
         >
-          <select aria-label={words.clip} value={clip.name} onChange={({ currentTarget: { value } }) => choose(value)}>
-            {character.clips.map(({ name }) => (
+          <select aria-label={words.clip} value={clip} onChange={({ currentTarget: { value } }) => choose(value)}>
+            {lead.clips.map(({ name }) => (
               <option key={name} value={name}>
                 {clipName(name)}
               </option>
@@ -100,15 +98,22 @@ export function Looking({ stage, character, tools }: Props) {
 
 export const prefersStillness = (): boolean => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-/** Look from the front, so that the whole person is seen, and all of the way that they go in a clip. */
-export function resetView(stage: Stage, character: Character, clip?: AnimationClip): void {
+/** Look from the front, so that everybody is seen whole, and all of the way that they go in a clip. */
+export function resetView(stage: Stage, cast: readonly Standing[], clip?: string): void {
+  const all = new Box3();
+  for (const { character } of cast) all.union(roomFor(character, clip));
+  stage.frame(all);
+}
+
+function roomFor(character: Character, clip?: string): Box3 {
   const body = new Box3();
   for (const joint of character.joints.values()) body.expandByPoint(placeOf(joint));
   body.expandByScalar(FLESH);
   // arms that swing and legs that stride stay within a person's width
   const middle = body.getCenter(new Vector3());
   body.expandByPoint(new Vector3(middle.x - 0.5, 0, middle.z)).expandByPoint(new Vector3(middle.x + 0.5, 0, middle.z));
-  const way = clip && rootOf(clip)?.values;
+  const played = clip === undefined ? undefined : character.clip(clip);
+  const way = played && rootOf(played)?.values;
   const hips = character.joints.get('Hips')?.position;
   if (way && hips) {
     const now = body.clone();
@@ -116,7 +121,7 @@ export function resetView(stage: Stage, character: Character, clip?: AnimationCl
       body.union(now.clone().translate(new Vector3(way[key]! - hips.x, 0, way[key + 2]! - hips.z)));
     }
   }
-  stage.frame(body);
+  return body;
 }
 
 /** A clip in plain words: of the project's own the words are known, a motion file's name is its own. */

@@ -1,22 +1,22 @@
-/** A character in 3D: looked at from all sides, posed by hand, seen in one's own room or stepping out of its picture. */
+/** Characters in 3D: looked at from all sides, posed by hand, seen in one's own room or stepping out of their picture. */
 
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import type { Job } from '../api';
 import { later } from '../components/later';
 import { Trouble } from '../components/trouble';
-import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { useSkeletonLines, useSurroundings, useWideView } from './around';
-import type { Character } from './character';
 import { Looking } from './looking';
+import { peopleOf, standTogether } from './people';
 import { type Pose } from './pose';
 import { Posing } from './posing';
 import type { Stage } from './stage';
-import { useStage } from './staging';
+import { type Standing, useCast, useStage } from './staging';
 import { Tool } from '../stage/tools';
-import { getPictureView, type PictureView } from './view';
+import { mayHaveView, type PictureView, viewOf } from './view';
 import { Wall } from './wall';
+import { type Who, WhoChoice } from './who';
 import '../styles/viewer.css';
 
 const Space = later(() => import('./space'));
@@ -33,13 +33,22 @@ export interface ViewerProps {
 export default function Viewer({ job, onPose }: ViewerProps) {
   const section = useRef<HTMLElement>(null);
   const place = useRef<HTMLDivElement>(null);
-  const { shown, trouble, retry } = useStage(place, job.artifacts['character.glb']?.url);
-  const view = useLoaded((signal) => getPictureView(job, signal), job.id).value;
+  const { shown, trouble, retry } = useStage(place, job);
   const [mode, setMode] = useState<Mode>('look');
+  const [wanted, setWanted] = useState<Who>('all');
   const [inSpace, setInSpace] = useState(false);
   const wide = useWideView(section);
   useEffect(() => shown?.stage.hold(inSpace), [shown, inSpace]);
-  const modes: Mode[] = ['look', ...(onPose ? ['pose' as const] : []), ...(view ? ['wall' as const] : [])];
+  const people = shown?.people ?? peopleOf(job, null);
+  const together = standTogether(people);
+  const who = wanted === 'all' && (mode === 'pose' || !together) ? 0 : wanted;
+  const cast = useMemo(() => {
+    const all = shown?.standing ?? [];
+    return who === 'all' ? all : all.slice(who, who + 1);
+  }, [shown, who]);
+  useCast(shown, cast);
+  const view = viewOf(job, shown?.skeleton ?? null);
+  const modes: Mode[] = ['look', ...(onPose ? ['pose' as const] : []), ...(mayHaveView(job) ? ['wall' as const] : [])];
 
   return (
     <section ref={section} class="viewer" aria-label={words.label}>
@@ -52,7 +61,7 @@ export default function Viewer({ job, onPose }: ViewerProps) {
                 type="button"
                 class="toggle"
                 aria-pressed={one === mode}
-                disabled={!shown}
+                disabled={!shown || (one === 'wall' && !view)}
                 onClick={() => setMode(one)}
               >
                 {words.modeNames[one]}
@@ -62,6 +71,15 @@ export default function Viewer({ job, onPose }: ViewerProps) {
         <button type="button" class="button" onClick={() => setInSpace(true)}>
           {words.space}
         </button>
+        {people.length > 1 && (
+          <WhoChoice
+            people={people}
+            together={shown ? together : 'skeleton.json' in job.artifacts}
+            chosen={who}
+            disabled={!shown}
+            onChoose={setWanted}
+          />
+        )}
       </header>
       {/* The keyboard circles around what is shown: see the help below. */}
       <div
@@ -69,7 +87,7 @@ export default function Viewer({ job, onPose }: ViewerProps) {
         class="viewer-stage"
         tabIndex={trouble ? -1 : 0}
         role="application"
-        aria-label={words.stage}
+        aria-label={people.length > 1 ? words.stageOfSeveral : words.stage}
         aria-busy={!shown && !trouble}
       >
         {trouble && (
@@ -83,9 +101,11 @@ export default function Viewer({ job, onPose }: ViewerProps) {
         )}
         {!shown && !trouble && <p class="viewer-loading">{words.loading}</p>}
       </div>
-      {shown && (
+      {shown && cast.length > 0 && (
         <Modes
-          {...shown}
+          stage={shown.stage}
+          cast={cast}
+          people={people.length}
           mode={mode}
           view={view}
           pose={posedSoFar(job)}
@@ -101,14 +121,16 @@ export default function Viewer({ job, onPose }: ViewerProps) {
           }
         />
       )}
-      {inSpace && <Space job={job} onClose={() => setInSpace(false)} />}
+      {inSpace && <Space job={job} who={who === 'all' ? 0 : who} onClose={() => setInSpace(false)} />}
     </section>
   );
 }
 
 interface ModesProps {
   stage: Stage;
-  character: Character;
+  cast: readonly Standing[];
+  /** How many were woken. */
+  people: number;
   mode: Mode;
   view: PictureView | null;
   pose: Pose;
@@ -116,9 +138,9 @@ interface ModesProps {
   tools: ComponentChildren;
 }
 
-function Modes({ stage, character, mode, view, pose, onPose, tools }: ModesProps) {
-  const around = useSurroundings(stage, character, mode === 'wall');
-  const lines = useSkeletonLines(stage, character, mode === 'look');
+function Modes({ stage, cast, people, mode, view, pose, onPose, tools }: ModesProps) {
+  const around = useSurroundings(stage, cast, mode === 'wall');
+  const lines = useSkeletonLines(stage, cast, mode === 'look');
   const common = (
     <>
       {mode === 'look' && (
@@ -128,11 +150,12 @@ function Modes({ stage, character, mode, view, pose, onPose, tools }: ModesProps
       {tools}
     </>
   );
-  if (mode === 'pose' && onPose) {
-    return <Posing stage={stage} character={character} start={pose} tools={common} onPose={onPose} />;
+  const [one] = cast;
+  if (mode === 'pose' && onPose && one) {
+    return <Posing stage={stage} cast={[one]} people={people} start={pose} tools={common} onPose={onPose} />;
   }
-  if (mode === 'wall' && view) return <Wall stage={stage} character={character} view={view} dark={around.dark} tools={common} />;
-  return <Looking stage={stage} character={character} tools={common} />;
+  if (mode === 'wall' && view) return <Wall stage={stage} cast={cast} view={view} dark={around.dark} tools={common} />;
+  return <Looking stage={stage} cast={cast} tools={common} />;
 }
 
 /** The pose that the job was made with. */

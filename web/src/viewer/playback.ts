@@ -1,4 +1,4 @@
-/** A clip on a character, and where in it they are. */
+/** A clip that everybody on the stage plays, each their own of that name, and where in it they are. */
 
 import type { AnimationClip } from 'three';
 import { type Character, loops } from './character';
@@ -7,39 +7,63 @@ import type { Performer } from './stage';
 export class Playback implements Performer {
   playing = false;
   speed = 1;
-  time = 0;
+  private elapsed = 0;
+  private parts: { character: Character; clip: AnimationClip }[] = [];
 
   constructor(
-    private readonly character: Character,
-    public clip: AnimationClip,
+    private readonly cast: readonly Character[],
+    clip: string,
     /** Is told after every step. */
     private readonly onTime: (time: number, playing: boolean) => void,
-  ) {}
+  ) {
+    this.choose(clip);
+  }
+
+  /** Seconds of the longest; of one that loops, of the first. */
+  get duration(): number {
+    const durations = this.parts.map(({ clip }) => clip.duration);
+    return this.looping ? (durations[0] ?? 0) : Math.max(0, ...durations);
+  }
+
+  get time(): number {
+    return this.looping && this.elapsed > this.duration ? this.elapsed % this.duration : this.elapsed;
+  }
+
+  set time(time: number) {
+    this.elapsed = time;
+  }
 
   advance(seconds: number): boolean {
-    const { duration } = this.clip;
     if (this.playing) {
-      this.time += seconds * this.speed;
-      if (this.time >= duration) {
-        if (loops(this.clip)) this.time %= duration;
-        else {
-          this.time = duration;
-          this.playing = false;
-        }
+      this.elapsed += seconds * this.speed;
+      if (this.elapsed >= this.duration && !this.looping) {
+        this.elapsed = this.duration;
+        this.playing = false;
       }
     }
-    this.character.show(this.clip, this.time);
+    for (const { character, clip } of this.parts) {
+      const round = this.looping && this.elapsed > clip.duration;
+      character.show(clip, round ? this.elapsed % clip.duration : this.elapsed);
+    }
     this.onTime(this.time, this.playing);
     return this.playing;
   }
 
   play(): void {
-    if (this.time >= this.clip.duration && !loops(this.clip)) this.time = 0;
+    if (this.elapsed >= this.duration && !this.looping) this.elapsed = 0;
     this.playing = true;
   }
 
-  choose(clip: AnimationClip): void {
-    this.clip = clip;
-    this.time = 0;
+  choose(name: string): void {
+    this.elapsed = 0;
+    this.parts = this.cast.flatMap((character) => {
+      const clip = character.clip(name);
+      return clip ? [{ character, clip }] : [];
+    });
+  }
+
+  private get looping(): boolean {
+    const [first] = this.parts;
+    return first !== undefined && first.clip.duration > 0 && loops(first.clip);
   }
 }

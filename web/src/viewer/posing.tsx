@@ -5,12 +5,12 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { begun, type History, type Step, step } from '../stage/history';
 import { HistoryTools, historyKey, Tool } from '../stage/tools';
 import { strings } from '../strings';
-import type { Character } from './character';
 import { turnable } from './handles';
 import { resetView } from './looking';
 import { type Degrees, type Pose, rounded } from './pose';
 import { Sculptor } from './sculptor';
 import type { Stage } from './stage';
+import type { Standing } from './staging';
 
 const words = strings.viewer;
 const axes = [0, 1, 2] as const;
@@ -21,14 +21,18 @@ const changed = (history: History<Pose>, to: Pose, continues = false): History<P
 
 interface Props {
   stage: Stage;
-  character: Character;
+  /** Whose joints are dragged. */
+  cast: readonly [Standing];
+  /** How many people the pose will be made for. */
+  people: number;
   /** The pose to begin with. */
   start: Pose;
   tools: ComponentChildren;
   onPose: (pose: Record<string, Degrees>) => void;
 }
 
-export function Posing({ stage, character, start, tools, onPose }: Props) {
+export function Posing({ stage, cast, people, start, tools, onPose }: Props) {
+  const [{ character }] = cast;
   const [history, setHistory] = useState<History<Pose>>(() => begun(start));
   const [bone, setBone] = useState('Head');
   const sculptor = useRef<Sculptor | null>(null);
@@ -43,7 +47,7 @@ export function Posing({ stage, character, start, tools, onPose }: Props) {
     });
     sculptor.current = hands;
     hands.show(pose);
-    resetView(stage, character);
+    resetView(stage, cast);
     return () => hands.dispose();
   }, [stage, character]);
   useEffect(() => sculptor.current?.show(pose), [pose]);
@@ -78,7 +82,7 @@ export function Posing({ stage, character, start, tools, onPose }: Props) {
       <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
         <HistoryTools history={history} advance={advance} />
         {tools}
-        <Tool label={words.reset} onUse={() => resetView(stage, character)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
+        <Tool label={words.reset} onUse={() => resetView(stage, cast)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
       </div>
       <fieldset class="viewer-turns">
         <label class="inline">
@@ -107,7 +111,9 @@ export function Posing({ stage, character, start, tools, onPose }: Props) {
           </label>
         ))}
       </fieldset>
-      <p class="viewer-help">{words.poseHelp}</p>
+      <p class="viewer-help">
+        {words.poseHelp} {people > 1 && <strong>{words.poseForAll(people)}</strong>}
+      </p>
       <div class="actions">
         <button
           type="button"

@@ -169,6 +169,11 @@ export class Ground {
   private readonly material = new MeshBasicMaterial({ map: this.texture, transparent: true, depthWrite: false });
   readonly object = new Mesh(new PlaneGeometry(GROUND, GROUND).rotateX(-Math.PI / 2), this.material);
 
+  /** `x` and `z`: its middle. */
+  constructor(x: number, z: number) {
+    this.object.position.set(x, 0, z);
+  }
+
   paint(colour: string): void {
     this.material.color.set(colour);
   }

@@ -3,12 +3,14 @@
 import '@google/model-viewer';
 import type { ModelViewerElement } from '@google/model-viewer';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { getJob, type Job } from '../api';
+import { getJob, getSkeleton, type Job } from '../api';
 import { Trouble } from '../components/trouble';
 import { Window } from '../components/window';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { IN_PLACE, PICTURED } from './character';
+import { peopleOf } from './people';
+import { WhoChoice } from './who';
 
 const words = strings.viewer;
 
@@ -16,19 +18,25 @@ const said = { loading: words.loading, ready: words.spaceHint, flat: words.space
 
 interface Props {
   job: Job;
+  /** Who is shown first, of those who were woken. */
+  who: number;
   onClose: () => void;
 }
 
-export default function Space({ job, onClose }: Props) {
+export default function Space({ job, who: first, onClose }: Props) {
   // links are open for a while only, and what shows AR fetches the file by itself, late: give it fresh ones
   const fresh = useLoaded((signal) => getJob(job.id, signal), job.id);
+  const [who, setWho] = useState(first);
+  const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
+  const people = peopleOf(fresh.value ?? job, skeleton);
   const place = useRef<HTMLDivElement>(null);
   const [state, setState] = useState<'loading' | 'ready' | 'flat' | 'failed'>('loading');
   const [viewer, setViewer] = useState<ModelViewerElement | null>(null);
 
   useEffect(() => {
-    const { 'character.glb': glb, 'character.usdz': usdz } = fresh.value?.artifacts ?? {};
+    const { glb, usdz } = (fresh.value && peopleOf(fresh.value, null)[who]) ?? {};
     if (!glb || !place.current) return;
+    setState('loading');
     const element = document.createElement('model-viewer') as ModelViewerElement;
     const attributes = {
       ar: '',
@@ -58,10 +66,19 @@ export default function Space({ job, onClose }: Props) {
     place.current.append(element);
     setViewer(element);
     return () => element.remove();
-  }, [fresh.value]);
+  }, [fresh.value, who]);
 
   return (
     <Window title={words.space} class="viewer-space" onClose={onClose}>
+      {people.length > 1 && (
+        <WhoChoice
+          people={people}
+          together={false}
+          chosen={who}
+          disabled={!fresh.value}
+          onChoose={(one) => one !== 'all' && setWho(one)}
+        />
+      )}
       <div ref={place} class="viewer-room" aria-busy={state === 'loading'} />
       {state === 'failed' && <Trouble code="character_unreadable" detail={words.failed} />}
       {fresh.problem && (

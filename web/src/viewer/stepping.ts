@@ -13,54 +13,55 @@ const SETTLE = 0.5;
 /** Metres in a second from which on a motion travels: in one place it would look wrong in a room. */
 const TRAVELS = 0.25;
 
+/** Somebody who steps out: as paint, as a body, and their shadow. */
+export interface Stepper {
+  character: Character;
+  emerging: Emerging;
+  shadow: ContactShadow;
+}
+
+interface Steps extends Stepper {
+  out: AnimationClip;
+  after: AnimationClip | undefined;
+}
+
 export class Stepping implements Performer {
   playing = false;
   time = 0;
-  private readonly stepOut: AnimationClip | undefined;
-  private readonly after: AnimationClip | undefined;
+  private readonly all: Steps[];
+  /** Seconds in which the last has stepped out. */
+  private readonly duration: number;
 
   constructor(
-    private readonly character: Character,
-    private readonly emerging: Emerging,
-    private readonly shadow: ContactShadow,
+    steppers: readonly Stepper[],
     private readonly onPlaying: (playing: boolean) => void,
   ) {
-    this.stepOut = character.clip(STEP_OUT) ?? character.clip(PICTURED);
-    this.after = this.stepOut && goingOn(character, this.stepOut);
+    this.all = steppers.flatMap((stepper) => {
+      const { character } = stepper;
+      const out = character.clip(STEP_OUT) ?? character.clip(PICTURED);
+      return out ? [{ ...stepper, out, after: goingOn(character, out) }] : [];
+    });
+    this.duration = Math.max(0, ...this.all.map(({ out }) => out.duration));
   }
 
   advance(seconds: number): boolean {
-    const { stepOut, after } = this;
-    if (!stepOut) return false;
     if (this.playing) this.time += seconds;
-    const body = MathUtils.smootherstep(this.time, 0, EMERGE);
-    this.emerging.share = body;
-    this.shadow.strength = body * body;
-    const beyond = this.time - stepOut.duration;
-    if (beyond <= 0 || !after) this.character.show(stepOut, this.time);
-    else {
-      const second = beyond % after.duration;
-      const weight = MathUtils.smoothstep(beyond, 0, SETTLE);
-      if (weight === 1) this.character.show(after, second);
-      else {
-        this.character.blend([
-          { clip: stepOut, second: stepOut.duration, weight: 1 - weight },
-          { clip: after, second, weight },
-        ]);
-      }
-    }
-    return this.playing;
+    for (const one of this.all) this.bring(one);
+    return this.playing && this.all.length > 0;
   }
 
-  /** How far the person has come, of the way that they will; 0 to 1. */
+  /** How far they have come, of the way that they will; 0 to 1. */
   get way(): number {
-    return this.stepOut ? Math.min(1, this.time / this.stepOut.duration) : 0;
+    return this.duration ? Math.min(1, this.time / this.duration) : 0;
   }
 
-  /** Where the way ends, on the floor. */
-  get end(): Vector3 {
-    const values = this.stepOut && rootOf(this.stepOut)?.values;
-    return values ? new Vector3(values.at(-3), 0, values.at(-1)) : new Vector3();
+  /** Where their ways end, on the floor. */
+  get ends(): Vector3[] {
+    return this.all.map(({ character, out }) => {
+      const values = rootOf(out)?.values;
+      const { x, z } = character.root.position;
+      return values ? new Vector3(x + values.at(-3)!, 0, z + values.at(-1)!) : new Vector3(x, 0, z);
+    });
   }
 
   set(playing: boolean): void {
@@ -72,6 +73,26 @@ export class Stepping implements Performer {
   restart(playing: boolean): void {
     this.time = 0;
     this.set(playing);
+  }
+
+  private bring({ character, emerging, shadow, out, after }: Steps): void {
+    const body = MathUtils.smootherstep(this.time, 0, EMERGE);
+    emerging.share = body;
+    shadow.strength = body * body;
+    const beyond = this.time - out.duration;
+    if (beyond <= 0 || !after) {
+      character.show(out, this.time);
+      return;
+    }
+    const second = beyond % after.duration;
+    const weight = MathUtils.smoothstep(beyond, 0, SETTLE);
+    if (weight === 1) character.show(after, second);
+    else {
+      character.blend([
+        { clip: out, second: out.duration, weight: 1 - weight },
+        { clip: after, second, weight },
+      ]);
+    }
   }
 }
 

@@ -1,16 +1,6 @@
 /** From where the picture of a character was taken: what a wall needs to hang it there. */
 
-import type { Job } from '../api';
-
-/** The picture's camera in the character's world: y up, ground at 0, looking along -z. */
-export interface PictureCamera {
-  /** Metres. */
-  eye: [number, number, number];
-  /** Pixels of the picture. */
-  focal: number;
-  centre: [number, number];
-  size: [width: number, height: number];
-}
+import type { Job, PictureCamera, Skeleton } from '../api';
 
 export interface PictureView {
   camera: PictureCamera;
@@ -18,12 +8,11 @@ export interface PictureView {
   background: string;
 }
 
-/** Null where the job does not say it: those of earlier versions. */
-export async function getPictureView(job: Job, signal: AbortSignal): Promise<PictureView | null> {
-  const { 'skeleton.json': skeleton, 'background.png': background } = job.artifacts;
-  if (!skeleton || !background) return null;
-  const response = await fetch(skeleton.url, { signal });
-  if (!response.ok) return null;
-  const { camera } = (await response.json()) as { camera?: PictureCamera };
-  return camera ? { camera, background: background.url } : null;
+/** Whether a job may say it; those of earlier versions did not. */
+export const mayHaveView = ({ artifacts }: Job): boolean => 'skeleton.json' in artifacts && 'background.png' in artifacts;
+
+/** Null where the job does not say it. */
+export function viewOf({ artifacts }: Job, skeleton: Skeleton | null): PictureView | null {
+  const background = artifacts['background.png']?.url;
+  return skeleton?.camera && background ? { camera: skeleton.camera, background } : null;
 }

@@ -55,12 +55,15 @@ export class Visitor implements Performer {
     return { at, from: at.clone().setZ(plane + this.distance(right - left, top - bottom)) };
   }
 
-  /** As far off as it takes to see the person at the end of the way. */
+  /** As far off as it takes to see everybody at the end of the way. */
   private after() {
-    const { x, z } = this.stepping.end;
+    const { ends } = this.stepping;
+    const [xs, zs] = [ends.map(({ x }) => x), ends.map(({ z }) => z)];
+    const [left, right] = [Math.min(...xs) - PERSON / 4, Math.max(...xs) + PERSON / 4];
+    const nearest = Math.max(...zs);
     const before = this.before();
-    const at = new Vector3(x, PERSON / 2, z);
-    return { at, from: at.clone().setZ(Math.max(before.from.z, z + this.distance(PERSON / 2, PERSON))) };
+    const at = new Vector3((left + right) / 2, PERSON / 2, nearest);
+    return { at, from: at.clone().setZ(Math.max(before.from.z, nearest + this.distance(right - left, PERSON))) };
   }
 
   private distance(width: number, height: number): number {

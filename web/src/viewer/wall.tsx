@@ -5,13 +5,13 @@ import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Vector3 } from 'three';
 import { PlayButton } from '../components/transport';
 import { strings } from '../strings';
-import type { Character } from './character';
 import { Emerging } from './emerging';
 import { hang } from './hanging';
 import { enter, hasHeadset } from './headset';
 import { Room } from './room';
 import { ContactShadow } from './shadow';
 import type { Stage } from './stage';
+import type { Standing } from './staging';
 import { Stepping } from './stepping';
 import { Tool } from '../stage/tools';
 import type { PictureView } from './view';
@@ -26,13 +26,13 @@ const LOWEST = Math.PI / 2 + 0.12;
 
 interface Props {
   stage: Stage;
-  character: Character;
+  cast: readonly Standing[];
   view: PictureView;
   dark: boolean;
   tools: ComponentChildren;
 }
 
-export function Wall({ stage, character, view, dark, tools }: Props) {
+export function Wall({ stage, cast, view, dark, tools }: Props) {
   const hanging = useMemo(() => hang(view.camera), [view]);
   const stepping = useRef<Stepping | null>(null);
   const takeOff = useRef<(() => void) | null>(null);
@@ -44,12 +44,20 @@ export function Wall({ stage, character, view, dark, tools }: Props) {
   useEffect(() => {
     void hasHeadset().then(setHeadset);
     const { plane, lift, eye } = hanging;
-    const emerging = new Emerging(character.mesh, new Vector3(...eye), plane, lift);
-    const shadow = new ContactShadow(character);
-    const steps = new Stepping(character, emerging, shadow, setPlaying);
+    const depths = cast.map(({ character }) => character.root.position.z);
+    const steppers = cast.map(({ character, rise }) => ({
+      character,
+      emerging: new Emerging(character.mesh, new Vector3(...eye), plane, lift + rise, [
+        Math.min(...depths),
+        Math.max(...depths),
+      ]),
+      shadow: new ContactShadow(character),
+    }));
+    const shadows = steppers.map(({ shadow }) => shadow.object);
+    const steps = new Stepping(steppers, setPlaying);
     stepping.current = steps;
-    stage.scene.add(shadow.object);
-    const leave = [stage.add(steps), stage.add(shadow)];
+    stage.scene.add(...shadows);
+    const leave = [stage.add(steps), ...steppers.map(({ shadow }) => stage.add(shadow))];
     const release = confine(stage);
     const stepBack = new Visitor(stage, hanging, steps);
     visitor.current = stepBack;
@@ -59,12 +67,14 @@ export function Wall({ stage, character, view, dark, tools }: Props) {
       stepBack.dispose();
       for (const go of leave) go();
       release();
-      stage.scene.remove(shadow.object);
-      shadow.dispose();
-      emerging.dispose();
-      character.unbend();
+      stage.scene.remove(...shadows);
+      for (const { character, emerging, shadow } of steppers) {
+        shadow.dispose();
+        emerging.dispose();
+        character.unbend();
+      }
     };
-  }, [stage, character, hanging]);
+  }, [stage, cast, hanging]);
 
   useEffect(() => {
     const room = new Room(hanging, view.background, dark, () => stage.invalidate());

@@ -62,6 +62,8 @@ export const studio = {
     uploadingVideo: 'the video',
     uploadingPhoto: 'the picture',
     uploadingMotion: 'the motion',
+    uploadingMask: 'the mask',
+    uploadingLabels: 'the parts of the body',
     ordering: 'Starting',
     stop: 'Stop',
     pause: 'Pause',

@@ -6,6 +6,10 @@ export const viewer = {
     modes: 'What to do',
     modeNames: { look: 'Look around', pose: 'Change the pose', wall: 'On the wall' },
     stage: 'The character in 3D: arrow keys circle around it, plus and minus go nearer and further',
+    stageOfSeveral: 'The characters in 3D: arrow keys circle around them, plus and minus go nearer and further',
+    who: 'Who',
+    everybody: 'Everybody',
+    person: (number: number) => `Person ${number}`,
     tools: 'View',
     loading: 'Fetching the character',
     noWebGL: 'This browser shows no 3D (WebGL is missing or switched off). The video and all files are not affected.',
@@ -33,6 +37,8 @@ export const viewer = {
     smaller: 'Leave full screen',
 
     poseHelp: 'Drag a dot and the limb follows. Circle around to drag it in another direction, or choose a bone and turn it.',
+    poseForAll: (people: number) =>
+      `It is made for all ${people} people: each of them turns the same joints, from their own pose in the picture.`,
     bone: 'Bone',
     /** Left and right are the person's own. */
     bones: {
@@ -49,6 +55,7 @@ export const viewer = {
       LeftUpLeg: 'Left thigh',
       LeftLeg: 'Left lower leg',
       LeftFoot: 'Left foot',
+      LeftToeBase: 'Left toes',
       RightShoulder: 'Right shoulder',
       RightArm: 'Right upper arm',
       RightForeArm: 'Right forearm',
@@ -56,6 +63,7 @@ export const viewer = {
       RightUpLeg: 'Right thigh',
       RightLeg: 'Right lower leg',
       RightFoot: 'Right foot',
+      RightToeBase: 'Right toes',
     } as Record<string, string>,
     /** About x, y and z. */
     turns: ['Forwards and back', 'Twist', 'Sideways'],
