@@ -7,14 +7,21 @@ from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from email.utils import format_datetime
+from typing import Any
 from urllib.parse import quote
 
 from starlette.responses import Response, StreamingResponse
 from starlette.types import Send
 
 from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
-from service.problems import Problem, unavailable
+from service.problems import Problem, responses, unavailable
 from service.storage import Storage, StorageUnavailable
+
+DELIVERED: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}
+"""What `deliver` may answer beside the whole, for the OpenAPI document."""
+
+DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The asked parts"}, **DELIVERED}
+"""Likewise, of what is often asked for in ranges."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from starlette.responses import Response, StreamingResponse
 
 from service.artifacts import repository
 from service.artifacts.archive import zipped
-from service.artifacts.delivery import deliver
+from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.artifacts.links import good
 from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
@@ -28,7 +28,7 @@ router = APIRouter(prefix="/jobs", tags=["jobs"])
     "/{job_id}/artifacts/{name}",
     operation_id="get_artifact",
     response_class=Response,
-    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED_IN_PARTS,
 )
 def get_artifact(
     job_id: str,

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import deliver
+from service.artifacts.delivery import DELIVERED, DELIVERED_IN_PARTS, deliver
 from service.auth.caller import Reader, Submitter
 from service.context import InContext
-from service.disk import require_space
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
+from service.kept import endpoints as kept
 from service.kept import service as keeping
-from service.kept.request import body, keep_body
+from service.kept.request import body
 from service.kept.shelves import DRIVERS
 from service.problems import responses
 
@@ -35,9 +34,7 @@ def list_drivers(caller: Reader, context: InContext) -> DriverList:
 )
 async def create_driver(request: Request, response: Response, caller: Submitter, context: InContext) -> DriverOut:
     """Keep a driving video under a name."""
-    name = await keep_body(request, context, caller, DRIVERS)
-    response.headers["Location"] = f"/v1/drivers/{name}"
-    return await run_sync(service.one_driver, context, caller.owner, name)
+    return await kept.create(DRIVERS, service.one_driver, request, response, caller, context)
 
 
 @router.get("/{name}", operation_id="get_driver", responses=responses(404))
@@ -54,9 +51,7 @@ def get_driver(name: str, caller: Reader, context: InContext) -> DriverOut:
 )
 def search_driver(name: str, caller: Submitter, context: InContext) -> DriverOut:
     """Search one of the user's own drivers for moments again. A new driver is searched by itself."""
-    require_space(context.settings)
-    keeping.look_again(context, DRIVERS, caller.owner, name)
-    return service.one_driver(context, caller.owner, name)
+    return kept.look_again(DRIVERS, service.one_driver, name, caller, context)
 
 
 @router.delete("/{name}", status_code=204, operation_id="delete_driver", responses=responses(404, 409))
@@ -70,7 +65,7 @@ def delete_driver(name: str, caller: Submitter, context: InContext) -> None:
     "/{name}/video",
     operation_id="get_driver_video",
     response_class=Response,
-    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED_IN_PARTS,
 )
 def get_driver_video(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The video itself: whole, or the ranges asked for."""
@@ -83,7 +78,7 @@ def get_driver_video(name: str, request: Request, caller: Reader, context: InCon
     "/{name}/poster",
     operation_id="get_driver_poster",
     response_class=Response,
-    responses={304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED,
 )
 def get_driver_poster(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) that shows what happens in it; of one's own drivers, the face at rest."""
@@ -96,7 +91,7 @@ def get_driver_poster(name: str, request: Request, caller: Reader, context: InCo
     "/{name}/moments/{moment}/poster",
     operation_id="get_moment_poster",
     response_class=Response,
-    responses={304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED,
 )
 def get_moment_poster(name: str, moment: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) of a moment at its height."""

@@ -11,10 +11,9 @@ from service.artifacts.delivery import Stored
 from service.context import Context
 from service.drivers import moments
 from service.drivers.schemas import DriverOut
-from service.files import repository as files
 from service.kept import repository
 from service.kept.models import Kept
-from service.kept.service import missing
+from service.kept.service import file_of, missing
 from service.kept.shelves import DRIVERS
 from service.kinds import library
 from service.problems import Problem
@@ -42,9 +41,7 @@ def one_driver(context: Context, owner: str, name: str) -> DriverOut:
 
 def stored(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
     """A driver's video, and where it lies: in the package, or in the service's storage."""
-    with context.database.read() as session:
-        driver = repository.get(session, DRIVERS, owner, name)
-        file = files.get(session, owner, driver.file_id) if driver is not None else None
+    file = file_of(context, DRIVERS, owner, name)
     if file is not None:
         return file.stored, context.storage
     if name in DRIVERS.built_in:

@@ -8,7 +8,7 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import deliver
+from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.auth.caller import Caller, Reader, Submitter
 from service.context import Context, InContext
 from service.files import repository, service
@@ -67,7 +67,7 @@ def get_file(file_id: str, caller: Reader, context: InContext) -> FileOut:
     "/{file_id}/content",
     operation_id="get_file_content",
     response_class=Response,
-    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED_IN_PARTS,
 )
 def get_file_content(file_id: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The file itself: whole, or the ranges asked for."""

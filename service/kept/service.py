@@ -9,6 +9,8 @@ from sqlalchemy.exc import IntegrityError
 from engine.kind import AUTO
 from service.clock import now
 from service.context import Context
+from service.files import repository as files
+from service.files.models import File
 from service.files.service import erase_unused
 from service.ids import is_id
 from service.jobs.inputs import Refused, held_file
@@ -64,6 +66,13 @@ def kept(context: Context, shelf: Shelf, owner: str, name: str) -> Kept:
     if found is None:
         raise _not_kept(shelf, name)
     return found
+
+
+def file_of(context: Context, shelf: Shelf, owner: str, name: str) -> File | None:
+    """The file that the owner keeps under a name, if there is one."""
+    with context.database.read() as session:
+        one = repository.get(session, shelf, owner, name)
+        return files.get(session, owner, one.file_id) if one is not None else None
 
 
 def look_again(context: Context, shelf: Shelf, owner: str, name: str) -> None:

@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 from starlette.responses import Response
 
 from service.artifacts import repository as artifacts
-from service.artifacts.delivery import deliver
+from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.auth.caller import Reader, Submitter
 from service.clock import now
 from service.context import InContext
@@ -86,7 +86,7 @@ def get_shared(token: str, response: Response, context: InContext) -> SharedOut:
     "/public/{token}/{name}",
     operation_id="get_shared_artifact",
     response_class=Response,
-    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED_IN_PARTS,
 )
 def get_shared_artifact(token: str, name: str, request: Request, context: InContext) -> Response:
     """An artifact that a public link opens: whole, or the ranges asked for."""

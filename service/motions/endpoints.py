@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import deliver
+from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.auth.caller import Reader, Submitter
 from service.context import InContext
-from service.disk import require_space
+from service.kept import endpoints as kept
 from service.kept import service as keeping
-from service.kept.request import body, keep_body
+from service.kept.request import body
 from service.kept.shelves import MOTIONS
 from service.motions import service
 from service.motions.schemas import MotionList, MotionOut
@@ -35,9 +34,7 @@ def list_motions(caller: Reader, context: InContext) -> MotionList:
 )
 async def create_motion(request: Request, response: Response, caller: Submitter, context: InContext) -> MotionOut:
     """Keep a motion under a name. A job checks then what is in it."""
-    name = await keep_body(request, context, caller, MOTIONS)
-    response.headers["Location"] = f"/v1/motions/{name}"
-    return await run_sync(service.one_motion, context, caller.owner, name)
+    return await kept.create(MOTIONS, service.one_motion, request, response, caller, context)
 
 
 @router.get("/{name}", operation_id="get_motion", responses=responses(404))
@@ -54,9 +51,7 @@ def get_motion(name: str, caller: Reader, context: InContext) -> MotionOut:
 )
 def check_motion(name: str, caller: Submitter, context: InContext) -> MotionOut:
     """Check one of the user's own motions again. A new motion is checked by itself."""
-    require_space(context.settings)
-    keeping.look_again(context, MOTIONS, caller.owner, name)
-    return service.one_motion(context, caller.owner, name)
+    return kept.look_again(MOTIONS, service.one_motion, name, caller, context)
 
 
 @router.delete("/{name}", status_code=204, operation_id="delete_motion", responses=responses(404, 409))
@@ -70,7 +65,7 @@ def delete_motion(name: str, caller: Submitter, context: InContext) -> None:
     "/{name}/file",
     operation_id="get_motion_file",
     response_class=Response,
-    responses={206: {"description": "The asked parts"}, 304: {"description": "Not modified"}, **responses(404, 416)},
+    responses=DELIVERED_IN_PARTS,
 )
 def get_motion_file(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The file of one of the user's own motions: whole, or the ranges asked for."""

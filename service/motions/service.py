@@ -5,10 +5,9 @@ from __future__ import annotations
 from engine.motion.catalogue import CATALOGUE
 from service.artifacts.delivery import Stored
 from service.context import Context
-from service.files import repository as files
 from service.kept import repository
 from service.kept.looks import looks_into
-from service.kept.service import missing
+from service.kept.service import file_of, missing
 from service.kept.shelves import MOTIONS
 from service.motions.checks import Check
 from service.motions.schemas import MotionOut
@@ -36,9 +35,7 @@ def one_motion(context: Context, owner: str, name: str) -> MotionOut:
 
 def stored(context: Context, owner: str, name: str) -> Stored:
     """The file of one of the user's own motions."""
-    with context.database.read() as session:
-        motion = repository.get(session, MOTIONS, owner, name)
-        file = files.get(session, owner, motion.file_id) if motion is not None else None
+    file = file_of(context, MOTIONS, owner, name)
     if file is not None:
         return file.stored
     if name in MOTIONS.built_in:
