@@ -6,13 +6,13 @@ import '@web/styles/controls.css';
 import '@web/styles/layout.css';
 import '@web/styles/studio.css';
 import '@web/styles/job.css';
-import type { Job } from '@web/api';
+import { getSkeleton, type Job } from '@web/api';
 import { loadCharacter } from '@web/viewer/character';
 import Viewer from '@web/viewer/panel';
 import { hang } from '@web/viewer/hanging';
 import { type Degrees, turnedOn } from '@web/viewer/pose';
 import { Stage } from '@web/viewer/stage';
-import { getPictureView } from '@web/viewer/view';
+import { viewOf } from '@web/viewer/view';
 import { render } from 'preact';
 import { Quaternion, Vector3 } from 'three';
 
@@ -33,6 +33,8 @@ declare global {
     turned: (name: string, degrees: Degrees) => Promise<number[]>;
     /** Where the picture is on the canvas: left, top, right and bottom; null where the job does not say. */
     picture: () => Promise<[number, number, number, number] | null>;
+    /** Where the hips of everybody on the stage are, in metres of the world. */
+    hips: () => [number, number, number][];
     leave: () => void;
   }
 }
@@ -57,6 +59,8 @@ const onCanvas = (place: Vector3): [number, number] => {
 };
 const jointOf = (name: string) => stage.scene.getObjectByName(name)!;
 window.joint = (name) => onCanvas(jointOf(name).getWorldPosition(new Vector3()));
+window.hips = () =>
+  stage.scene.getObjectsByProperty('name', 'Hips').map((hips) => hips.getWorldPosition(new Vector3()).toArray());
 window.rotations = (names) => names.map((name) => jointOf(name).quaternion.toArray());
 window.turned = async (name, degrees) => {
   const character = await load();
@@ -65,7 +69,7 @@ window.turned = async (name, degrees) => {
   return turnedOn(pictured, degrees).toArray();
 };
 window.picture = async () => {
-  const view = await getPictureView(job, new AbortController().signal);
+  const view = viewOf(job, await getSkeleton(job));
   if (!view) return null;
   const { left, top, right, bottom, plane } = hang(view.camera);
   return [...onCanvas(new Vector3(left, top, plane)), ...onCanvas(new Vector3(right, bottom, plane))];

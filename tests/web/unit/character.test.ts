@@ -1,4 +1,4 @@
-import { another, changesOf, isChanged, type Wishes, wishesOf } from '@web/character/changes';
+import { another, changesOf, isChanged, notesFor, type Wishes, wishesOf } from '@web/character/changes';
 import { choicesOf, optionsOf, usual } from '@web/character/choices';
 import { enlarged, frameBetween, movedFrame } from '@web/character/framing';
 import { jointsOf, labelOf, limbs, middleOf, needed, placedJoints, sharesOf, skeletonIn, swapped } from '@web/character/skeleton';
@@ -10,7 +10,7 @@ import { aJob } from './job';
 const of = (options: object, inputs: Record<string, string> = {}) =>
   aJob({ kind: 'character', inputs: { photo: 'x', ...inputs }, options: options as never });
 const plain = wishesOf(of({}));
-const after = (part: Partial<Wishes>, before = plain) => changesOf(before, { ...before, ...part }, null);
+const after = (part: Partial<Wishes>, before = plain) => changesOf(before, { ...before, ...part }, {});
 
 describe('the options of a character', () => {
   it('sends only what differs from the usual', () => {
@@ -30,7 +30,7 @@ describe('a revision', () => {
   it('asks for nothing where nothing was changed', () => {
     const made = { keep: ['arms'], seconds: 2, motion: 'dance', joints: { LeftElbow: [1, 2] }, person_index: 1 };
     const wishes = wishesOf(of(made));
-    expect(changesOf(wishes, wishesOf(of(made)), null)).toEqual({ corrections: {}, options: {} });
+    expect(changesOf(wishes, wishesOf(of(made)), {})).toEqual({ corrections: {}, options: {} });
     expect(isChanged(wishes, { ...wishes, keep: [...wishes.keep].reverse() })).toBe(false);
   });
 
@@ -48,12 +48,34 @@ describe('a revision', () => {
   it('moves by another clip, or by a file; the file that a clip replaces is named', () => {
     expect(after({ motion: { by: 'name', name: 'bow' } })).toEqual({ corrections: {}, options: { motion: 'bow' } });
     const file = new File(['x'], 'a.bvh');
-    expect(changesOf(plain, { ...plain, motion: { by: 'file', file } }, 'id').corrections).toEqual({ motion: 'id' });
+    expect(changesOf(plain, { ...plain, motion: { by: 'file', file } }, { motion: 'id' }).corrections).toEqual({ motion: 'id' });
     const moved = wishesOf(of({}, { motion: '0198c1d2-7b1a-7c3e-9c6d-000000000002' }));
-    expect(moved.motion).toEqual({ by: 'held' });
+    expect(moved.motion).toEqual({ by: 'held', input: '0198c1d2-7b1a-7c3e-9c6d-000000000002' });
     expect(after({ motion: { by: 'name', name: 'walk' } }, moved)).toEqual({
       ...{ corrections: { motion: null }, options: { motion: 'walk' } },
     });
+  });
+
+  it('moves by a kept motion, whose joints are told only where they are not as found', () => {
+    const kept = { motion: { by: 'kept', name: 'kick' }, motionJoints: { LeftArm: 'arm_l', Neck: null } } as const;
+    expect(after(kept).corrections).toEqual({ motion: 'kick', motion_joints: { LeftArm: 'arm_l', Neck: null } });
+    const made = wishesOf(of({ motion_joints: { LeftArm: 'arm_l' } }, { motion: 'kick' }));
+    expect(changesOf(made, made, {}).corrections).toEqual({});
+    expect(after({ motion: { by: 'name', name: 'bow' }, motionJoints: {} }, made).corrections).toEqual({
+      ...{ motion: null, motion_joints: null },
+    });
+    expect(notesFor(of({}), { ...plain, ...kept }).metadata).toEqual({ motion: 'Kick' });
+    expect(notesFor(of({}), plain)).toEqual({});
+  });
+
+  it('gives files in place of what was found, and takes them back', () => {
+    const maskFile = new File(['x'], 'mask.png');
+    expect(isChanged(plain, { ...plain, maskFile })).toBe(true);
+    expect(changesOf(plain, { ...plain, maskFile }, { mask: 'id' }).corrections).toEqual({ mask: 'id' });
+    const made = wishesOf(of({}, { mask: 'm', labels: 'l' }));
+    expect(isChanged(made, wishesOf(of({}, { mask: 'm', labels: 'l' })))).toBe(false);
+    expect(after({ maskFile: null }, made).corrections).toEqual({ mask: null });
+    expect(after(another({ person: 1 }), made).corrections).toEqual({ person_index: 1, mask: null, labels: null });
   });
 
   it('of somebody else forgets what was put right of the one before', () => {

@@ -9,7 +9,7 @@ import {
   type Quaternion,
   type SkinnedMesh,
   type Texture,
-  type Vector3,
+  Vector3,
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
@@ -24,6 +24,8 @@ export class Character {
   readonly root: Group;
   readonly mesh: SkinnedMesh;
   readonly joints = new Map<string, Object3D>();
+  /** Where the origin of their clips is, in the world. */
+  readonly home = new Vector3();
   private readonly mixer: AnimationMixer;
   private readonly rest = new Map<Object3D, { position: Vector3; quaternion: Quaternion }>();
   private shown: readonly AnimationClip[] = [];
@@ -52,6 +54,15 @@ export class Character {
   /** The motion's clip that stays where it is; else what there is first. */
   get calm(): AnimationClip | undefined {
     return this.clips.find(({ name }) => name.endsWith(IN_PLACE)) ?? this.clip('idle') ?? this.clips[0];
+  }
+
+  /** With the origin at home; or so that a clip begins where they stand in the picture, wherever its own beginning is. */
+  settle(clip?: AnimationClip): void {
+    this.root.position.copy(this.home);
+    const pictured = this.clip(PICTURED);
+    const [there, begin] = [pictured && rootOf(pictured)?.values, clip && rootOf(clip)?.values];
+    if (there && begin) this.root.position.add(new Vector3(there[0]! - begin[0]!, 0, there[2]! - begin[2]!));
+    this.root.updateMatrixWorld(true);
   }
 
   /** Stand as in a clip at a second of it. */

@@ -1,6 +1,6 @@
 /** Somebody who lies in a picture as paint does, and comes out of it as a body. */
 
-import { type MeshBasicMaterial, type SkinnedMesh, Vector3 } from 'three';
+import { type MeshBasicMaterial, type SkinnedMesh, Vector2, type Vector3 } from 'three';
 
 /** Metres: how thick the paint is, so that an arm before the chest stays before it. */
 const PAINT = 0.02;
@@ -14,18 +14,17 @@ export class Emerging {
   private readonly flatness = { value: 1 };
 
   /**
-   * `eye`: from where the picture was taken; `plane`: the z of the picture; `lift`: how far the picture's ground is above
-   * the floor on which the person walks; `depths`: the z of whoever stands furthest and of whoever stands nearest. All in
-   * metres of the room.
+   * `eye`: from where the picture was taken; `plane`: the z of the picture; `away`: from the place on the floor where the
+   * person stands to their place in the picture's own space; `depths`: the z of whoever is furthest there, and nearest.
+   * All in metres of the room.
    */
   constructor(
     private readonly mesh: SkinnedMesh,
     eye: Vector3,
     plane: number,
-    lift: number,
+    away: Vector3,
     depths: readonly [furthest: number, nearest: number],
   ) {
-    const [back, front] = [depths[0] - AROUND, depths[1] + AROUND].map((z) => z.toFixed(3));
     this.solid = mesh.material;
     this.material = (mesh.material as MeshBasicMaterial).clone();
     this.material.onBeforeCompile = (shader) => {
@@ -33,17 +32,20 @@ export class Emerging {
         flatness: this.flatness,
         eye: { value: eye.clone() },
         plane: { value: plane + ABOVE_CANVAS },
-        lift: { value: lift },
+        away: { value: away.clone() },
+        depths: { value: new Vector2(depths[0] - AROUND, depths[1] + AROUND) },
       });
       shader.vertexShader = `
-        uniform float flatness, plane, lift;
-        uniform vec3 eye;
+        uniform float flatness, plane;
+        uniform vec2 depths;
+        uniform vec3 eye, away;
         ${shader.vertexShader.replace(
           '#include <project_vertex>',
           // along the ray from the eye, where nothing seems to move
           `vec3 standing = (modelMatrix * vec4(transformed, 1.0)).xyz;
-          vec3 ray = standing + vec3(0.0, lift, 0.0) - eye;
-          float canvas = plane + ${PAINT} * smoothstep(${back}, ${front}, standing.z);
+          vec3 pictured = standing + away;
+          vec3 ray = pictured - eye;
+          float canvas = plane + ${PAINT} * smoothstep(depths.x, depths.y, pictured.z);
           vec3 painted = eye + ray * ((canvas - eye.z) / min(ray.z, -0.01));
           vec4 mvPosition = viewMatrix * vec4(mix(standing, painted, flatness), 1.0);
           gl_Position = projectionMatrix * mvPosition;`,

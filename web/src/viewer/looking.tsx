@@ -43,7 +43,10 @@ export function Looking({ stage, cast, tools }: Props) {
     resetView(stage, cast, clip);
     return () => {
       leave();
-      for (const { character } of cast) character.unbend();
+      for (const { character } of cast) {
+        character.unbend();
+        character.settle();
+      }
     };
   }, [stage, playback]);
 

@@ -60,6 +60,7 @@ export class Playback implements Performer {
       const clip = character.clip(name);
       return clip ? [{ character, clip }] : [];
     });
+    for (const { character, clip } of this.parts) character.settle(clip);
   }
 
   private get looping(): boolean {

@@ -59,8 +59,8 @@ export function useStage(place: RefObject<HTMLElement | null>, job: Job): Staged
         const people = peopleOf(job, skeleton);
         const standing = characters.map((character, index): Standing => {
           const [x, y, z] = people[index]?.place ?? [0, 0, 0];
-          character.root.position.set(x, 0, z);
-          character.root.updateMatrixWorld(true);
+          character.home.set(x, 0, z);
+          character.settle();
           return { character, rise: y };
         });
         setShown({ stage, skeleton, people, standing });

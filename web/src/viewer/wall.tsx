@@ -44,15 +44,15 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
   useEffect(() => {
     void hasHeadset().then(setHeadset);
     const { plane, lift, eye } = hanging;
-    const depths = cast.map(({ character }) => character.root.position.z);
-    const steppers = cast.map(({ character, rise }) => ({
-      character,
-      emerging: new Emerging(character.mesh, new Vector3(...eye), plane, lift + rise, [
-        Math.min(...depths),
-        Math.max(...depths),
-      ]),
-      shadow: new ContactShadow(character),
-    }));
+    const depths = cast.map(({ character }) => character.home.z);
+    const steppers = cast.map(({ character, rise }) => {
+      const { home, root, mesh } = character;
+      // whoever is further off in the picture would come to stand behind the wall
+      root.position.z = Math.max(0, home.z);
+      const away = new Vector3(0, lift + rise, home.z - root.position.z);
+      const emerging = new Emerging(mesh, new Vector3(...eye), plane, away, [Math.min(...depths), Math.max(...depths)]);
+      return { character, emerging, shadow: new ContactShadow(character) };
+    });
     const shadows = steppers.map(({ shadow }) => shadow.object);
     const steps = new Stepping(steppers, setPlaying);
     stepping.current = steps;
@@ -72,6 +72,7 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
         shadow.dispose();
         emerging.dispose();
         character.unbend();
+        character.settle();
       }
     };
   }, [stage, cast, hanging]);

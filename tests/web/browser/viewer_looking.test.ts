@@ -1,0 +1,137 @@
+/** A character from all sides. */
+
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import type { AxeResults } from 'axe-core';
+import { describe, expect, it } from 'vitest';
+import { launch } from './page';
+import { aViewer, CLIPS, differing, drawings, mode, ready, shot, still } from './viewer_kit';
+
+const { open } = aViewer();
+
+describe('a character in three', () => {
+  it('has every clip, and each moves the mesh with its joints', async () => {
+    const page = await open();
+    await ready(page);
+    const { clips } = await page.evaluate(() => window.measure());
+    expect(Object.keys(clips)).toEqual(CLIPS);
+    expect(clips.pictured).toMatchObject({ vertex: 0, joint: 0, loops: false });
+    for (const [name, least] of [['step_out', 0.3], ['walk', 0.3], ['walk_in_place', 0.2], ['idle', 0.001]] as const) {
+      expect(clips[name]!.joint, `joints of ${name}`).toBeGreaterThan(least);
+      expect(clips[name]!.vertex, `mesh of ${name}`).toBeGreaterThan(least);
+    }
+    expect(clips.walk!.loops && clips.walk_in_place!.loops && clips.idle!.loops).toBe(true);
+    expect(clips.step_out!.loops).toBe(false);
+  });
+});
+
+describe('looking around', () => {
+  it('shows a clip at any of its moments, plays it, and draws only what has changed', async () => {
+    const page = await open();
+    await ready(page);
+    const drawn = await drawings(page);
+    await page.waitForTimeout(600);
+    expect(await drawings(page), 'at rest nothing is drawn').toBe(drawn);
+
+    const begin = await shot(page);
+    const position = page.getByRole('slider', { name: 'Position' });
+    await position.fill('0.5');
+    await still(page);
+    const later = await shot(page);
+    expect(await differing(page, begin, later)).toBeGreaterThan(300);
+    await position.fill('0');
+    await still(page);
+    expect(await differing(page, begin, await shot(page)), 'going back is coming back').toBe(0);
+
+    await page.getByRole('combobox', { name: 'Clip' }).selectOption('step_out');
+    const tall = () => page.evaluate(() => window.joint('LeftFoot')[1] - window.joint('Head')[1]);
+    await still(page);
+    const before = await tall();
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.getByRole('button', { name: 'Play' }).waitFor({ timeout: 60_000 }); // it ends by itself
+    expect(await tall(), 'the person has come nearer').toBeGreaterThan(1.1 * before);
+    expect(Number(await position.inputValue())).toBeGreaterThan(1.5);
+  });
+
+  it('is circled around by mouse and keys, and comes back', async () => {
+    const page = await open();
+    await ready(page);
+    const front = await shot(page);
+    const { x, y, width, height } = (await page.locator('.viewer-stage').boundingBox())!;
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 180, y + height / 2, { steps: 4 });
+    await page.mouse.up();
+    await still(page);
+    expect(await differing(page, front, await shot(page))).toBeGreaterThan(1000);
+    await page.getByRole('button', { name: 'View from the front' }).click();
+    await still(page);
+    expect(await differing(page, front, await shot(page))).toBe(0);
+    await page.locator('.viewer-stage').focus();
+    await page.keyboard.press('ArrowLeft');
+    await still(page);
+    const turned = await page.evaluate(() => window.joint('LeftHand'));
+    await page.keyboard.press('ArrowRight');
+    await still(page);
+    const back = await page.evaluate(() => window.joint('LeftHand'));
+    expect(Math.abs(turned[0] - back[0])).toBeGreaterThan(3);
+    for (const key of ['ArrowUp', '+', '+', '-', 'ArrowDown', '-']) await page.keyboard.press(key);
+    await page.locator('.viewer-stage').blur();
+    await still(page);
+    expect(await differing(page, front, await shot(page)), 'each key undoes another').toBeLessThan(20);
+  });
+
+  it('shows the skeleton over the mesh, and another background', async () => {
+    const page = await open();
+    await ready(page);
+    const bare = await shot(page);
+    await page.getByRole('button', { name: 'Skeleton' }).click();
+    await still(page);
+    expect(await differing(page, bare, await shot(page))).toBeGreaterThan(150);
+    await page.getByRole('button', { name: 'Skeleton' }).click();
+    await still(page);
+    expect(await differing(page, bare, await shot(page))).toBe(0);
+    await page.getByRole('button', { name: 'Dark background' }).click();
+    await still(page);
+    const all = (await page.locator('.viewer-stage').boundingBox())!;
+    expect(await differing(page, bare, await shot(page))).toBeGreaterThan(0.6 * all.width * all.height);
+  });
+
+  it('gives the graphics back when it goes', async () => {
+    const page = await open();
+    await ready(page);
+    const lost = await page.evaluate(async () => {
+      const context = document.querySelector('canvas')!.getContext('webgl2')!;
+      window.leave();
+      await new Promise((wake) => setTimeout(wake, 200));
+      return [context.isContextLost(), document.querySelector('canvas')];
+    });
+    expect(lost).toEqual([true, null]);
+  });
+
+  it('says so where there is no WebGL', async () => {
+    const without = await launch(['--disable-3d-apis']);
+    try {
+      const page = await open({}, without);
+      await page.getByText('This browser shows no 3D').waitFor();
+      expect(await page.getByRole('button', { name: 'View in your space' }).count()).toBe(1);
+    } finally {
+      await without.close();
+    }
+  });
+
+  it.each(['light', 'dark'] as const)('is for everybody: no barriers that axe knows, %s', async (colorScheme) => {
+    const page = await open({ colorScheme });
+    await ready(page);
+    const axe = createRequire(new URL('../../../web/package.json', import.meta.url)).resolve('axe-core/axe.min.js');
+    await page.evaluate(readFileSync(axe, 'utf8'));
+    for (const name of ['Look around', 'Change the pose']) {
+      await mode(page, name).click();
+      await still(page);
+      const { violations } = await page.evaluate(
+        () => (window as unknown as { axe: { run: (where: string) => Promise<AxeResults> } }).axe.run('.viewer'),
+      );
+      expect(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)])).toEqual([]);
+    }
+  });
+});
