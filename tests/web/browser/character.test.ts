@@ -1,8 +1,9 @@
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser, Page, Request } from 'playwright-core';
+import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { accepted, again, isOrder, openCorrections, revised } from './character_kit';
 import { ask, complaints, faceless, inPython, jobOf, launch, LONG, open, orderCharacter, samplePerson } from './page';
 
 interface Made {
@@ -64,10 +65,7 @@ afterEach(async () => {
 
 const start = (page: Page) => page.getByRole('button', { name: 'Have them walk out' });
 const stage = (page: Page) => page.getByRole('dialog').getByRole('application');
-const again = (page: Page) => page.getByRole('button', { name: 'Make it again' });
 const use = (page: Page) => page.getByRole('button', { name: 'Use these' });
-const isOrder = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
-const isRevision = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/revisions');
 const skeleton = async (id: string): Promise<Joints> =>
   (await ask<{ joints: Joints }>(`/v1/jobs/${id}/artifacts/skeleton.json`)).joints;
 
@@ -79,16 +77,13 @@ async function cancel(page: Page): Promise<void> {
 /** The page of the finished character, with its corrections open. */
 async function corrections(id = done, options: Parameters<typeof open>[2] = {}): Promise<Page> {
   const page = await open(browser, `#/jobs/${id}`, options);
-  await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
-  await page.getByText('Change something and make it again').click();
+  await openCorrections(page);
   return page;
 }
 
 /** What a click on “Make it again” sends. */
-async function revision(page: Page): Promise<{ corrections: Record<string, any>; options: Record<string, any> }> {
-  const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
-  return request.postDataJSON();
-}
+const revision = async (page: Page): Promise<{ corrections: Record<string, any>; options: Record<string, any> }> =>
+  (await revised(page)).postDataJSON();
 
 /** Where places of the picture are on the screen. */
 const onScreen = (page: Page, places: [number, number][]): Promise<[number, number][]> =>
@@ -327,7 +322,7 @@ describe('corrections of a character', () => {
     await page.getByLabel('Left arm').check();
     await page.getByLabel('Camera').selectOption('Sways a little');
 
-    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    const request = await revised(page);
     const sent = request.postDataJSON();
     expect(sent.options).toEqual({ back_texture: 'inpaint', keep: ['left_arm'], camera: 'parallax' });
     expect(Object.keys(sent.corrections).sort()).toEqual(['label_strokes', 'mask_strokes']);
@@ -378,7 +373,7 @@ describe('corrections of a character', () => {
     await other.click();
     expect(await other.getAttribute('aria-pressed')).toBe('true');
     expect(await page.getByRole('button', { name: 'Paint who is cut out' }).count()).toBe(0); // that is another's outline
-    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    const request = await revised(page);
     // what was put right of the one is not the other's
     expect(request.postDataJSON()).toEqual({ corrections: { person_index: 1, joints: null }, options: {} });
     await accepted(request);
@@ -386,7 +381,7 @@ describe('corrections of a character', () => {
     const everybody = await corrections(id);
     await everybody.getByRole('button', { name: 'All of them' }).click();
     expect(await everybody.getByRole('button', { name: /joints/ }).count()).toBe(0); // joints are somebody's
-    const [together] = await Promise.all([everybody.waitForRequest(isRevision), again(everybody).click()]);
+    const together = await revised(everybody);
     expect(together.postDataJSON().corrections).toEqual({ person_index: 'all', joints: null });
     await accepted(together);
   });
@@ -401,7 +396,7 @@ describe('corrections of a character', () => {
     await page.keyboard.press('Control+z');
     await use(page).click();
     await page.getByText('The person is framed by hand.').waitFor();
-    const [request] = await Promise.all([page.waitForRequest(isRevision), again(page).click()]);
+    const request = await revised(page);
     const { corrections: sent } = request.postDataJSON();
     expect(Object.keys(sent)).toEqual(['person_box']);
     [4, 4, 396, 556].forEach((value, index) => expect(Math.abs(sent.person_box[index] - value)).toBeLessThanOrEqual(2));
@@ -428,11 +423,3 @@ describe('corrections of a character', () => {
     await page.getByRole('button', { name: 'Cancel' }).or(page.getByRole('link', { name: 'Make another' })).waitFor();
   });
 });
-
-/** The service accepts a revision; its work is not what the test is about. */
-async function accepted(request: Request): Promise<void> {
-  const response = await request.response();
-  expect(response?.status(), await response?.text()).toBe(202);
-  const { id } = (await response!.json()) as { id: string };
-  await fetch(`${inject('address')}/v1/jobs/${id}/cancel`, { method: 'POST' });
-}

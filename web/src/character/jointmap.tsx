@@ -88,7 +88,7 @@ function Table({ details: { joints, mapping }, value, onChange }: TableProps) {
     </fieldset>
   );
   return (
-    <>
+    <div class="jointmap-body">
       <p class="hint">{words.hint}</p>
       <p class={wanting.length ? 'wanting' : 'unseen'} role="status">
         {wanting.length ? words.wanting(wanting.map(jointName).join(', ')) : ''}
@@ -105,7 +105,7 @@ function Table({ details: { joints, mapping }, value, onChange }: TableProps) {
           </button>
         </div>
       )}
-    </>
+    </div>
   );
 }
 

@@ -61,9 +61,9 @@ export const character = {
 
   motionJoints: {
     title: 'Which joint moves which',
-    hint: 'Left the character’s joints, right those of the motion that move them. Choose otherwise where a limb moves wrongly.',
+    hint: 'Left the character’s joints, right those of the motion that move them. Choose otherwise where a limb moves wrongly; what nothing moves goes along.',
     looking: 'Looking into the motion.',
-    nothing: 'None: it goes along',
+    nothing: 'None',
     wanting: (joints: string) => `Nothing moves these yet, and without them nobody can move: ${joints}.`,
     changed: (number: number) => `${number} changed`,
     asFound: 'As found',

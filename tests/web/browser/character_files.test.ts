@@ -1,0 +1,101 @@
+/** A mask and a map of the parts, given as files in place of what was found. */
+
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { accepted, again, openCorrections, revised } from './character_kit';
+import { ask, complaints, inPython, jobOf, launch, LONG, open, orderCharacter, samplePerson } from './page';
+
+/** A mask of a picture's size, and one that is too small. */
+const MASKS = `
+import sys
+from PIL import Image, ImageDraw
+size = Image.open(sys.argv[1]).size
+mask = Image.new("L", size)
+ImageDraw.Draw(mask).ellipse([0.3 * size[0], 0.1 * size[1], 0.7 * size[0], 0.97 * size[1]], fill=255)
+mask.save(sys.argv[2])
+mask.resize((200, 300)).save(sys.argv[3])
+`;
+
+const folder = mkdtempSync(join(tmpdir(), 'galatea-files-'));
+const [person, mask, small] = ['somebody.png', 'mask.png', 'small.png'].map((name) => join(folder, name)) as [string, string, string];
+let browser: Browser;
+let done: string;
+beforeAll(async () => {
+  browser = await launch();
+  samplePerson(person);
+  inPython(MASKS, person, mask, small);
+  done = await orderCharacter(person, { seconds: 1 });
+});
+afterAll(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const file = (page: Page, of: 'Who is cut out' | 'The parts of the body') => page.getByLabel(`${of}, from a file`);
+
+async function corrections(id = done): Promise<Page> {
+  const page = await open(browser, `#/jobs/${id}`);
+  await openCorrections(page);
+  return page;
+}
+
+describe('a mask from a file', () => {
+  it('has to be as large as the picture, and to be a picture', async () => {
+    const page = await corrections();
+    await file(page, 'Who is cut out').setInputFiles(small);
+    await page.getByRole('alert').getByText('“small.png” has 200 × 300 pixels.').waitFor();
+    await page.getByText('as large as the picture: 450 × 600.').waitFor();
+    await file(page, 'Who is cut out').setInputFiles({ name: 'a.png', mimeType: 'image/png', buffer: Buffer.from('x') });
+    await page.getByRole('alert').getByText('cannot read “a.png”').waitFor();
+    expect(await again(page).isDisabled()).toBe(true);
+  });
+
+  it('is sent with what is painted over it, stays in what comes of it, and can be taken back', async () => {
+    const page = await corrections();
+    await file(page, 'Who is cut out').setInputFiles(mask);
+    await page.getByText('“mask.png” stands in place of what was found.').waitFor();
+    await file(page, 'The parts of the body').setInputFiles(mask);
+    await page.getByRole('button', { name: 'Forget the file' }).last().click();
+    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await page.getByRole('dialog').getByRole('application').focus();
+    for (const key of [' ', 'Shift+ArrowUp', ' ']) await page.keyboard.press(key);
+    await page.getByRole('button', { name: 'Use these' }).click();
+    const request = await revised(page);
+    const { corrections: sent, options } = request.postDataJSON();
+    expect([Object.keys(sent).sort(), options]).toEqual([['mask', 'mask_strokes'], {}]);
+    const kept = await ask<{ content_type: string }>(`/v1/files/${sent.mask}`);
+    expect(kept.content_type).toBe('image/png');
+
+    await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
+    await openCorrections(page);
+    await page.getByText('A file of yours stands in place of what was found.').waitFor();
+    await page.getByRole('button', { name: 'Forget the file' }).click();
+    const back = await revised(page);
+    expect(back.postDataJSON().corrections).toEqual({ mask: null, mask_strokes: null });
+    await accepted(back);
+  });
+
+  it('that the service refuses is told in its words, and another can be given', async () => {
+    const body = new FormData();
+    const { readFileSync } = await import('node:fs');
+    body.append('mask', new File([readFileSync(small)], 'small.png'));
+    const response = await fetch(`${inject('address')}/v1/jobs/${done}/revisions`, { method: 'POST', body });
+    const { id } = (await response.json()) as { id: string };
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByText('The mask is not as large as the picture', { exact: true }).waitFor({ timeout: LONG });
+    await page.getByText('make it as large as the picture, 450 x 600').waitFor();
+    await file(page, 'Who is cut out').setInputFiles(mask);
+    await page.getByText('“mask.png” stands in place of what was found.').waitFor();
+    const request = await revised(page);
+    expect(Object.keys(request.postDataJSON().corrections)).toEqual(['mask']);
+    await accepted(request);
+    expect(jobOf(page)).not.toBe('');
+  });
+});
