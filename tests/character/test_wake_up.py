@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -160,3 +161,24 @@ def test_a_childs_drawing_wakes_up_by_joints_placed_by_hand(media: Callable[[str
     report = json.loads((out / "report.json").read_text())
     assert report["quality"]["silhouette_iou"] > 0.98
     assert report["quality"]["closed"] == 1
+
+
+def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) -> None:
+    """By the camera of the first, the second, moved to their place, fills the second's part of the mask."""
+    one = sample_picture()
+    small = cv2.resize(one, None, fx=0.8, fy=0.8, interpolation=cv2.INTER_AREA)
+    wall = np.full((one.shape[0], small.shape[1], 3), one[2, 2], np.uint8)
+    wall[-small.shape[0] :] = small
+    write_image(tmp_path / "photo.png", np.concatenate([one, wall], 1))
+    out = wake_up(tmp_path / "photo.png", tmp_path / "out", seconds=1, person_index="all")
+    skeleton = json.loads((out / "skeleton.json").read_text())
+    first, second = skeleton["woken"]
+    assert (first, second["person"]) == ({"person": 0, "place": [0, 0, 0]}, 1)
+    body = Glb(out / "character-2.glb").posed("pictured", 0) + second["place"]
+    camera = skeleton["camera"]
+    away = camera["eye"][2] - body[:, 2]
+    seen = camera["centre"] + camera["focal"] * (body - camera["eye"])[:, :2] * (1, -1) / away[:, None]
+    mask = read_image(out / "mask.png").rgb[:, one.shape[1] :, 0] > 128
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0)) + one.shape[1]
+    ends = [[columns[0], rows[0]], [columns[-1], rows[-1]]]
+    assert np.abs([seen.min(0), seen.max(0)] - np.array(ends)).max() < 0.02 * one.shape[0]

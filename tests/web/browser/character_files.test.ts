@@ -62,7 +62,9 @@ describe('a mask from a file', () => {
     await file(page, 'Who is cut out').setInputFiles(mask);
     await page.getByText('“mask.png” stands in place of what was found.').waitFor();
     await file(page, 'The parts of the body').setInputFiles(mask);
-    await page.getByRole('button', { name: 'Forget the file' }).last().click();
+    const forget = page.getByRole('button', { name: 'Forget the file' });
+    await expect.poll(() => forget.count()).toBe(2);
+    await forget.last().click();
     await page.getByRole('button', { name: 'Paint who is cut out' }).click();
     await page.getByRole('dialog').getByRole('application').focus();
     for (const key of [' ', 'Shift+ArrowUp', ' ']) await page.keyboard.press(key);

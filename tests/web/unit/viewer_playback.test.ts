@@ -11,7 +11,7 @@ function somebody(clips: Record<string, number>, loop: boolean) {
     return clip;
   });
   const at: number[] = [];
-  const character = { clip: (name: string) => all.find((one) => one.name === name), show: (_: object, second: number) => at.push(second) };
+  const character = { clip: (name: string) => all.find((one) => one.name === name), settle: () => undefined, show: (_: object, second: number) => at.push(second) };
   return { character: character as unknown as Character, now: () => at.at(-1) };
 }
 

@@ -42,6 +42,7 @@ export class Playback implements Performer {
       }
     }
     for (const { character, clip } of this.parts) {
+      character.settle(clip);
       const round = this.looping && this.elapsed > clip.duration;
       character.show(clip, round ? this.elapsed % clip.duration : this.elapsed);
     }
@@ -60,7 +61,6 @@ export class Playback implements Performer {
       const clip = character.clip(name);
       return clip ? [{ character, clip }] : [];
     });
-    for (const { character, clip } of this.parts) character.settle(clip);
   }
 
   private get looping(): boolean {
