@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from engine.character.figure import Figure
-from engine.character.silhouette import _hands
+from engine.character.silhouette import NEAR, _seen
 from engine.character.template_fit import BEFORE, _arms_before_the_trunk
 from engine.perception.body import LANDMARKS
+from engine.perception.person import DOUBT
 
 TRUNK = {"LeftShoulder": (120, 50), "RightShoulder": (80, 50), "RightHip": (85, 120), "LeftHip": (115, 120)}
 
@@ -21,14 +22,14 @@ def figure(places: dict[str, tuple[float, float]], confidence: float, world_z: f
     world[[LANDMARKS.index(name) for name in places], 2] = world_z
     none = np.zeros((240, 200), np.bool_)
     return Figure(np.zeros((240, 200, 3), np.uint8), None, points, sure, world, True, 1.0,
-                  np.zeros((1, 4), np.float32), 0, none, None)  # fmt: skip
+                  np.zeros((1, 4), np.float32), 0, none, None, (None, None))  # fmt: skip
 
 
 HAND = {"LeftWrist": (150, 120), "LeftIndex": (150, 140), "LeftPinky": (154, 140)}
 
 
 def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
-    seed = _hands(figure(HAND, 0.95)) > 0
+    seed = _seen(figure(HAND, 0.95)) == 1
     for x, y in ((150, 121), (151, 130), (152, 139)):
         assert seed[y, x]
     assert not seed[150:].any() and not seed[:110].any()
@@ -38,8 +39,23 @@ def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
 
 
 def test_a_hand_that_is_not_surely_seen_says_nothing() -> None:
-    assert not _hands(figure(HAND, 0.6)).any()
-    assert not _hands(figure({"LeftWrist": (150, 120)}, 0.95)).any(), "a wrist without fingers"
+    assert not _seen(figure(HAND, 0.6)).any()
+    assert not _seen(figure({"LeftWrist": (150, 120)}, 0.95)).any(), "a wrist without fingers"
+
+
+def test_around_a_hand_colours_are_asked() -> None:
+    seed = _seen(figure(HAND, 0.95))
+    sure, doubtful = seed == 1, seed == np.float32(DOUBT)
+    assert (sure | doubtful | (seed == 0)).all()
+    reach = max(1, round(NEAR * 90))  # from the shoulders to the fingers
+    rows, columns = np.nonzero(sure)
+    assert doubtful[rows.max() + reach, columns].any() and not doubtful[rows.max() + reach + 1].any()
+
+
+def test_a_forearm_between_joints_that_are_seen_is_the_persons() -> None:
+    seed = _seen(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == 1
+    for x, y in ((151, 81), (165, 95), (179, 109)):
+        assert seed[y, x]
 
 
 @pytest.mark.parametrize(
