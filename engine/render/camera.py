@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
 Axes = tuple[tuple[float, ...], ...]
@@ -29,14 +30,9 @@ class Camera:
 
         Points behind the eye have a distance <= 0 and no meaningful pixel; the rasteriser leaves them out.
         """
-        seen = np.asarray(points, np.float64) - self.eye
-        if self.axes != UPRIGHT:
-            seen = seen @ np.transpose(self.axes)
-        distance = -seen[:, 2]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            x = self.focal * seen[:, 0] / distance + self.centre[0]
-            y = -self.focal * seen[:, 1] / distance + self.centre[1]
-        return np.stack([x, y, distance], 1).astype(np.float32)
+        found = np.empty((len(points), 3), np.float32)
+        _project(np.asarray(points), np.array(self.eye), np.array(self.axes), self.focal, *self.centre, found)
+        return found
 
     def rays(self, pixels: NDArray[np.floating]) -> NDArray[np.float64]:
         """(N, 2) pixels to (N, 3) the directions in which they look, in the world, one metre along the view axis."""
@@ -59,3 +55,15 @@ class Camera:
         axes = np.stack([right, np.cross(back, right), back]).tolist()
         x, y, z = np.asarray(eye, np.float64).tolist()
         return replace(self, eye=(x, y, z), axes=tuple(map(tuple, axes)))
+
+
+@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+def _project(
+    points: np.ndarray, eye: np.ndarray, axes: np.ndarray, focal: float, x: float, y: float, found: np.ndarray
+) -> None:
+    for v in range(len(points)):
+        a, b, c = points[v, 0] - eye[0], points[v, 1] - eye[1], points[v, 2] - eye[2]
+        distance = -(a * axes[2, 0] + b * axes[2, 1] + c * axes[2, 2])
+        found[v, 0] = focal * (a * axes[0, 0] + b * axes[0, 1] + c * axes[0, 2]) / distance + x
+        found[v, 1] = -focal * (a * axes[1, 0] + b * axes[1, 1] + c * axes[1, 2]) / distance + y
+        found[v, 2] = distance

@@ -46,10 +46,11 @@ def cast_on_ground(
     triangles: NDArray[np.int32],
     camera: Camera,
     shadow: GroundShadow,
+    closed: bool = False,
 ) -> None:
-    """Darken, in place, the pixels of `rgb` (H, W, 3) that show the ground y = 0 under the mesh `posed` (V, 3)."""
-    density, corner = shadow_map(posed, triangles, shadow)
-    rows, columns = density.shape
+    """Darken, in place, the pixels of `rgb` (H, W, 3) that show the ground y = 0 under the mesh `posed` (V, 3); see
+    `shadow_map` for `closed`."""
+    points, corner, (rows, columns) = _laid(posed, shadow)
     ends = corner + np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]]) * CELL
     seen = camera.project(np.stack([ends[:, 0], np.zeros(4), ends[:, 1]], 1))
     left, top, right, bottom = 0, 0, camera.size[1], camera.size[0]
@@ -64,7 +65,7 @@ def cast_on_ground(
     across, down = (camera.rays(np.array([[left + dx, top + dy]]))[0] - start for dx, dy in ((1, 0), (0, 1)))
     _darken(
         rgb[top:bottom, left:right],
-        density * np.float32(shadow.strength),
+        _density(points, (rows, columns), triangles, shadow, closed) * np.float32(shadow.strength),
         corner,
         np.array(camera.eye),
         start,
@@ -74,27 +75,52 @@ def cast_on_ground(
 
 
 def shadow_map(
-    posed: NDArray[np.float32], triangles: NDArray[np.int32], shadow: GroundShadow
+    posed: NDArray[np.float32], triangles: NDArray[np.int32], shadow: GroundShadow, closed: bool = False
 ) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
-    """The shadow seen from above: (rows along z, columns along x) float32 [0, 1], and the (x, z) of its first corner."""
+    """The shadow seen from above: (rows along z, columns along x) float32 [0, 1], and the (x, z) of its first corner.
+
+    `closed`: the triangles make a closed surface, so that whatever is nearest to the ground is seen from below.
+    """
+    points, corner, size = _laid(posed, shadow)
+    return _density(points, size, triangles, shadow, closed), corner
+
+
+def _laid(
+    posed: NDArray[np.float32], shadow: GroundShadow
+) -> tuple[NDArray[np.float32], NDArray[np.float64], tuple[int, int]]:
+    """The vertices as the light lays them on the ground, (V, 3): z and x in cells, and the height in metres; the (x, z)
+    of the map's first corner; the map's rows and columns."""
     lx, ly, lz = shadow.light
     if not ly > 0:
         raise ValueError("the light of a ground shadow must come from above")
     height = np.maximum(posed[:, 1], 0)
     x, z = posed[:, 0] - height * (lx / ly), posed[:, 2] - height * (lz / ly)
-    blur = shadow.softness / CELL
     margin = 3 * WIDENING * shadow.softness + CELL
     corner = np.array([x.min(), z.min()], np.float64) - margin
     far = np.array([x.max(), z.max()], np.float64) + margin
     columns, rows = (int(np.clip(np.ceil(side / CELL), 1, LARGEST)) for side in far - corner)
-    points = np.stack([(x - corner[0]) / CELL - 0.5, (z - corner[1]) / CELL - 0.5, height], 1).astype(np.float32)
-    above = np.full((rows, columns), np.inf, np.float32)
-    draw_into(points, triangles, False, False, np.empty(above.shape, np.int32), above)
+    points = np.stack([(z - corner[1]) / CELL - 0.5, (x - corner[0]) / CELL - 0.5, height], 1).astype(np.float32)
+    return points, corner, (rows, columns)
+
+
+def _density(
+    points: NDArray[np.float32],
+    size: tuple[int, int],
+    triangles: NDArray[np.int32],
+    shadow: GroundShadow,
+    closed: bool,
+) -> NDArray[np.float32]:
+    """The map (rows, columns) [0, 1]. It is drawn with z across and x down: so the fronts of triangles are those that are
+    seen from below."""
+    across = np.full(size[::-1], np.inf, np.float32)
+    draw_into(points, triangles, False, closed, np.empty(across.shape, np.int32), across)
+    above = np.ascontiguousarray(across.T)
+    blur = shadow.softness / CELL
     hit = np.isfinite(above)
     above[~hit] = 0
     core = cv2.GaussianBlur(hit * np.exp(-above / np.float32(CONTACT)), (0, 0), max(blur, 1e-3))
     wide = cv2.GaussianBlur(hit * np.exp(-above / np.float32(shadow.reach)), (0, 0), max(WIDENING * blur, 1e-3))
-    return (1 - (1 - core) * (1 - 0.6 * wide)).astype(np.float32), corner
+    return (1 - (1 - core) * (1 - 0.6 * wide)).astype(np.float32)
 
 
 @njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")

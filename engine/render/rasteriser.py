@@ -21,8 +21,14 @@ SHIFT = 8
 SUBPIXELS = 1 << SHIFT
 """Vertices are snapped to this fraction of a pixel, as graphics hardware does."""
 
+WIDE = 6
+"""Pixels: triangles up to this wide are walked from their left end."""
+
 FURTHEST = 2.0**21
 """Triangles with a vertex further out than this many pixels are dropped: their edge functions could overflow."""
+
+LOST = -(1 << 31)
+"""The place of such a vertex."""
 
 
 class Raster(NamedTuple):
@@ -81,8 +87,9 @@ def draw_into(
 ) -> None:
     """Draw triangles into what is already there, in the calling thread alone: for callers that draw several pictures
     side by side. Arrays are as in `rasterise` and `Raster`: float32 (V, 3), int32 (T, 3), int32 and float32 (H, W)."""
+    places = snapped(points)
     for t in range(faces.shape[0]):
-        _draw(points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
+        _draw(places, points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
 
 
 @njit(cache=True, inline="always")
@@ -90,8 +97,21 @@ def _snap(value: float) -> int:
     return int(np.floor(value * SUBPIXELS + 0.5))
 
 
+@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+def snapped(points: np.ndarray) -> np.ndarray:
+    """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXELS`; x is `LOST` where a vertex is too far out."""
+    places = np.empty((len(points), 2), np.int32)
+    for v in range(len(points)):
+        x, y = points[v, 0], points[v, 1]
+        if abs(x) < FURTHEST and abs(y) < FURTHEST:
+            places[v, 0], places[v, 1] = _snap(x), _snap(y)
+        else:
+            places[v, 0], places[v, 1] = LOST, 0
+    return places
+
+
 @njit(cache=True, inline="always")
-def _bias(dx: int, dy: int) -> int:
+def bias(dx: int, dy: int) -> int:
     """0 for a top or left edge, which owns the pixel centres lying on it; -1 for the others.
 
     The edge runs along (dx, dy) and the inside is to its right on the screen (y down).
@@ -105,15 +125,17 @@ def _nearest(
 ) -> tuple[np.ndarray, np.ndarray]:
     ids = np.full((height, width), -1, np.int32)
     depths = np.full((height, width), np.inf, np.float32)
+    places = snapped(points)
     for band in prange(bands):  # each band of rows walks all triangles in their order: bands do not change the result
         first, last = height * band // bands, height * (band + 1) // bands - 1
         for t in range(faces.shape[0]):
-            _draw(points, faces, t, first, last, perspective, cull, ids, depths)
+            _draw(places, points, faces, t, first, last, perspective, cull, ids, depths)
     return ids, depths
 
 
 @njit(cache=True, boundscheck=False, error_model="numpy")
 def _draw(
+    places: np.ndarray,
     points: np.ndarray,
     faces: np.ndarray,
     t: int,
@@ -125,27 +147,23 @@ def _draw(
     depths: np.ndarray,
 ) -> None:
     a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]
-    xa, ya, za = points[a, 0], points[a, 1], points[a, 2]
-    xb, yb, zb = points[b, 0], points[b, 1], points[b, 2]
-    xc, yc, zc = points[c, 0], points[c, 1], points[c, 2]
-    if max(ya, yb, yc) < first - 1 or min(ya, yb, yc) > last + 1:
+    ay, by, cy = int(places[a, 1]), int(places[b, 1]), int(places[c, 1])
+    ax, bx, cx = int(places[a, 0]), int(places[b, 0]), int(places[c, 0])
+    za, zb, zc = points[a, 2], points[b, 2], points[c, 2]
+    if min(ax, bx, cx) == LOST or (perspective and not min(za, zb, zc) > 0):
         return
-    reach = max(abs(xa), abs(ya), abs(xb), abs(yb), abs(xc), abs(yc))
-    if not reach < FURTHEST or (perspective and not min(za, zb, zc) > 0):
-        return
-    ax, ay, bx, by, cx, cy = _snap(xa), _snap(ya), _snap(xb), _snap(yb), _snap(xc), _snap(yc)
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    if area == 0 or (cull and area > 0):
-        return
-    if area < 0:  # the inside is to the right of each edge from here on
-        bx, by, zb, cx, cy, zc = cx, cy, zc, bx, by, zb
-        area = -area
     left = max((min(ax, bx, cx) + SUBPIXELS - 1) >> SHIFT, 0)
     right = min(max(ax, bx, cx) >> SHIFT, ids.shape[1] - 1)
     top = max((min(ay, by, cy) + SUBPIXELS - 1) >> SHIFT, first)
     bottom = min(max(ay, by, cy) >> SHIFT, last)
     if left > right or top > bottom:
         return
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    if area == 0 or (cull and area > 0):
+        return
+    if area < 0:  # the inside is to the right of each edge from here on
+        bx, by, zb, cx, cy, zc = cx, cy, zc, bx, by, zb
+        area = -area
     if perspective:
         za, zb, zc = 1 / za, 1 / zb, 1 / zc
     px, py = left << SHIFT, top << SHIFT
@@ -156,21 +174,30 @@ def _draw(
     right_z = ((by - cy) * za + (cy - ay) * zb + (ay - by) * zc) * scale
     down_z = ((cx - bx) * za + (ax - cx) * zb + (bx - ax) * zc) * scale
     row_z = (row_a * za + row_b * zb + row_c * zc) / np.float32(area)
-    row_a += _bias(cx - bx, cy - by)
-    row_b += _bias(ax - cx, ay - cy)
-    row_c += _bias(bx - ax, by - ay)
+    row_a += bias(cx - bx, cy - by)
+    row_b += bias(ax - cx, ay - cy)
+    row_c += bias(bx - ax, by - ay)
+    step_a, step_b, step_c = (by - cy) << SHIFT, (cy - ay) << SHIFT, (ay - by) << SHIFT
+    # where a row begins is estimated for wide triangles, which are mostly slanted slivers, and then found exactly
+    wide = right - left > WIDE
+    to_a = -1 / np.float64(step_a) if wide and step_a > 0 else np.float64(0)
+    to_b = -1 / np.float64(step_b) if wide and step_b > 0 else np.float64(0)
+    to_c = -1 / np.float64(step_c) if wide and step_c > 0 else np.float64(0)
     for y in range(top, bottom + 1):
-        wa, wb, wc, w = row_a, row_b, row_c, row_z
-        for x in range(left, right + 1):
-            if (wa | wb | wc) >= 0:
-                z = np.float32(1) / w if perspective else w
-                if z < depths[y, x]:
-                    depths[y, x] = z
-                    ids[y, x] = t
-            wa += (by - cy) << SHIFT
-            wb += (cy - ay) << SHIFT
-            wc += (ay - by) << SHIFT
-            w += right_z
+        wa, wb, wc, x = row_a, row_b, row_c, left
+        if wide:
+            outside = max(np.float64(row_a) * to_a, np.float64(row_b) * to_b, np.float64(row_c) * to_c)
+            skipped = int(min(max(outside - 0.01, 0.0), np.float64(right + 1 - left)))
+            wa, wb, wc, x = wa + skipped * step_a, wb + skipped * step_b, wc + skipped * step_c, x + skipped
+        while x <= right and (wa | wb | wc) < 0:
+            wa, wb, wc, x = wa + step_a, wb + step_b, wc + step_c, x + 1
+        w = row_z + np.float32(x - left) * right_z
+        while x <= right and (wa | wb | wc) >= 0:
+            z = np.float32(1) / w if perspective else w
+            if z < depths[y, x]:
+                depths[y, x] = z
+                ids[y, x] = t
+            wa, wb, wc, x, w = wa + step_a, wb + step_b, wc + step_c, x + 1, w + right_z
         row_a += (cx - bx) << SHIFT
         row_b += (ax - cx) << SHIFT
         row_c += (bx - ax) << SHIFT

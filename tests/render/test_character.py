@@ -74,6 +74,20 @@ def test_the_nearer_card_hides_the_other() -> None:
     np.testing.assert_array_equal(first, second)
 
 
+def test_where_two_surfaces_pass_through_each_other_a_pixel_shows_both() -> None:
+    """A slanted card comes out of an upright one a third into the column 20."""
+    texture = np.full((64, 64, 3), 50, np.uint8)
+    texture[:, 32:] = 200
+    mesh = card(texture, (0, 0, 0), (0, 0, 0))
+    line = (20 - 31.5 - 0.5 + 1 / 3) / 32
+    mesh.vertices[4:, 2] = np.where(mesh.vertices[4:, 0] < 0, -0.1, 0.1) - 0.1 * line
+    mesh.uv[:4, 0] = 0.25
+    mesh.uv[4:, 0] = 0.75
+    row = draw_character(prepare(mesh), mesh.vertices, FLAT).rgb[32, :, 0]
+    assert (row[:20] == 50).all() and (row[22:60] == 200).all()
+    assert row[20] == pytest.approx(50 + 150 * 2 / 3, abs=150 / 2 / SAMPLES)
+
+
 def test_a_fine_pattern_far_away_is_its_mean() -> None:
     y, x = np.mgrid[:512, :512]
     texture = np.where((x + y)[..., None] % 2, 255, 0).repeat(3, 2).astype(np.uint8)
