@@ -10,7 +10,7 @@ const root = here('../tests/web');
 export default defineConfig({
   test: {
     projects: [
-      { resolve: { alias }, test: { name: 'unit', root, include: ['unit/**/*.test.ts'] } },
+      { resolve: { alias }, test: { name: 'unit', root, include: ['unit/**/*.test.ts'], testTimeout: 60_000 } },
       {
         resolve: { alias },
         test: {
