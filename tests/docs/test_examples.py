@@ -14,9 +14,13 @@ from pathlib import Path
 
 import pytest
 
-sys.path.append(str(Path(__file__).parent.parent / "service"))  # for running
+sys.path.append(str(Path(__file__).parent.parent / "service"))  # for running and made_motion
 
+from made_motion import bvh
 from running import ROOT, Running
+
+from engine.character.sample import sample_picture
+from engine.media.image import write_image
 
 ADDRESS = "http://127.0.0.1:8000"
 
@@ -30,11 +34,13 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A folder with a portrait in it, as the guides suppose."""
+    """A folder with a portrait, a person and a motion in it, as the guides suppose."""
     package = find_spec("matplotlib")
     assert package is not None and package.origin is not None
     portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
     shutil.copy(portrait, tmp_path / "portrait.jpg")
+    write_image(tmp_path / "person.jpg", sample_picture())
+    (tmp_path / "swing.bvh").write_bytes(bvh())
     return tmp_path
 
 
@@ -53,6 +59,7 @@ def test_the_rest_guide(running: Running, folder: Path) -> None:
     assert json.loads((folder / "job.json").read_text())["status"] == "succeeded"
     assert (folder / "animation.mp4").read_bytes()[4:8] == b"ftyp"
     assert (folder / "result.zip").read_bytes()[:2] == b"PK"
+    assert (folder / "character.glb").read_bytes()[:4] == b"glTF"
     assert "event: progress" in done.stdout and done.stdout.rstrip().endswith("missing_input")
 
 
