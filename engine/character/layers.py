@@ -72,8 +72,10 @@ def label_parts(
     rig: Rig,
     given: NDArray[np.int8] | None = None,
     corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
+    sure: NDArray[np.int8] | None = None,
 ) -> Labels:
-    """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found;
+    """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
+    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's;
     `corrected` has the last word."""
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
@@ -82,7 +84,9 @@ def label_parts(
     if given is not None:
         rough = complete_labels(mask, given)
     else:
-        rough = rough_labels(mask, projected)
+        known = np.full(mask.shape, -1, np.int8) if sure is None else np.where(mask, sure, -1)
+        rough = rough_labels(mask, np.where(known >= 0, known, projected))
+        rough = np.where(known >= 0, known, rough)
         around = _occluded(rough, projected, rest).occlusion
         rough = refined_labels(rgb, rough, around)
     return _occluded(corrected(rough.astype(np.int8)), projected, rest)

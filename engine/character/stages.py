@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -70,7 +71,22 @@ def label(
         human.rig,
         given,
         lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
+        hand_labels(figure.hands, silhouette.to_grid, silhouette.mask.shape),
     )
+
+
+def hand_labels(
+    hands: Sequence[NDArray[np.float32] | None], to_grid: NDArray[np.float64], shape: tuple[int, ...]
+) -> NDArray[np.int8]:
+    """Labels (h, w) of the grid where the left and the right hand, (21, 3) each, are seen, -1 elsewhere: before a thigh the
+    template's hand is easily missed."""
+    labels = np.full((shape[0], shape[1]), -1, np.int8)
+    for arm, hand in zip(("left_arm", "right_arm"), hands, strict=True):
+        if hand is not None:
+            hull = cv2.convexHull(hand[:, :2] @ to_grid[:, :2].T.astype(np.float32) + to_grid[:, 2].astype(np.float32))
+            painted = cv2.fillConvexPoly(np.zeros(labels.shape, np.uint8), np.rint(hull).astype(np.int32), (1,))
+            labels[painted > 0] = PARTS.index(arm)
+    return labels
 
 
 def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:

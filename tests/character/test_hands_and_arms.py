@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from engine.character.figure import Figure
+from engine.character.labels import PARTS
 from engine.character.silhouette import NEAR, _seen
+from engine.character.stages import hand_labels
 from engine.character.template_fit import BEFORE, _arms_before_the_trunk
 from engine.perception.body import LANDMARKS
 from engine.perception.person import DOUBT
@@ -56,6 +58,19 @@ def test_a_forearm_between_joints_that_are_seen_is_the_persons() -> None:
     seed = _seen(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == 1
     for x, y in ((151, 81), (165, 95), (179, 109)):
         assert seed[y, x]
+
+
+def test_a_hand_that_is_seen_is_the_arms_and_the_other_says_nothing() -> None:
+    hand = np.zeros((21, 3), np.float32)
+    hand[:, :2] = [20, 30]
+    hand[5, :2], hand[17, :2], hand[12, :2] = (10, 50), (30, 50), (20, 70)
+    doubled = np.array([[2.0, 0, 5], [0, 2, 1]])
+    labels = hand_labels((None, hand), doubled, (200, 120))
+    assert set(np.unique(labels)) == {-1, PARTS.index("right_arm")}
+    for x, y in ((20, 30), (20, 45), (20, 65), (12, 50)):
+        assert labels[2 * y + 1, 2 * x + 5] == PARTS.index("right_arm")
+    assert labels[2 * 65 + 1, 2 * 28 + 5] == -1, "beside the tip"
+    assert (labels >= 0).sum() == pytest.approx(4 * (20 * 20 / 2 + 20 * 20 / 2), rel=0.1), "the area of its hull"
 
 
 @pytest.mark.parametrize(
