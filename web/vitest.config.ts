@@ -19,6 +19,7 @@ export default defineConfig({
           include: ['browser/**/*.test.ts'],
           globalSetup: ['browser/service.ts'],
           testTimeout: 600_000,
+          expect: { poll: { timeout: 60_000 } },
           hookTimeout: 180_000,
           fileParallelism: false,
         },
