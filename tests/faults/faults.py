@@ -172,4 +172,4 @@ FAULTS = (
 
 def ready(scene: Scene) -> None:
     """Wait until the service is whole again."""
-    eventually(lambda: scene.running.client.get("/readyz").status_code == 200, "the service is ready", 120)
+    eventually(lambda: scene.running.client.get("/readyz").status_code == 200, "the service is ready", 300)

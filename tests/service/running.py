@@ -86,7 +86,7 @@ class Running:
     def job(self, job_id: str) -> dict[str, Any]:
         return self.client.get(f"/v1/jobs/{job_id}").raise_for_status().json()
 
-    def until(self, job_id: str, *statuses: str, seconds: float = 60) -> dict[str, Any]:
+    def until(self, job_id: str, *statuses: str, seconds: float = 180) -> dict[str, Any]:
         """Wait until the job has one of these statuses; the job."""
         eventually(lambda: self.job(job_id)["status"] in statuses, f"the job is {statuses}", seconds)
         return self.job(job_id)
@@ -96,7 +96,7 @@ class Running:
         eventually(lambda: self.job(job_id)["progress"]["stage"] == "rest", "the job rests")
 
 
-def eventually(true: Callable[[], bool], what: str, seconds: float = 60) -> None:
+def eventually(true: Callable[[], bool], what: str, seconds: float = 180) -> None:
     deadline = time.monotonic() + seconds
     while not true():
         assert time.monotonic() < deadline, f"not within {seconds} s: {what}"

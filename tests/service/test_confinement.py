@@ -28,7 +28,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
 def ended(running: Running, act: str, **options: Any) -> dict[str, Any]:
     job = {"kind": "hostile", "inputs": {}, "options": {"act": act, **options}}
     job_id = running.client.post("/v1/jobs", json=job).raise_for_status().json()["id"]
-    return running.until(job_id, "succeeded", "failed", seconds=120)
+    return running.until(job_id, "succeeded", "failed", seconds=300)
 
 
 def tried(running: Running, act: str, **options: Any) -> str | None:

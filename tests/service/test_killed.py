@@ -53,7 +53,7 @@ def test_a_process_that_dies_once_is_forgiven_and_three_times_is_not(start: Star
         == "succeeded"
     )
     job = running.submit(picture, crash=crash)
-    failed = running.until(job["id"], "failed", "succeeded", seconds=90)
+    failed = running.until(job["id"], "failed", "succeeded", seconds=180)
     assert failed["error"]["code"] == "attempts_exhausted"
     # The first attempt stored a stage and so was not in vain; three more did not.
     assert attempts(running, job["id"]) == 4
@@ -67,7 +67,7 @@ def test_redis_killed_and_restarted_loses_nothing(start: Start, picture: bytes) 
     server.kill()
     jobs.append(running.submit(picture)["id"])
     for job in jobs:
-        running.until(job, "succeeded", seconds=90)
+        running.until(job, "succeeded", seconds=180)
         assert attempts(running, job) == 1
     eventually(lambda: running.client.get("/readyz").status_code == 200, "Redis is back")
 
@@ -80,7 +80,7 @@ def test_redis_emptied_loses_nothing(start: Start, picture: bytes) -> None:
     client.close()
     jobs.append(running.submit(picture)["id"])
     for job in jobs:
-        running.until(job, "succeeded", seconds=90)
+        running.until(job, "succeeded", seconds=180)
         assert attempts(running, job) == 1
 
 

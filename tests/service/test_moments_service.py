@@ -45,7 +45,7 @@ def searched(service: Running, name: str) -> dict[str, Any]:
     def driver() -> dict[str, Any]:
         return service.client.get(f"/v1/drivers/{name}").raise_for_status().json()
 
-    eventually(lambda: driver()["moments_status"] != "pending", "the search ends", 120)
+    eventually(lambda: driver()["moments_status"] != "pending", "the search ends", 400)
     return driver()
 
 
