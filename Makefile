@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup demo test lint types imports unit web-test web-unit web-browser client lock bench picture pictures docs licences clean
+.PHONY: help setup demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures docs licences clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
@@ -29,17 +29,20 @@ types:  ## mypy strict on the engine, tsc strict on the page
 imports:  ## which package may import which
 	@$(BIN)/lint-imports
 
-unit:  ## pytest with coverage: engine, service, worker, shell
+unit:  ## pytest: engine, service, worker, shell
 	@mkdir -p $(REPORTS)
-	@$(BIN)/pytest --cov --cov-report=term:skip-covered --junitxml=$(REPORTS)/python.xml
+	@$(BIN)/pytest --disable-warnings --junitxml=$(REPORTS)/python.xml
+
+coverage:  ## the same, and which lines no test runs
+	@$(BIN)/pytest --cov --cov-report=term:skip-covered
 
 web-test: web-unit web-browser  ## the page: its parts, and the whole in a browser against a running service
 
 web-unit:
-	@cd web && npm run --silent unit -- --reporter=default --reporter=junit --outputFile=../$(REPORTS)/web-unit.xml
+	@cd web && npm run --silent unit -- --reporter=dot --reporter=junit --outputFile=../$(REPORTS)/web-unit.xml
 
 web-browser:
-	@cd web && npm run --silent browser -- --reporter=default --reporter=junit --outputFile=../$(REPORTS)/web-browser.xml
+	@cd web && npm run --silent browser -- --reporter=dot --reporter=junit --outputFile=../$(REPORTS)/web-browser.xml
 
 client:  ## the page's types anew from the service's OpenAPI document
 	@cd web && npm run --silent client

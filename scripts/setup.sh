@@ -49,7 +49,7 @@ install_python() {
   key=$(.venv/bin/python --version | cat - requirements.lock pyproject.toml | sha256sum | cut -d' ' -f1)
   unchanged "$stamp" "$key" && [ -x .venv/bin/galatea ] && return
   local pip=(.venv/bin/python -m pip --disable-pip-version-check)
-  [ -t 1 ] || pip+=(--quiet)
+  [ -t 1 ] || pip+=(--quiet --quiet)
   say "Installing Python packages (about 700 MB, a few minutes the first time)"
   "${pip[@]}" install --no-deps --require-hashes -r requirements.lock
   "${pip[@]}" install --no-deps --no-build-isolation --editable .

@@ -1,4 +1,4 @@
-"""Adds up JUnit reports: a line for each, and `N passed, N failed, N skipped` as the last one."""
+"""Adds up JUnit reports: what failed and why, a line for each report, and `N passed, N failed, N skipped` as the last."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import sys
 from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree as ET
+
+LINES, WIDTH = 12, 200  # of each failure's message
 
 
 def outcomes(report: Path) -> Counter[str]:
@@ -20,12 +22,26 @@ def outcomes(report: Path) -> Counter[str]:
     return counts
 
 
+def reasons(report: Path) -> list[str]:
+    """Each failed test case with the first lines of its message."""
+    told = []
+    for case in ET.parse(report).iter("testcase"):  # noqa: S314 (as above)
+        for failure in [*case.iter("failure"), *case.iter("error")]:
+            lines = (failure.get("message") or failure.text or "").strip().splitlines()
+            name = f"{case.get('classname', '')} {case.get('name', '')}".strip()
+            told.append("\n".join([f"FAILED {name}", *(f"  {line[:WIDTH]}" for line in lines[:LINES])]))
+    return told
+
+
 def line(counts: Counter[str]) -> str:
     return f"{counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped"
 
 
 def main(reports: list[Path]) -> None:
     total: Counter[str] = Counter()
+    for report in reports:
+        for reason in reasons(report):
+            print(f"{reason}\n")
     for report in reports:
         counts = outcomes(report)
         total += counts

@@ -25,6 +25,12 @@ def test_adds_up_reports(tmp_path: Path) -> None:
     (tmp_path / "web-unit.xml").write_text(VITEST)
     lines = closing_lines(tmp_path / "python.xml", tmp_path / "web-unit.xml", tmp_path / "never-written.xml")
     assert lines == [
+        "FAILED b",
+        "  no",
+        "",
+        "FAILED d",
+        "  set-up",
+        "",
         "python       1 passed, 2 failed, 1 skipped",
         "web-unit     2 passed, 0 failed, 0 skipped",
         "3 passed, 2 failed, 1 skipped",
