@@ -20,7 +20,8 @@ import structlog
 
 from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
-from worker.confinement import NICENESS, Limits
+from worker.confinement import Limits
+from worker.niceness import give_way
 from worker.rehearsal import rehearse
 
 LONGEST_LINE = 1_000_000
@@ -59,7 +60,7 @@ class Child:
                 env=_environment(settings),
                 start_new_session=True,
             )
-            os.setpriority(os.PRIO_PROCESS, self._process.pid, NICENESS)  # from its first import on
+            give_way(self._process.pid)  # from its first import on
             if settings.job_cores:
                 os.sched_setaffinity(self._process.pid, _cores(settings, turn))
         except BaseException:

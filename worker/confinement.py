@@ -22,9 +22,6 @@ from pathlib import Path
 from worker import landlock, privileges, seccomp
 from worker.tether import die_with_parent
 
-NICENESS = 15
-"""The API stays quick while all cores work."""
-
 MOST_OPEN_FILES = 1024
 CPU_GRACE = 5
 """Seconds between the signal that says that the time is used up and the one that cannot be ignored."""
@@ -57,7 +54,6 @@ def limit(limits: Limits) -> None:
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
     privileges.no_new_privileges()
     Path("/proc/self/oom_score_adj").write_text("1000")
-    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
 
 
 def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: Iterable[Path]) -> None:

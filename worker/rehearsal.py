@@ -15,6 +15,7 @@ import platform
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -25,10 +26,12 @@ import structlog
 import engine
 from service.kinds.registry import load_kinds
 from service.settings import Settings
-from worker.confinement import NICENESS
+from worker.niceness import give_way
 from worker.tether import tethered
 
 NAME = "rehearsed"
+FORGOTTEN = 90 * 24 * 3600.0
+"""Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
 def rehearse(settings: Settings) -> None:
@@ -39,7 +42,11 @@ def rehearse(settings: Settings) -> None:
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
     command = [sys.executable, "-m", "worker.rehearsal", *settings.kinds]
     done = subprocess.run(  # noqa: S603  (our own program)
-        tethered(command), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL
+        tethered(command),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        stdin=subprocess.DEVNULL,
+        start_new_session=True,
     )
     if done.returncode != 0:
         log.warning("rehearsal_failed", printed=done.stderr.decode(errors="replace")[-2000:])
@@ -58,9 +65,11 @@ def load_compiled(kinds: Sequence[str]) -> None:
 
 
 def _mark(kinds: Sequence[str]) -> Path:
-    """The file that says that it was done for these kinds and this state of the engine on this machine."""
+    """The file that says that it was done for what there is to rehearse of these kinds, and this state of the engine on this
+    machine."""
     package = Path(engine.__file__).parent
-    state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()} {list(kinds)}".encode())
+    rehearsing = sorted(name for name, kind in load_kinds(kinds).items() if kind.rehearse is not None)
+    state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()} {rehearsing}".encode())
     for path in sorted(package.rglob("*.py")):
         state.update(f"{path} {path.stat().st_mtime_ns}".encode())
     beside = package / "__pycache__"
@@ -74,7 +83,7 @@ def _processor() -> str:
 
 
 def main() -> None:
-    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
+    give_way(os.getpid())
     for kind in load_kinds(sys.argv[1:]).values():
         if kind.rehearse is not None:
             with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
@@ -84,6 +93,9 @@ def main() -> None:
     draft = mark.with_suffix(f".{os.getpid()}")
     draft.write_bytes(pickle.dumps(_compiled()))
     draft.rename(mark)
+    for other in mark.parent.glob(f"{NAME}-*"):  # of an engine that is no more
+        if other.stat().st_mtime < time.time() - FORGOTTEN:
+            other.unlink(missing_ok=True)
 
 
 def _compiled() -> list[tuple[str, str, list[Any]]]:

@@ -14,6 +14,7 @@ import pytest
 
 from service.settings import Settings
 from worker.children import Child, ChildLost, WarmChildren
+from worker.niceness import NICENESS
 from worker.tether import tethered
 
 ROOT = Path(__file__).parent.parent.parent
@@ -44,6 +45,9 @@ def test_it_is_confined_and_knows_no_secrets(settings: Settings) -> None:
         assert process.rlimit(psutil.RLIMIT_FSIZE)[0] == settings.job_file_mb * 1e6
         assert process.rlimit(psutil.RLIMIT_CORE) == (0, 0)
         assert Path(f"/proc/{child.pid}/oom_score_adj").read_text().strip() == "1000"
+        assert process.nice() == NICENESS
+        session = Path(f"/proc/{child.pid}/autogroup")  # where the kernel has groups, they count, and not its processes
+        assert not session.exists() or session.read_text().split()[-1] == str(NICENESS)
         assert 5 < child.memory_mb() < 500
     finally:
         child.kill()
