@@ -3,6 +3,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
+[ -t 1 ] || export NO_COLOR=1
 failed=()
 rm -rf var/test-reports
 for check in lint types imports web-unit unit web-browser; do

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+import weakref
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -51,9 +52,12 @@ class FilmStripWriter:
         self._ends.append(self._file.tell())
 
     def strip(self) -> FilmStrip:
-        """All that was written; its file now belongs to the caller."""
+        """All that was written; its file goes with it, if it was not moved away by then."""
         self._file.flush()
-        return FilmStrip(Path(self._file.name), np.array(self._ends, np.int64))
+        path = Path(self._file.name)
+        strip = FilmStrip(path, np.array(self._ends, np.int64))
+        weakref.finalize(strip, path.unlink, missing_ok=True)
+        return strip
 
     def __enter__(self) -> FilmStripWriter:
         return self
