@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure import Figure
+from engine.character.gaps import gaps
 from engine.character.occlusion import largest
 from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
@@ -98,7 +99,14 @@ def cut_out(
 
 def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     """The mask that is found of itself, (H, W). Where others are in the picture, the networks look at this one alone."""
-    seed = _seen(figure) if figure.spatial else _limbs(figure)
+    alpha = _cut(figure, _seen(figure) if figure.spatial else _limbs(figure), model)
+    if model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any()):
+        return alpha
+    return np.asarray(alpha * (1 - gaps(figure.rgb, alpha, figure.point)), np.float32)
+
+
+def _cut(figure: Figure, seed: NDArray[np.float32], model: MattingModel | None) -> NDArray[np.float32]:
+    """What the networks find around a seed (H, W)."""
     if len(figure.people) < 2:
         return person_mask(figure.rgb, seed, figure.alpha, model, whole=True)
     x, y, wide, high = figure.people[figure.index]

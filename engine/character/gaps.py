@@ -1,0 +1,110 @@
+"""Where the background is seen between an arm and the trunk, or between the legs.
+
+The network that cuts people out fills such gaps. Joints say where to look: inside of arms and legs, but on none of them. Colours
+say what is there: the background's nearby, rather than those of the limbs and the trunk around.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.labels import COLOURS, Colours
+
+WORKING = 500
+"""Pixels of the person's height at which gaps are looked for."""
+ARM, LEG = 0.035, 0.04
+"""Width of what is surely an arm or a leg, as a share of the person's height."""
+AROUND, NEAR = 0.125, 0.05
+"""How far from the person background is, and how far from a place colours tell of it, as shares of their height."""
+CERTAIN = 2.0
+"""By how much (a logarithm) background has to be likelier."""
+LEAST, NARROWEST = 2.4e-4, 0.01
+"""Area of a gap as a share of the height's square, and its width as a share of the height, at least: what is smaller is a
+crease or a braid."""
+EDGE, CONTRAST = 4, 8.0
+"""Pixels around a gap within which its edge is found, and levels by which colours differ there."""
+
+
+def gaps(
+    rgb: NDArray[np.uint8], alpha: NDArray[np.float32], point: Callable[[str], NDArray[np.floating]]
+) -> NDArray[np.float32]:
+    """How much of the mask (H, W) [0, 1] is gap: 0 nearly everywhere.
+
+    `rgb` (H, W, 3) the picture, `alpha` (H, W) the person's mask; `point` gives a joint's place by its name.
+    """
+    tall = np.flatnonzero((alpha > 0.5).any(1))
+    none = np.zeros(alpha.shape, np.float32)
+    if not len(tall):
+        return none
+    scale = min(1.0, WORKING / float(np.ptp(tall) + 1))
+    size = (max(1, round(rgb.shape[1] * scale)), max(1, round(rgb.shape[0] * scale)))
+    small = np.asarray(cv2.resize(rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
+    mask = np.asarray(cv2.resize(alpha, size, interpolation=cv2.INTER_AREA), np.float32)
+    height = float(np.ptp(tall) + 1) * scale
+    inside, limbs = _by_joints(lambda name: point(name) * scale, mask.shape, height)
+    found = _by_colour(small, mask, inside & ~limbs & (mask > 0.5), limbs, height)
+    if not found.any():
+        return none
+    around = cv2.dilate(found.astype(np.uint8), np.ones((2 * EDGE + 1, 2 * EDGE + 1), np.uint8)) > 0
+    large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
+    reach = max(2, round(EDGE / scale))
+    fine = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
+    near = cv2.resize(around.astype(np.uint8), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_NEAREST) > 0
+    return np.where(near, np.clip(1.5 * np.asarray(fine) - 0.25, 0, 1), 0).astype(np.float32)
+
+
+def _by_joints(
+    point: Callable[[str], NDArray[np.floating]], shape: tuple[int, ...], height: float
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """What lies inside of arms and legs (h, w), and what is surely a limb or the trunk (h, w)."""
+    inside, limbs = (np.zeros((shape[0], shape[1]), np.uint8) for _ in range(2))
+
+    def places(*names: str) -> NDArray[np.int32]:
+        return np.rint(np.stack([point(name) for name in names])).astype(np.int32)
+
+    for side in ("Left", "Right"):
+        arm = [f"{side}{joint}" for joint in ("Shoulder", "Elbow", "Wrist")]
+        leg = [f"{side}{joint}" for joint in ("Hip", "Knee", "Ankle")]
+        cv2.fillPoly(inside, [places(*arm, f"{side}Hip")], (1,))
+        for chain, wide in ((arm, ARM), (leg, LEG)):
+            cv2.polylines(limbs, [places(*chain)], False, (1,), max(1, round(wide * height)))
+    cv2.fillPoly(inside, [places("LeftHip", "LeftAnkle", "RightAnkle", "RightHip")], (1,))
+    cv2.fillPoly(limbs, [places("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")], (1,))
+    return inside > 0, limbs > 0
+
+
+def _by_colour(
+    rgb: NDArray[np.uint8],
+    alpha: NDArray[np.float32],
+    asked: NDArray[np.bool_],
+    limbs: NDArray[np.bool_],
+    height: float,
+) -> NDArray[np.bool_]:
+    """The gaps (h, w) in what is `asked` (h, w)."""
+    found = np.zeros(asked.shape, np.bool_)
+    lab = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float64)
+    person = (alpha > 0.5).astype(np.uint8)
+    outside = (alpha < 0.05) & (cv2.dilate(person, _square(AROUND * height)) > 0)
+    near = cv2.dilate(asked.astype(np.uint8), _square(NEAR * height)) > 0
+    close = outside & near
+    own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
+    if min(int(own.sum()), int(behind.sum()), int(asked.sum())) < 10 * COLOURS:
+        return found
+    like = np.zeros(asked.shape, np.float32)
+    like[asked] = Colours.of(lab[own]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
+    likely = asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN)
+    count, pieces, stats, _ = cv2.connectedComponentsWithStats(likely.astype(np.uint8), connectivity=4)
+    depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
+    for piece in range(1, count):
+        wide = 2 * float(depth[pieces == piece].max())
+        if stats[piece, cv2.CC_STAT_AREA] >= LEAST * height**2 and wide >= NARROWEST * height:
+            found |= pieces == piece
+    return found
+
+
+def _square(reach: float) -> NDArray[np.uint8]:
+    return np.ones((2 * max(1, round(reach)) + 1,) * 2, np.uint8)
