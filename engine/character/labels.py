@@ -31,6 +31,14 @@ ROUNDS = 3
 SLEEVE, BEYOND = 0.04, 2.0
 """How far sleeves reach beyond the template's arms, as a share of the height, and by how much more than its distance a pixel
 further away is unlikely to be an arm's."""
+STEPS = 0.7
+"""Pixels of the small labels over which their borders are smoothed."""
+SPECK = 40
+"""Pixels below which a piece of a label is an error of the colours' model: a crease, a cuff, a shadow."""
+ASIDE = 0.25
+"""Share of an arm's largest piece below which another one is not the arm's."""
+BARE_ARM = 0.008
+"""How far beyond the template's arm no hair is looked for, as a share of the height."""
 NOWHERE = 1e3
 """The cost, in pixels, of a label that the template does not show."""
 
@@ -67,8 +75,18 @@ def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDAr
     gamma = GAMMA_ROUGH * (size[1] / GAMMA_HEIGHT) ** 2
     found = np.full(small.shape, -1, np.intp)
     found[small] = alpha_expansion(unary, edges, np.full(len(edges), gamma), unary.argmin(1))
-    large = cv2.resize(found.astype(np.int16), (width, height), interpolation=cv2.INTER_NEAREST_EXACT).astype(np.intp)
-    return complete_labels(mask, large)
+    return _enlarged(complete_labels(np.ones_like(small), found), mask)
+
+
+def _enlarged(labels: NDArray[np.intp], mask: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Labels (h, w) at the size of the mask (H, W), -1 outside of it, without the steps that their pixels would make there."""
+    size = (mask.shape[1], mask.shape[0])
+    around = STEPS * mask.shape[0] / labels.shape[0]
+    likely = []
+    for label in range(len(PARTS)):
+        large = cv2.resize((labels == label).astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+        likely.append(cv2.GaussianBlur(large, (0, 0), around))
+    return np.where(mask, np.stack(likely).argmax(0), -1)
 
 
 def complete_labels(mask: NDArray[np.bool_], labels: NDArray[np.integer]) -> NDArray[np.intp]:
@@ -77,6 +95,54 @@ def complete_labels(mask: NDArray[np.bool_], labels: NDArray[np.integer]) -> NDA
     missing = mask & (out < 0)
     out[missing] = _nearest_label(out)[missing]
     return np.where(mask, out, -1)
+
+
+def hair_beside_arms(
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.integer], sure: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Labels (H, W) in which hair is the head's where a raised arm is nearer: what is not of the arms of the projected
+    `template` (H, W) and not `sure` (H, W), has the colours of hair rather than those of the arm, and hangs together with
+    the head."""
+    found = labels.astype(np.intp).copy()
+    head = PARTS.index("head")
+    colours = rgb.astype(np.float64)
+    hair = (labels == head) & (template != head)
+    for arm in ARMS:
+        own = labels == arm
+        reach = 2 * max(1, round(BARE_ARM * labels.shape[0])) + 1
+        close = cv2.dilate((template == arm).astype(np.uint8), np.ones((reach, reach), np.uint8)) > 0
+        doubtful = own & ~close & (sure != arm)
+        if min(int(one.sum()) for one in (hair, doubtful, own & close)) < 10 * COLOURS:
+            continue
+        shown = colours[doubtful]
+        like = np.zeros(labels.shape, np.float32)
+        like[doubtful] = Colours.of(colours[own & close]).unlikely(shown) - Colours.of(colours[hair]).unlikely(shown)
+        given = doubtful & (cv2.GaussianBlur(like, (0, 0), 2.0) > 0)
+        _, pieces = cv2.connectedComponents((given | (labels == head)).astype(np.uint8), connectivity=4)
+        found[given & np.isin(pieces, np.unique(pieces[labels == head]))] = head
+    return found
+
+
+def without_specks(labels: NDArray[np.integer], sure: NDArray[np.integer]) -> NDArray[np.intp]:
+    """Labels (H, W) whose small pieces have gone over to what is around them; each keeps its largest piece. An arm has no
+    other pieces, either, unless the other arm passes before it: nothing smaller than the one with its hand, which is `sure`
+    (H, W; -1 where nothing is), or than a share of the largest."""
+    kept = labels.astype(np.intp).copy()
+    for part in range(len(PARTS)):
+        count, pieces, stats, _ = cv2.connectedComponentsWithStats((labels == part).astype(np.uint8), connectivity=4)
+        if count < 3:
+            continue
+        areas = stats[:count, cv2.CC_STAT_AREA]
+        known = np.bincount(pieces[(sure == part) & (pieces > 0)], minlength=count)
+        small = areas < SPECK
+        if part in ARMS:
+            other = (labels == ARMS[1 - ARMS.index(part)]).astype(np.uint8)
+            met = np.unique(pieces[cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0])
+            least = areas[known.argmax()] if known.any() else ASIDE * areas[1:].max()
+            small |= (areas < least) & ~np.isin(np.arange(count), met)
+        small[[0, 1 + int(np.argmax(areas[1:]))]] = False
+        kept[small[pieces]] = -1
+    return complete_labels(labels >= 0, kept)
 
 
 @dataclass(frozen=True)

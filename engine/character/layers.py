@@ -15,11 +15,20 @@ from numpy.typing import NDArray
 
 from engine.body.rig import Rig
 from engine.character.face_warp import Face, with_face
-from engine.character.labels import ARMS, PARTS, complete_labels, refined_labels, rough_labels, vertex_parts
+from engine.character.labels import (
+    ARMS,
+    PARTS,
+    complete_labels,
+    hair_beside_arms,
+    refined_labels,
+    rough_labels,
+    vertex_parts,
+    without_specks,
+)
 from engine.character.legs import LEGS_APART, cut_along, each_by_its_own, hem
 from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
 from engine.character.part_surface import Surface, part_surface, warp_part
-from engine.character.sheets import Layer
+from engine.character.sheets import THINNEST, Layer
 from engine.character.template_maps import side_maps, weights_at
 from engine.render.attributes import interpolate
 
@@ -87,8 +96,9 @@ def label_parts(
         known = np.full(mask.shape, -1, np.int8) if sure is None else np.where(mask, sure, -1)
         rough = rough_labels(mask, np.where(known >= 0, known, projected))
         rough = np.where(known >= 0, known, rough)
+        rough = hair_beside_arms(rgb, rough, projected, known)
         around = _occluded(rough, projected, rest).occlusion
-        rough = refined_labels(rgb, rough, around)
+        rough = without_specks(refined_labels(rgb, rough, around), known)
     return _occluded(corrected(rough.astype(np.int8)), projected, rest)
 
 
@@ -208,21 +218,43 @@ def _layer(
 
 def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
     """A limb whose pixels that are not its `own` (h, w), those of the overlap, lie just beneath the body's surface: there
-    they are not seen until the limb is lifted."""
-    over = body.mask & limb.mask & ~own
+    they are not seen until the limb is lifted. What of it is further than the body's back passes behind and stays."""
+    behind = (limb.front.depth + limb.back.depth) / 2 < body.back.depth
+    over = body.mask & limb.mask & ~own & ~behind
     front, back = limb.front.depth.copy(), limb.back.depth.copy()
-    middle = (body.front.depth + body.back.depth) / 2
-    inside_front, inside_back = body.front.depth - BENEATH, body.back.depth + BENEATH
-    front[over] = np.maximum(np.minimum(front, inside_front), middle)[over]
-    back[over] = np.minimum(np.maximum(back, inside_back), middle)[over]
+    front[over] = np.minimum(front, _drawn(body) - BENEATH)[over]
+    back[over] = np.minimum(np.maximum(back, body.back.depth + BENEATH), front - 2 * THINNEST)[over]
     return replace(limb, front=Surface(front, limb.front.weights), back=Surface(back, limb.back.weights))
 
 
 def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     """The body with its front beneath the limb's where the limb is seen (`own` (h, w)) and so hides it; at most as deep as the
-    middle of the body."""
+    middle of the body. Where the limb is behind that and shows beside the body, the body was thought to go on too far."""
     hidden = body.mask & limb.mask & own
-    front = body.front.depth.copy()
     middle = (body.front.depth + body.back.depth) / 2
-    front[hidden] = np.clip(limb.front.depth - BENEATH, middle, front)[hidden]
-    return replace(body, front=Surface(front, body.front.weights))
+    reach = _drawn(limb) - BENEATH
+    shown = body.mask & ~own
+    beside = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0  # or what is between pixels would gape
+    mask = largest(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
+    front = body.front.depth.copy()
+    front[hidden] = np.clip(reach, middle, front)[hidden]
+    return replace(body, mask=mask, front=Surface(front, body.front.weights))
+
+
+def _between(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """What has some of the mask on its left and right, or above and below."""
+    sides = []
+    for axis in (0, 1):
+        before = np.logical_or.accumulate(mask, axis=axis)
+        after = np.flip(np.logical_or.accumulate(np.flip(mask, axis), axis=axis), axis)
+        sides.append(before & after)
+    return np.asarray(sides[0] | sides[1])
+
+
+def _drawn(layer: Layer) -> NDArray[np.float32]:
+    """How far towards the viewer a layer's mesh surely reaches at each of its pixels: at its border both sides meet."""
+    middle = (layer.front.depth + layer.back.depth) / 2
+    inside = cv2.erode(layer.mask.astype(np.uint8), np.ones((3, 3), np.uint8), borderValue=0) > 0
+    reaches = np.where(inside, layer.front.depth, middle)
+    reaches = np.where(layer.mask, reaches, np.inf).astype(np.float32)
+    return np.asarray(cv2.erode(reaches, np.ones((3, 3), np.uint8), borderType=cv2.BORDER_REPLICATE), np.float32)

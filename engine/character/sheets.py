@@ -61,6 +61,13 @@ class ClosedMesh:
     bones: NDArray[np.uint8]
     weights: NDArray[np.float32]
 
+    def pixels(self, vertices: NDArray[np.intp], shape: Sequence[int]) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the grid in which some of the vertices are, by index."""
+        x, y = np.clip(np.rint(self.vertices[vertices, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(int).T
+        covered = np.zeros((shape[0], shape[1]), np.bool_)
+        covered[y, x] = True
+        return covered
+
 
 def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
     """Join front and back of each part into a mesh without open borders.

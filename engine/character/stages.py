@@ -118,9 +118,10 @@ def make_character(
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
     face = face_ellipse(figure, silhouette.to_grid)
-    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, face, back)
+    reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
+    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, face, back)
     texture, uv = atlas(tiles, mesh, 0)
-    tile = tiles.seen.shape[1] / texture.shape[1]
+    tile = tiles.body.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())
     character = bind(mesh, camera, fitted, load_human().space, texture, uv, tile)
     return replace(character, mesh=fewer_triangles(character.mesh, triangles))

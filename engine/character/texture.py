@@ -25,7 +25,9 @@ BackTexture = Literal["mirror", "inpaint"]
 SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
 BESIDE = 0.004
-"""How far an arm's colours may reach beyond its label, as a share of the person's height."""
+"""How far an arm's edge may lie from that of its label, as a share of the person's height."""
+CONTRAST = 12.0
+"""Levels by which colours differ on two sides of an edge, at least."""
 ENOUGH = 0.12
 """Share of a head from which the rest can be filled."""
 NAPE = 0.4
@@ -40,21 +42,23 @@ OFF = 8.0
 """Levels by which front and back differ where they are not the same."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
-TALLEST = 1024
-"""Pixels of height of a tile, at most."""
+TALLEST, WIDEST = 2048, 4096
+"""Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
+TILES = 3
 
 
 @dataclass(frozen=True)
 class Tiles:
-    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: what is `seen`, the `body`
-    without the arms before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
-    grid's."""
+    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `arms`, the `body` without
+    the arms before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
+    grid's. `shift`: by how many of them x and y are further, so that pixels fall on pixels of the picture."""
 
-    seen: NDArray[np.uint8]
+    arms: NDArray[np.uint8]
     body: NDArray[np.uint8]
     back: NDArray[np.uint8]
     head: NDArray[np.bool_]
     scale: float
+    shift: NDArray[np.float64]
 
 
 def paint_tiles(
@@ -62,6 +66,7 @@ def paint_tiles(
     alpha: NDArray[np.float32],
     to_grid: NDArray[np.float64],
     labels: Labels,
+    arms_reach: NDArray[np.bool_],
     face: NDArray[np.float32] | None,
     back: BackTexture,
 ) -> Tiles:
@@ -72,44 +77,45 @@ def paint_tiles(
     rgb, alpha : the picture (H, W, 3) and the person's mask (H, W).
     to_grid : (2, 3) from the picture's pixels to those of the grid.
     labels : what each pixel of the grid shows.
+    arms_reach : (h, w) all that the arms' surfaces cover, seen or not.
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
     """
     arms = np.isin(labels.labels, labels.apart)
     shape = arms.shape
-    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0])
+    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // TILES / shape[1])
     size = (round(shape[1] * scale), round(shape[0] * scale))
     matrix = to_grid * scale
     matrix[:, 2] += (scale - 1) / 2
+    shift = np.rint(matrix[:, 2]) - matrix[:, 2]
+    matrix[:, 2] += shift
     shrinks = matrix[0, 0] < 1
     flags = cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC
     seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
     own = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR)) > SURE
-    in_front = _enlarged(arms, size)
-    around = cv2.dilate(
-        in_front.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(BESIDE * size[1]))
-    )
+    around = _up_to_their_edges(arms, seen)
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    body = _behind_the_arms(seen, labels, np.asarray(around > 0), own, oval) if arms.any() else seen
+    body = _behind_the_arms(seen, labels, around, own, oval) if arms.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
-    return Tiles(seen, body, joined_at_the_outline(body, behind, own, scale), head, scale)
+    limbs = _filled(seen, _enlarged(arms_reach & ~arms, size), own & around) if arms.any() else seen
+    return Tiles(limbs, body, joined_at_the_outline(body, behind, own, scale), head, scale, shift)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """One texture (h, 3 w, 3), or two tiles wide where no arm hides anything, and each vertex' place on it (V, 2)."""
     arms_apart = bool((mesh.layer != body_layer).any())
-    pictures = [tiles.seen, tiles.body, tiles.back] if arms_apart else [tiles.seen, tiles.back]
+    pictures = [tiles.arms, tiles.body, tiles.back] if arms_apart else [tiles.body, tiles.back]
     tile = np.where(mesh.layer == body_layer, np.where(mesh.front, len(pictures) - 2, len(pictures) - 1), 0)
-    height, width = tiles.seen.shape[:2]
+    height, width = tiles.body.shape[:2]
     apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > OFF
     grid = (round(width / tiles.scale), round(height / tiles.scale))
     barred = cv2.resize((apart | tiles.head).astype(np.float32), grid, interpolation=cv2.INTER_AREA) > 0.25
-    place = (places_on_the_picture(mesh, barred, body_layer) + 0.5) * tiles.scale / [width, height]
+    place = ((places_on_the_picture(mesh, barred, body_layer) + 0.5) * tiles.scale + tiles.shift) / [width, height]
     place[:, 0] = (np.clip(place[:, 0], 0, 1) + tile) / len(pictures)
     return np.concatenate(pictures, 1), place.astype(np.float32)
 
@@ -235,6 +241,17 @@ def _like_skin(
     like = np.linalg.norm(colours - skin, axis=-1) < np.linalg.norm(colours - hair, axis=-1)
     grown = cv2.dilate((like & head).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=2)
     return np.asarray(grown > 0) & head
+
+
+def _up_to_their_edges(arms: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """The arms (h, w) of the grid in the picture (H, W, 3), up to the edges that it has near theirs. By a guided filter
+    (K. He, J. Sun, X. Tang, ECCV 2010)."""
+    size = (rgb.shape[1], rgb.shape[0])
+    large = np.asarray(cv2.resize(arms.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
+    reach = max(2, round(BESIDE * size[1]))
+    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
+    close = cv2.dilate((large > 0.5).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=reach)
+    return np.asarray((likely > 0.5) & (close > 0))
 
 
 def _enlarged(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:

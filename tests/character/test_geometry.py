@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
 from engine.body.skinning import pose_transforms, skin
-from engine.character.labels import PARTS, part_of_bone, refined_labels, rough_labels
+from engine.character.labels import PARTS, part_of_bone, refined_labels, rough_labels, without_specks
 from engine.character.occlusion import completed, largest
 from engine.character.part_surface import Surface, outline, part_surface, warp_part
 from engine.character.picture_space import PictureCamera
@@ -165,6 +165,22 @@ def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:
     assert set(np.unique(found[mask])) == {PARTS.index("head"), PARTS.index("torso")}
     assert (found[5:35, 10:50] == PARTS.index("head")).mean() > 0.97
     assert (found[45:115, 10:50] == PARTS.index("torso")).mean() > 0.97
+
+
+def test_an_arm_is_one_piece_unless_the_other_passes_before_it() -> None:
+    torso, left, right = (PARTS.index(name) for name in ("torso", "left_arm", "right_arm"))
+    labels = np.full((80, 120), torso)
+    labels[10:20, 10:60], labels[60:62, 100:102] = left, left  # an arm and a speck
+    labels[40:50, 10:60], labels[40:50, 30:36] = right, left  # an arm with the other before it: three pieces
+    labels[70:75, 60:90] = right  # a piece aside, more than a quarter of the largest
+    found = without_specks(labels, np.full(labels.shape, -1))
+    np.testing.assert_array_equal(found == left, (labels == left) & (np.arange(120) < 90))
+    np.testing.assert_array_equal(found == right, labels == right)
+    hand = np.full(labels.shape, -1)
+    hand[42:48, 50:60] = right
+    found = without_specks(labels, hand)
+    assert (found[70:75, 60:90] == torso).all(), "smaller than the piece with the hand"
+    assert (found[40:50, 10:30] == right).all()
 
 
 def test_refined_labels_go_to_where_the_colours_change() -> None:

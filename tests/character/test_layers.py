@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 
 from engine.character.labels import PARTS
@@ -73,21 +74,31 @@ def test_an_arm_that_does_not_reach_its_shoulder_is_led_there_over_the_body() ->
     assert not whole[:10].any()
 
 
+def inner(mask: np.ndarray) -> np.ndarray:
+    """What is far enough from the border of a mask for its border not to count: there both sides meet."""
+    return np.asarray(cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0)
+
+
 def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
     body, shared = slab(rectangle((5, 55), (5, 60)), 10.0, -10.0), rectangle((20, 30), (40, 60))
     arm, own = slab(rectangle((20, 30), (40, 100)), 14.0, -12.0), rectangle((20, 30), (60, 100))
     sunk = _sunk(arm, body, own)
-    assert np.allclose(sunk.front.depth[shared], 10 - BENEATH) and np.allclose(sunk.back.depth[shared], BENEATH - 10)
+    deep = shared & inner(body.mask)
+    assert np.allclose(sunk.front.depth[deep], 10 - BENEATH) and np.allclose(sunk.back.depth[deep], BENEATH - 10)
+    assert (sunk.front.depth[shared & ~deep] <= 0 - BENEATH).all(), (
+        "at its border the body is no higher than its middle"
+    )
+    assert (sunk.front.depth[shared] > sunk.back.depth[shared]).all()
     np.testing.assert_array_equal(sunk.front.depth[own], arm.front.depth[own])
     np.testing.assert_array_equal(sunk.back.depth[own], arm.back.depth[own])
 
 
-def test_a_limb_sinks_no_deeper_than_the_middle_of_the_body() -> None:
+def test_a_limb_behind_the_body_stays_there() -> None:
     body = slab(rectangle((5, 55), (5, 60)), 10.0, 4.0)
     arm = slab(rectangle((20, 30), (40, 60)), -5.0, -9.0)
-    sunk, there = _sunk(arm, body, np.zeros(SHAPE, np.bool_)), rectangle((20, 30), (40, 60))
-    assert np.allclose(sunk.front.depth[there], 7)
-    assert (sunk.front.depth[there] >= sunk.back.depth[there]).all()
+    sunk = _sunk(arm, body, np.zeros(SHAPE, np.bool_))
+    np.testing.assert_array_equal(sunk.front.depth, arm.front.depth)
+    np.testing.assert_array_equal(sunk.back.depth, arm.back.depth)
 
 
 def test_what_an_arm_hides_lies_behind_it() -> None:
@@ -95,10 +106,23 @@ def test_what_an_arm_hides_lies_behind_it() -> None:
     arm = slab(arm_mask, 6.0, 2.0)
     seen = rectangle((20, 30), (40, 60))  # of the rest the body hides the arm
     body = _behind(slab(mask, 10.0, -10.0), arm, seen)
-    assert np.allclose(body.front.depth[seen], 6 - BENEATH)
+    deep = seen & inner(arm_mask)
+    assert np.allclose(body.front.depth[deep], 6 - BENEATH)
+    assert np.allclose(body.front.depth[seen & ~deep], 4 - BENEATH), (
+        "at its border the arm is no higher than its middle"
+    )
     assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
     assert np.allclose(body.back.depth[mask], -10)
     lower = _behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
     assert np.allclose(lower.front.depth[seen], 0), "the body keeps half of its depth"
     before = _behind(slab(mask, 1.0, -1.0), replace(arm), seen)
     assert np.allclose(before.front.depth[mask], 1), "an arm that is before it anyway changes nothing"
+
+
+def test_a_body_does_not_go_on_before_an_arm_that_comes_out_from_behind_it() -> None:
+    mask, arm_mask = rectangle((5, 55), (5, 80)), rectangle((20, 30), (40, 110))
+    shown = rectangle((20, 30), (60, 110))  # from the trunk's outline on
+    trunk = mask & ~rectangle((5, 55), (60, 80)) | (mask & rectangle((20, 30), (60, 80)))
+    body = _behind(slab(trunk, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), shown)
+    assert not body.mask[:, 61:].any(), "but for a pixel, so that nothing gapes"
+    np.testing.assert_array_equal(body.mask[:, :61], trunk[:, :61])

@@ -38,14 +38,33 @@ def painted(back: str = "mirror"):  # type: ignore[no-untyped-def]
     apart = np.array([PARTS.index("right_arm")], np.int8)
     face = np.array([80, 58, 22, 26, 0], np.float32)
     alpha = (labels >= 0).astype(np.float32)
-    return paint_tiles(rgb, alpha, SAME, Labels(labels.astype(np.int8), none, apart, none), face, back), labels  # type: ignore[arg-type]
+    reach = np.zeros(labels.shape, np.bool_)
+    reach[140:165, 40:115] = True  # behind the dress, too
+    found = Labels(labels.astype(np.int8), none, apart, none)
+    return paint_tiles(rgb, alpha, SAME, found, reach, face, back), labels  # type: ignore[arg-type]
 
 
 def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     tiles, labels = painted()
     hidden = labels == PARTS.index("right_arm")
     assert np.abs(tiles.body[hidden].astype(int) - GREEN).max() <= 6, "neither arm, nor wall, nor hair"
-    np.testing.assert_array_equal(tiles.seen[hidden], person()[0][hidden])
+    np.testing.assert_array_equal(tiles.arms[hidden], person()[0][hidden])
+    assert np.abs(tiles.arms[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
+        "where the dress hides it an arm is an arm"
+    )
+
+
+def test_pixels_of_the_texture_are_those_of_the_picture() -> None:
+    rgb = np.random.default_rng(1).integers(0, 256, (240, 160, 3)).astype(np.uint8)
+    labels = np.full((120, 80), PARTS.index("torso"), np.int8)
+    none = np.zeros(labels.shape, np.bool_)
+    half = np.array([[0.5, 0, -0.13], [0, 0.5, -0.31]])  # a grid of half the size, somewhere between the pixels
+    found = Labels(labels, none, np.zeros(0, np.int8), none)
+    tiles = paint_tiles(rgb, np.ones((240, 160), np.float32), half, found, none, None, "mirror")
+    further = tiles.shift + (tiles.scale - 1) / 2 + tiles.scale * half[:, 2]
+    np.testing.assert_allclose(further, np.rint(further), atol=1e-9)
+    dx, dy = np.rint(further).astype(int)
+    np.testing.assert_array_equal(tiles.body[50 + dy : 70 + dy, 50 + dx : 70 + dx], rgb[50:70, 50:70])
 
 
 def test_a_face_is_not_on_the_back_and_hair_is() -> None:
