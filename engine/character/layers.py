@@ -38,6 +38,8 @@ UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
 WHOLE = 0.9
 """Share of an arm in one piece, below which the other arm is taken to pass before it."""
+THIN = 0.25
+"""Share of its depth that the body keeps behind an arm, at least."""
 BENEATH = 1.5
 """Pixels by which what overlaps lies beneath the body's surface."""
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
@@ -155,7 +157,7 @@ def build_layers(
         limb = _layer(reached, template, np.asarray((part == arm).any(1) | near[arm][0]), rig)
         own = found.labels == arm
         layers[0] = _behind(layers[0], limb, own)
-        layers.append(_sunk(limb, layers[0], own))
+        layers.append(_sunk(_before(limb, layers[0], own), layers[0], own))
     return layers
 
 
@@ -228,8 +230,8 @@ def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
 
 
 def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
-    """The body with its front beneath the limb's where the limb is seen (`own` (h, w)) and so hides it; at most as deep as the
-    middle of the body. Where the limb is behind that and shows beside the body, the body was thought to go on too far."""
+    """The body with its front beneath the limb's where the limb is seen (`own` (h, w)) and so hides it; at most as deep as
+    leaves it `THIN`. Where the limb is behind the middle and shows beside the body, the body was thought to go on too far."""
     hidden = body.mask & limb.mask & own
     middle = (body.front.depth + body.back.depth) / 2
     reach = _drawn(limb) - BENEATH
@@ -237,8 +239,17 @@ def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     beside = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0  # or what is between pixels would gape
     mask = largest(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
     front = body.front.depth.copy()
-    front[hidden] = np.clip(reach, middle, front)[hidden]
+    front[hidden] = np.clip(reach, body.back.depth + THIN * (front - body.back.depth), front)[hidden]
     return replace(body, mask=mask, front=Surface(front, body.front.weights))
+
+
+def _before(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
+    """The limb before the body where it is seen (`own` (h, w)): what the picture shows is before what it does not show,
+    whatever the joints' depths are."""
+    hidden = body.mask & limb.mask & own
+    nearer = np.where(hidden, np.maximum(body.front.depth + BENEATH - _drawn(limb), 0), 0).astype(np.float32)
+    front, back = (Surface(side.depth + nearer, side.weights) for side in (limb.front, limb.back))
+    return replace(limb, front=front, back=back)
 
 
 def _between(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from engine.character.labels import PARTS
-from engine.character.layers import BENEATH, Labels, PosedTemplate, _behind, _limb, _sunk
+from engine.character.layers import BENEATH, THIN, Labels, PosedTemplate, _before, _behind, _limb, _sunk
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
 
@@ -114,7 +114,10 @@ def test_what_an_arm_hides_lies_behind_it() -> None:
     assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
     assert np.allclose(body.back.depth[mask], -10)
     lower = _behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
-    assert np.allclose(lower.front.depth[seen], 0), "the body keeps half of its depth"
+    assert np.allclose(lower.front.depth[seen], 20 * THIN - 10), "the body keeps some of its depth"
+    raised = _before(slab(arm_mask, -30.0, -40.0), lower, seen)
+    assert (raised.front.depth[seen] >= 20 * THIN - 10 + BENEATH).all(), "and what is seen is before what is not"
+    assert np.allclose(raised.front.depth[deep] - raised.back.depth[deep], 10)
     before = _behind(slab(mask, 1.0, -1.0), replace(arm), seen)
     assert np.allclose(before.front.depth[mask], 1), "an arm that is before it anyway changes nothing"
 
