@@ -148,10 +148,12 @@ describe('a profile from a plain file server', () => {
     const changes = await page.evaluate(() => window.changes);
     const shown = await frames(page);
     for (const change of changes.filter(({ cause }) => cause !== 'end' && cause !== 'view')) {
-      // what is shown of the old clip after a trigger is nothing; what leads away from it is there soon
+      // what is shown of the old clip after a trigger is nothing; what leads away from it is there soon. Only a clip that
+      // was just about to begin may show its first frame, which is rest.
       const after = shown.filter(({ at }) => at >= change.at);
-      expect(after[0]!.part === 'bridge' || after[0]!.state === change.state, JSON.stringify(after[0])).toBe(true);
-      expect(after[0]!.at - change.at).toBeLessThan(5000); // 100 ms on a machine that has time: see benchmarks
+      const first = after[0]!;
+      expect(first.part === 'bridge' || first.state === change.state || first.frame === 0, JSON.stringify(first)).toBe(true);
+      expect(first.at - change.at).toBeLessThan(5000); // 100 ms on a machine that has time: see benchmarks
     }
   });
 
