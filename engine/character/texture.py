@@ -28,7 +28,7 @@ BESIDE = 0.004
 """How far an arm's edge may lie from that of its label, as a share of the person's height."""
 CONTRAST = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
-ENOUGH = 0.12
+ENOUGH = 0.03
 """Share of a head from which the rest can be filled."""
 NAPE = 0.4
 """How far below the face's middle the hair reaches at the back, as a share of the way to the chin."""
@@ -82,7 +82,8 @@ def paint_tiles(
         face.
     back : where the back's colours come from.
     """
-    arms = np.isin(labels.labels, labels.apart)
+    reach = cv2.dilate(arms_reach.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    arms = np.isin(labels.labels, labels.apart) & reach  # pieces that no arm has are on the body
     shape = arms.shape
     scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // TILES / shape[1])
     size = (round(shape[1] * scale), round(shape[0] * scale))

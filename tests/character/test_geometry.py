@@ -12,7 +12,14 @@ from scipy.spatial.transform import Rotation
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
 from engine.body.skinning import pose_transforms, skin
-from engine.character.labels import PARTS, part_of_bone, refined_labels, rough_labels, without_specks
+from engine.character.labels import (
+    PARTS,
+    hair_beside_arms,
+    part_of_bone,
+    refined_labels,
+    rough_labels,
+    without_specks,
+)
 from engine.character.occlusion import completed, largest
 from engine.character.part_surface import Surface, outline, part_surface, warp_part
 from engine.character.picture_space import PictureCamera
@@ -165,6 +172,29 @@ def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:
     assert set(np.unique(found[mask])) == {PARTS.index("head"), PARTS.index("torso")}
     assert (found[5:35, 10:50] == PARTS.index("head")).mean() > 0.97
     assert (found[45:115, 10:50] == PARTS.index("torso")).mean() > 0.97
+
+
+def test_hair_beside_a_raised_arm_is_the_heads() -> None:
+    head, arm = PARTS.index("head"), PARTS.index("right_arm")
+    template = np.full((200, 200), -1)
+    template[40:90, 120:160], template[20:180, 40:56] = head, arm
+    labels = np.full((200, 200), -1)
+    labels[20:120, 100:180], labels[20:180, 30:100] = (
+        head,
+        arm,
+    )  # the hair reaches as far as the arm, and half of it is its
+    rgb = np.full((200, 200, 3), (60, 40, 30), np.uint8)  # hair everywhere
+    rgb[40:90, 120:160] = (225, 180, 150)
+    rgb[:, :64] = (240, 240, 245)  # a white sleeve, wider than the arm in it
+    rgb[130:180, 64:100] = (240, 240, 245)
+    rgb = np.clip(rgb + np.random.default_rng(4).normal(0, 4, rgb.shape), 0, 255).astype(np.uint8)
+    nothing = np.full(labels.shape, -1)
+    found = hair_beside_arms(rgb, labels, template, nothing)
+    hair = (labels == arm) & (rgb.mean(-1) < 120)
+    assert (found[hair] == head).mean() > 0.95
+    assert (found[(labels == arm) & ~hair] == arm).mean() > 0.97
+    sure = np.where(hair, arm, -1)  # a hand that is seen there
+    np.testing.assert_array_equal(hair_beside_arms(rgb, labels, template, sure), labels)
 
 
 def test_an_arm_is_one_piece_unless_the_other_passes_before_it() -> None:
