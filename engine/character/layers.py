@@ -38,8 +38,12 @@ UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
 WHOLE = 0.9
 """Share of an arm in one piece, below which the other arm is taken to pass before it."""
-THIN = 0.25
+THIN = 0.5
 """Share of its depth that the body keeps behind an arm, at least."""
+FORTH = 16.0
+"""Pixels by which an arm may come forth."""
+GENTLY = 6
+"""Pixels over which an arm bends to where it passes before the body."""
 BENEATH = 1.5
 """Pixels by which what overlaps lies beneath the body's surface."""
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
@@ -244,10 +248,14 @@ def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
 
 
 def _before(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
-    """The limb before the body where it is seen (`own` (h, w)): what the picture shows is before what it does not show,
-    whatever the joints' depths are."""
-    hidden = body.mask & limb.mask & own
-    nearer = np.where(hidden, np.maximum(body.front.depth + BENEATH - _drawn(limb), 0), 0).astype(np.float32)
+    """The limb before the body where it is seen (`own` (h, w)) and has to come no further than `FORTH`: what the picture shows
+    is before what it does not show. One that would have to come further passes behind."""
+    further = np.maximum(body.front.depth + BENEATH - _drawn(limb), 0)
+    needed = np.where(body.mask & limb.mask & own & (further < FORTH), further, 0).astype(np.float32)
+    around = np.ones((4 * GENTLY + 1, 4 * GENTLY + 1), np.uint8)
+    wide = np.where(limb.mask, cv2.dilate(needed, around), 0).astype(np.float32)
+    share = cv2.GaussianBlur(limb.mask.astype(np.float32), (0, 0), GENTLY)
+    nearer = np.maximum(needed, cv2.GaussianBlur(wide, (0, 0), GENTLY) / np.maximum(share, 1e-3))
     front, back = (Surface(side.depth + nearer, side.weights) for side in (limb.front, limb.back))
     return replace(limb, front=front, back=back)
 

@@ -115,9 +115,11 @@ def test_what_an_arm_hides_lies_behind_it() -> None:
     assert np.allclose(body.back.depth[mask], -10)
     lower = _behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
     assert np.allclose(lower.front.depth[seen], 20 * THIN - 10), "the body keeps some of its depth"
-    raised = _before(slab(arm_mask, -30.0, -40.0), lower, seen)
+    raised = _before(slab(arm_mask, -10.0, -14.0), lower, seen)
     assert (raised.front.depth[seen] >= 20 * THIN - 10 + BENEATH).all(), "and what is seen is before what is not"
-    assert np.allclose(raised.front.depth[deep] - raised.back.depth[deep], 10)
+    assert np.allclose((raised.front.depth - raised.back.depth)[arm_mask], 4)
+    far = slab(arm_mask, -30.0, -40.0)
+    np.testing.assert_array_equal(_before(far, lower, seen).front.depth[arm_mask], far.front.depth[arm_mask])
     before = _behind(slab(mask, 1.0, -1.0), replace(arm), seen)
     assert np.allclose(before.front.depth[mask], 1), "an arm that is before it anyway changes nothing"
 
