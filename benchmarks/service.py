@@ -27,6 +27,7 @@ from pathlib import Path
 import httpx
 import numpy as np
 import psutil
+import uvloop
 
 from benchmarks.tables import machine, table
 
@@ -219,7 +220,7 @@ def main() -> None:
     parser.add_argument("--jobs-at-once", type=int, default=8)
     asked = parser.parse_args()
     with service(asked.keys, asked.jobs_at_once) as (address, tokens, pid):
-        seen = asyncio.run(load(address, tokens, pid, asked.clients, asked.minutes))
+        seen = uvloop.run(load(address, tokens, pid, asked.clients, asked.minutes))
     print(machine())
     print(f"{asked.clients} clients, {asked.keys} keys of {asked.jobs_at_once} jobs at once, {asked.minutes:g} minutes")
     print(report(seen))

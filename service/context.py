@@ -53,7 +53,7 @@ def open_storage(settings: Settings) -> Storage:
     return Bucket(settings) if settings.storage_url is not None else Storage(settings.data_dir / "storage")
 
 
-def _context(request: Request) -> Context:
+async def _context(request: Request) -> Context:  # `async`: what waits for nothing needs no thread
     context: Context = request.app.state.context
     return context
 

@@ -5,7 +5,7 @@ Endpoints take `Reader`, `Submitter` or `Admin`, and so say what their caller mu
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -71,10 +71,10 @@ def identify(request: Request, context: InContext) -> Caller:
 InCaller = Annotated[Caller, Depends(identify)]
 
 
-def may(scope: Scope) -> Callable[[Caller], Caller]:
+def may(scope: Scope) -> Callable[[Caller], Awaitable[Caller]]:
     """A dependency: the caller, who must be allowed to do this."""
 
-    def allowed(caller: InCaller) -> Caller:
+    async def allowed(caller: InCaller) -> Caller:
         caller.require(scope)
         return caller
 

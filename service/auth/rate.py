@@ -10,6 +10,7 @@ import math
 
 import redis
 import structlog
+from redis.commands.core import Script
 
 from service.problems import Problem
 
@@ -33,7 +34,8 @@ def take_one(client: redis.Redis, key_id: str, per_minute: float) -> None:
     While Redis is away nothing is counted: the service goes on without it, and so do its callers.
     """
     try:
-        waited = client.eval(SCRIPT, 1, f"galatea:rate:{key_id}", 60 / per_minute, max(BURST_SECONDS, 60 / per_minute))
+        count = Script(client, SCRIPT)  # sent whole only where Redis does not know it yet
+        waited = count([f"galatea:rate:{key_id}"], [60 / per_minute, max(BURST_SECONDS, 60 / per_minute)])
     except redis.RedisError as error:
         structlog.get_logger().warning("rate_not_counted", reason=str(error))
         return

@@ -55,10 +55,10 @@ def follow_job(
     seen = int(given[0])
     with context.database.read() as session:
         job = found(session, caller.owner, job_id)
-        rest = repository.after(session, job_id, seen, limit=1)
-    if Status(job.status).final and not rest:
+        events = repository.after(session, job_id, seen)
+    if Status(job.status).final and not events:
         # A browser connects again whenever a stream ends; this answer tells it to stop.
         return Response(status_code=204)
     return EventSourceResponse(
-        follow(context, watch, job_id, seen), ping=HEARTBEAT_SECONDS, headers={"Cache-Control": "no-store"}
+        follow(context, watch, job_id, events, seen), ping=HEARTBEAT_SECONDS, headers={"Cache-Control": "no-store"}
     )

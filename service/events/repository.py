@@ -27,6 +27,11 @@ def append(session: Session, job_id: str, type_: str, data: dict[str, Any]) -> N
     outbox.write(session, event)
 
 
+def begin(session: Session, job: Job) -> None:
+    """Add the first event of a job that this transaction makes: nobody knows of it yet, nor is told of it."""
+    session.add(Event(job_id=job.id, type="status", data={"status": job.status}, created_at=job.created_at))
+
+
 def after(session: Session, job_id: str, event_id: int, limit: int = 200) -> Sequence[Event]:
     """A job's events that came after one, oldest first."""
     query = select(Event).where(Event.job_id == job_id, Event.id > event_id).order_by(Event.id).limit(limit)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from typing import Any
 
 from anyio.to_thread import run_sync
@@ -16,20 +16,21 @@ from service.jobs import repository as jobs
 from service.jobs.models import Status
 
 
-async def follow(context: Context, watch: Watch, job_id: str, after: int) -> AsyncIterator[dict[str, Any]]:
-    """The job's events that came after one, as the fields of a server-sent event. Ends after the final one, or when
-    the job is deleted."""
+async def follow(
+    context: Context, watch: Watch, job_id: str, events: Sequence[Event], after: int
+) -> AsyncIterator[dict[str, Any]]:
+    """The job's events that came after one, as the fields of a server-sent event: those that were found already, then
+    what comes. Ends after the final one, or when the job is deleted."""
     with watch.follow(job_id) as follower:
-        while True:
-            events, there = await run_sync(_look, context, job_id, after)
+        there = True
+        while there:
             for event in events:
                 after = event.id
                 yield {"id": str(event.id), "event": event.type, "data": json.dumps(event.data)}
                 if final(event):
                     return
-            if not there:
-                return
-            if not events:
+            events, there = await run_sync(_look, context, job_id, after)
+            if there and not events:
                 await follower.wait()
 
 
@@ -38,7 +39,7 @@ def final(event: Event) -> bool:
     return event.type == "status" and Status(event.data["status"]).final
 
 
-def _look(context: Context, job_id: str, after: int) -> tuple[list[Event], bool]:
+def _look(context: Context, job_id: str, after: int) -> tuple[Sequence[Event], bool]:
     with context.database.read() as session:
-        there = jobs.get(session, job_id) is not None
-        return list(repository.after(session, job_id, after)), there
+        events = repository.after(session, job_id, after)
+        return events, bool(events) or jobs.get(session, job_id) is not None

@@ -94,7 +94,7 @@ class Follower:
         self.changed.clear()
 
 
-def _watch(request: Request) -> Watch:
+async def _watch(request: Request) -> Watch:
     watch: Watch = request.app.state.watch
     return watch
 

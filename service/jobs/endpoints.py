@@ -10,14 +10,13 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Header, Query, Request
 from starlette.responses import Response
 
-from service.artifacts import repository as artifacts
 from service.auth.caller import Reader, Submitter
 from service.clock import Moment
 from service.context import Context, InContext
 from service.disk import require_space
 from service.ids import LIKE_AN_ID, is_id
 from service.jobs import repository, service
-from service.jobs.models import Status
+from service.jobs.models import Job, Status
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
 from service.jobs.schemas import JobOut, JobPage, JobTree
 from service.problems import Problem, responses
@@ -74,7 +73,7 @@ async def create_job(
     """Submit a job. The same `Idempotency-Key` with the same request makes one job, however often it is sent."""
     require_space(context.settings)
     job, replayed = await submit_body(request, context, caller, idempotency_key)
-    return await _accepted(context, caller.owner, response, job.id, replayed, prefer)
+    return await _accepted(context, caller.owner, response, job, replayed, prefer)
 
 
 @router.post(
@@ -96,7 +95,7 @@ async def revise_job(
     """Submit a job again with corrections or other options: only what depends on them is worked out anew."""
     require_space(context.settings)
     job, replayed = await revise_body(request, context, caller, job_id, idempotency_key)
-    return await _accepted(context, caller.owner, response, job.id, replayed, prefer)
+    return await _accepted(context, caller.owner, response, job, replayed, prefer)
 
 
 @router.get("/{job_id}/revisions", operation_id="list_revisions", responses=responses(404))
@@ -123,14 +122,12 @@ def list_jobs(
         raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
     with context.database.read() as session:
         jobs = repository.page(session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before)
-        shown = jobs[:limit]
-        found = artifacts.of_jobs(session, [job.id for job in shown])
-        signing = service.signer(context, session, caller.owner)
-    next_cursor = shown[-1].id if len(jobs) > limit else None
+        items = service.views(context, session, caller.owner, jobs[:limit])
+    next_cursor = items[-1].id if len(jobs) > limit else None
     if next_cursor is not None:
         following = request.url.include_query_params(cursor=next_cursor)
         response.headers["Link"] = f'<{following.path}?{following.query}>; rel="next"'
-    return JobPage(items=[JobOut.of(job, found[job.id], signing) for job in shown], next_cursor=next_cursor)
+    return JobPage(items=items, next_cursor=next_cursor)
 
 
 @router.get("/{job_id}", operation_id="get_job", responses=responses(404))
@@ -153,17 +150,19 @@ def delete_job(job_id: str, caller: Submitter, context: InContext) -> None:
 
 
 async def _accepted(
-    context: Context, owner: str, response: Response, job_id: str, replayed: bool, prefer: str | None
+    context: Context, owner: str, response: Response, job: Job, replayed: bool, prefer: str | None
 ) -> JobOut:
-    response.headers["Location"] = f"/v1/jobs/{job_id}"
+    response.headers["Location"] = f"/v1/jobs/{job.id}"
     if replayed:
         response.headers["Idempotent-Replayed"] = "true"
     wait = re.search(r"(?:^|[\s,;])wait\s*=\s*\"?(\d{1,6})", prefer or "")
+    if wait is None and not replayed:
+        return JobOut.of(job, [])  # it has only just been written
     if wait is None:
-        return await run_sync(service.shown, context, owner, job_id)
+        return await run_sync(service.shown, context, owner, job.id)
     seconds = min(float(wait[1]), context.settings.wait_seconds)
     response.headers["Preference-Applied"] = f"wait={seconds:g}"
-    return await _wait(context, owner, job_id, seconds)
+    return await _wait(context, owner, job.id, seconds)
 
 
 async def _wait(context: Context, owner: str, job_id: str, seconds: float) -> JobOut:

@@ -179,23 +179,22 @@ def held(session: Session, owner: str, job_id: str) -> Job:
 def shown(context: Context, owner: str, job_id: str) -> JobOut:
     """The job as the API shows it, or a 404 problem."""
     with context.database.read() as session:
-        job = found(session, owner, job_id)
-        return JobOut.of(job, artifacts.of_jobs(session, [job_id])[job_id], signer(context, session, owner))
+        return views(context, session, owner, [found(session, owner, job_id)])[0]
 
 
 def shown_tree(context: Context, owner: str, job_id: str) -> JobTree:
     """A job with all its relations by revision, or a 404 problem."""
     with context.database.read() as session:
         jobs = repository.tree(session, found(session, owner, job_id).tree)
-        made = artifacts.of_jobs(session, [job.id for job in jobs])
-        signing = signer(context, session, owner)
-    return JobTree(items=[JobOut.of(job, made[job.id], signing) for job in jobs])
+        return JobTree(items=views(context, session, owner, jobs))
 
 
-def signer(context: Context, session: Session, owner: str) -> Signer | None:
-    """Signs the links in what an owner is shown."""
-    key = keys.get(session, owner)
-    return Signer.of(key, context.settings) if key is not None else None
+def views(context: Context, session: Session, owner: str, jobs: Sequence[Job]) -> list[JobOut]:
+    """An owner's jobs as the API shows them, with links to what they made."""
+    made = artifacts.of_jobs(session, [job.id for job in jobs])
+    key = keys.get(session, owner) if any(made.values()) else None  # which signs the links
+    signer = Signer.of(key, context.settings) if key is not None else None
+    return [JobOut.of(job, made[job.id], signer) for job in jobs]
 
 
 def _shown(kind: Kind, given: Mapping[str, Value]) -> dict[str, str | list[str]]:
@@ -277,7 +276,7 @@ def _insert(session: Session, job: Job, file_ids: Iterable[str]) -> None:
     session.add(job)
     session.flush()
     session.add_all(JobFile(job_id=job.id, file_id=file_id) for file_id in file_ids)
-    events.append(session, job.id, "status", {"status": Status.QUEUED})
+    events.begin(session, job)
 
 
 def _earlier(session: Session, owner: str, key: str, fingerprint: str) -> Job | None:

@@ -76,7 +76,7 @@ class TusRoute(APIRoute):
         return match, {**child, "method": method}
 
 
-def require_version(
+async def require_version(
     caller: InCaller, tus_resumable: Annotated[str | None, Header(include_in_schema=False)] = None
 ) -> None:
     """Raise a problem if a request is not of this version of the protocol (412) or of none (400); who asks must be

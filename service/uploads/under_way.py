@@ -78,7 +78,7 @@ class UnderWay:
         self._digests.pop(upload_id, None)
 
 
-def _under_way(request: Request) -> UnderWay:
+async def _under_way(request: Request) -> UnderWay:
     under_way: UnderWay = request.app.state.uploads
     return under_way
 
