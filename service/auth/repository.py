@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 
-from sqlalchemy import func, select, update
+from sqlalchemy import bindparam, func, or_, select, update
 from sqlalchemy.orm import Session
 
 from service.artifacts.models import Artifact
@@ -19,6 +19,22 @@ from service.uploads.models import Upload
 NOTED_EVERY = timedelta(minutes=1)
 """The use of a key is noted no more often than this."""
 
+# What every request asks is put together once.
+_OWNER = bindparam("owner")
+OF_TOKEN = select(Key).where(Key.token_hash == bindparam("digest"))
+UNDER_WAY = (
+    select(func.count())
+    .select_from(Job)
+    .where(Job.owner == _OWNER, or_(Job.status == Status.QUEUED, Job.status == Status.RUNNING))
+)
+STORED = select(
+    select(func.sum(File.size)).where(File.owner == _OWNER).scalar_subquery(),
+    select(func.sum(Artifact.size)).join(Job, Job.id == Artifact.job_id).where(Job.owner == _OWNER).scalar_subquery(),
+    select(func.sum(func.coalesce(Upload.length, Upload.received)))
+    .where(Upload.owner == _OWNER, Upload.file_id.is_(None))
+    .scalar_subquery(),
+)
+
 
 def get(session: Session, key_id: str) -> Key | None:
     return session.get(Key, key_id)
@@ -31,7 +47,7 @@ def get_locked(session: Session, key_id: str) -> Key | None:
 
 def of_token(session: Session, token: str) -> Key | None:
     """The key with this token, be it expired or not."""
-    return session.scalar(select(Key).where(Key.token_hash == digest(token)))
+    return session.scalar(OF_TOKEN, {"digest": digest(token)})
 
 
 def with_tokens(session: Session) -> Sequence[Key]:
@@ -59,8 +75,7 @@ def note_use(session: Session, key_id: str) -> None:
 
 def jobs_under_way(session: Session, owner: str) -> int:
     """How many jobs of a key have not ended."""
-    unfinished = Job.status.in_([Status.QUEUED, Status.RUNNING])
-    return session.scalar(select(func.count()).select_from(Job).where(Job.owner == owner, unfinished)) or 0
+    return session.scalar(UNDER_WAY, {"owner": owner}) or 0
 
 
 def unfinished_uploads(session: Session, owner: str) -> int:
@@ -71,8 +86,4 @@ def unfinished_uploads(session: Session, owner: str) -> int:
 
 def stored_bytes(session: Session, owner: str) -> int:
     """How much a key's files and artifacts take, and its unfinished uploads will."""
-    files = session.scalar(select(func.sum(File.size)).where(File.owner == owner)) or 0
-    made = select(func.sum(Artifact.size)).join(Job, Job.id == Artifact.job_id).where(Job.owner == owner)
-    coming = select(func.sum(func.coalesce(Upload.length, Upload.received)))
-    coming = coming.where(Upload.owner == owner, Upload.file_id.is_(None))
-    return int(files) + int(session.scalar(made) or 0) + int(session.scalar(coming) or 0)
+    return sum(int(part or 0) for part in session.execute(STORED, {"owner": owner}).one())

@@ -5,13 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from sqlalchemy import func, select
+from sqlalchemy import Integer, bindparam, func, select
 from sqlalchemy.orm import Session
 
 from service.clock import now
 from service.events.models import Event
 from service.jobs.models import Job
 from service.webhooks import outbox
+
+AFTER = (
+    select(Event)
+    .where(Event.job_id == bindparam("job"), Event.id > bindparam("last"))
+    .order_by(Event.id)
+    .limit(bindparam("most", type_=Integer))
+)
 
 
 def append(session: Session, job_id: str, type_: str, data: dict[str, Any]) -> None:
@@ -34,8 +41,7 @@ def begin(session: Session, job: Job) -> None:
 
 def after(session: Session, job_id: str, event_id: int, limit: int = 200) -> Sequence[Event]:
     """A job's events that came after one, oldest first."""
-    query = select(Event).where(Event.job_id == job_id, Event.id > event_id).order_by(Event.id).limit(limit)
-    return session.scalars(query).all()
+    return session.scalars(AFTER, {"job": job_id, "last": event_id, "most": limit}).all()
 
 
 def newest(session: Session) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 
-from sqlalchemy import select, update
+from sqlalchemy import bindparam, select, update
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
@@ -22,19 +22,27 @@ COUNTERS = {
 }
 """What is counted: the description and the labels."""
 
+GROW = (
+    update(Counter)
+    .where(Counter.name == bindparam("its_name"), Counter.labels == bindparam("its_labels"))
+    .values(value=Counter.value + bindparam("amount"))
+)
+BY_THE_DATABASE = {"synchronize_session": False}
+"""No counter that a session has loaded is used after it has grown."""
+
 
 def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
     """Let a counter of `COUNTERS` grow, for the values of its labels in their order."""
     assert len(labels) == len(COUNTERS[name][1])
     key = json.dumps(["".join(filter(str.isprintable, label))[:50] for label in labels], ensure_ascii=False)
-    grow = update(Counter).where(Counter.name == name, Counter.labels == key).values(value=Counter.value + amount)
-    if session.execute(grow).rowcount:  # type: ignore[attr-defined]
+    grown = {"its_name": name, "its_labels": key, "amount": amount}
+    if session.execute(GROW, grown, execution_options=BY_THE_DATABASE).rowcount:  # type: ignore[attr-defined]
         return
     try:
         with session.begin_nested():
             session.add(Counter(name=name, labels=key, value=amount))
     except IntegrityError:  # another process began it in this very moment
-        session.execute(grow)
+        session.execute(GROW, grown, execution_options=BY_THE_DATABASE)
 
 
 def counted(session: Session) -> Iterator[tuple[str, list[str], float]]:
