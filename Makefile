@@ -31,7 +31,7 @@ imports:  ## which package may import which
 
 unit:  ## pytest: engine, service, worker, shell
 	@mkdir -p $(REPORTS)
-	@$(BIN)/pytest --disable-warnings --junitxml=$(REPORTS)/python.xml
+	@$(BIN)/pytest --numprocesses 2 --dist loadfile --disable-warnings --junitxml=$(REPORTS)/python.xml
 
 coverage:  ## the same, and which lines no test runs
 	@$(BIN)/pytest --cov --cov-report=term:skip-covered

@@ -20,6 +20,8 @@ from service.turns import Turns
 
 PATIENCE_SECONDS = 15
 """How long a transaction waits for another to end."""
+EMPTYING_MILLISECONDS = 50
+"""How long the emptying of the log waits for those who read."""
 
 
 def engine(url: str, connections: int) -> Engine:
@@ -72,5 +74,14 @@ def alone(url: str) -> Iterator[Connection]:
 
 def tidy(connection: Connection) -> None:
     """Write the log back into the file and empty it, so that what was erased is nowhere on disk; if somebody is
-    reading at this moment, the next time does it."""
-    connection.connection.cursor().execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    reading at this moment, the next time does it.
+
+    Emptying keeps all writers out while it waits for the readers: it must not wait for long.
+    """
+    cursor = connection.connection.cursor()
+    cursor.execute("PRAGMA wal_checkpoint(PASSIVE)")  # most of the work, and nobody waits for it
+    cursor.execute(f"PRAGMA busy_timeout={EMPTYING_MILLISECONDS}")
+    try:
+        cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    finally:
+        cursor.execute(f"PRAGMA busy_timeout={PATIENCE_SECONDS * 1000}")

@@ -95,6 +95,27 @@ def test_who_reads_sees_one_moment(database: Database) -> None:
         assert session.scalar(count) == before == 0
 
 
+def test_tidying_up_keeps_nobody_from_writing_while_others_read(database: Database) -> None:
+    with database.write() as session:
+        session.add(file())
+    with ThreadPoolExecutor(2) as pool, database.read() as reading:
+        assert reading.scalar(text("SELECT count(*) FROM files")) == 1  # it reads until the block ends
+        with database.write() as session:
+            session.add(file())  # so that there is something new in the log
+        tidying = pool.submit(database.tidy)
+
+        def write() -> None:
+            with database.write() as session:
+                session.add(file())
+
+        pool.submit(write).result(10)
+        tidying.result(10)
+        assert reading.scalar(text("SELECT count(*) FROM files")) == 1
+    database.tidy()
+    with database.read() as session:
+        assert session.scalar(text("SELECT count(*) FROM files")) == 3
+
+
 def test_who_reads_cannot_write_on_postgresql(database: Database) -> None:
     if database.url.startswith("sqlite"):
         pytest.skip("SQLite knows no transaction that only reads")
