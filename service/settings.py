@@ -11,7 +11,6 @@ from pydantic import Field, SecretStr, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from engine.media.limits import Limits
-from service import postgresql
 from service.loopback import is_loopback
 
 ROOT = Path(__file__).parent.parent
@@ -143,7 +142,9 @@ class Settings(BaseSettings):
     @field_validator("database_url")
     @classmethod
     def _database(cls, value: str | None) -> str | None:
-        if value is not None and postgresql.speaks(value):
+        if value is not None and value.startswith(("postgresql://", "postgres://")):
+            from service import postgresql  # SQLAlchemy with it, which only who serves needs
+
             postgresql.address(value)
         elif value is not None and not value.startswith("sqlite:///"):
             raise ValueError("use sqlite:///PATH or postgresql://USER:PASSWORD@HOST/NAME")

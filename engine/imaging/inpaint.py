@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
@@ -90,8 +89,7 @@ def _fill(
 ) -> NDArray[np.float32]:
     levels = _pyramid(image, hole, wanted)
     coarsest = levels[-1]
-    nearest = distance_transform_edt(coarsest.hole, return_distances=False, return_indices=True)
-    around = coarsest.picture[nearest[0], nearest[1]]  # what is not asked for only has to be plausible
+    around = _nearest_known(coarsest.picture, coarsest.hole)  # what is not asked for only has to be plausible
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
@@ -112,6 +110,19 @@ def _fill(
         guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
         guess = heal_seams(guess, field, active & targets)
     return guess
+
+
+def _nearest_known(picture: NDArray[np.float32], hole: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """The picture with the colour of the nearest known pixel in each of the hole."""
+    labels = np.asarray(
+        cv2.distanceTransformWithLabels(
+            hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+        )[1]
+    )
+    known = np.flatnonzero(~hole)
+    place = np.zeros(labels.max() + 1, np.intp)
+    place[labels.ravel()[known]] = known
+    return picture.reshape(-1, 3)[place[labels]]
 
 
 def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
