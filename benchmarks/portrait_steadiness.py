@@ -61,7 +61,7 @@ def lag(names: Sequence[str]) -> None:
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             first = next(iter(read_video(path))).rgb
-            target, _ = read_target(Path(folder), first, PortraitOptions())
+            target = read_target(Path(folder), first, PortraitOptions())[0]
             track, _ = read_driver(path, target, 0)
         with FaceTracker() as tracker:
             found = [tracker(frame.rgb) for frame in read_video(path, longest_side=1280)]

@@ -55,6 +55,16 @@ def test_lids_lips_and_depth_stay_as_tracked(slipped: DriverTrack) -> None:
     np.testing.assert_allclose(found[..., 2], slipped.meshes[..., 2], atol=1e-3)
 
 
+def test_what_stays_as_tracked_is_not_steadied_once_more(tmp_path: Path) -> None:
+    """The track was steadied when it was made: a second time would shift the moment at which a mouth is widest."""
+    rng = np.random.default_rng(1)
+    jittered = [FACE + rng.normal(0, 0.3, FACE.shape).astype(np.float32) for _ in range(12)]
+    track = driver(tmp_path, jittered, [skin()] * 12)
+    found = register_track(track, 0).meshes
+    for contour in (RIGHT_EYE, LIPS_INNER, FACE_OVAL):
+        np.testing.assert_array_equal(found[:, list(contour)], track.meshes[:, list(contour)])
+
+
 def test_a_true_track_is_left_alone(tmp_path: Path) -> None:
     """Also in other light: it is made equal before the flow is measured."""
     dark = np.clip(skin() * np.linspace(0.7, 1.0, CROP[1])[None, :, None], 0, 255).astype(np.uint8)
