@@ -17,6 +17,7 @@ import uvicorn
 
 from service.app import make_app
 from service.auth.repository import any_usable
+from service.bounded_http import BoundedHttp
 from service.context import Context
 from service.logs import configure
 from service.redis_server import redis_command, socket_path
@@ -61,6 +62,8 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         supervisor.keep("worker", [sys.executable, "-m", "shell.main", "worker"], stop_seconds=10)
     config = uvicorn.Config(
         make_app(context),
+        loop="uvloop",
+        http=BoundedHttp,
         log_config=None,
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,

@@ -222,15 +222,9 @@ export function orderMotionCheck(motion: string | File): Promise<Job> {
 export const getMotionDetails = (of: Job, signal?: AbortSignal): Promise<MotionDetails | null> =>
   artifact(of, 'motion.json', signal);
 
-/** Keep a video as a driver of one's own; it is searched for moments then. */
-export const createDriver = (name: string, file: File): Promise<Driver> => {
-  const body = new FormData();
-  body.append('name', name);
-  body.append('file', file);
-  return answer(
-    service.POST('/v1/drivers', { body: { name, file: '' }, bodySerializer: () => body }),
-  );
-};
+/** Keep an uploaded video as a driver of one's own; it is searched for moments then. */
+export const createDriver = (name: string, file: string): Promise<Driver> =>
+  answer(service.POST('/v1/drivers', { body: { name, file } }));
 
 /** The public links to a job, oldest first. */
 export const listLinks = async (id: string, signal?: AbortSignal): Promise<PublicLink[]> =>

@@ -64,6 +64,23 @@ describe('sending a video', () => {
     expect(await page.getByText('was not wholly sent').count()).toBe(0);
   });
 
+  it('to be kept as a driver halts and goes on, too', async ({ skip }) => {
+    const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
+    const page = await chosen(video);
+    await page.getByRole('button', { name: 'Keep it and find the emotions in it' }).click();
+    await page.getByText(/Sending the video: [1-9]\d?%/).waitFor();
+    await page.getByRole('button', { name: 'Pause' }).click();
+    const halted = await share(page);
+    await page.waitForTimeout(1500);
+    expect(await share(page)).toBe(halted);
+    await slow(page, -1);
+    await page.getByRole('button', { name: 'Go on' }).click();
+    const kept = page.getByRole('radio', { name: /^Man grimace d0/ });
+    await kept.waitFor();
+    expect(await kept.isChecked()).toBe(true);
+    await fetch(new URL('/v1/drivers/man-grimace-d0', page.url()), { method: 'DELETE' });
+  });
+
   it('stops when told to, and leaves nothing to go on with', async ({ skip }) => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
     const page = await chosen(video);

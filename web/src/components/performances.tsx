@@ -1,16 +1,14 @@
 /** The performances on offer, to choose one from: ours, the user's own, or a video at hand. */
 
 import { useState } from 'preact/hooks';
-import { createDriver, type Driver } from '../api';
-import { stem } from '../format';
-import { useDoing } from '../loading';
+import type { Driver } from '../api';
 import { isVideo, videoTypes } from '../media';
-import { AUTO, driverName } from '../names';
+import { AUTO } from '../names';
 import { plain, strings } from '../strings';
 import { Capture } from './capture';
 import { Card, shownOf, SymbolCard, symbols } from './card';
 import { Dropzone } from './dropzone';
-import { Trouble } from './trouble';
+import { Keep } from './keep';
 
 /** By `reactive` there is no one performance: the portrait is to show many, on demand. */
 export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
@@ -132,20 +130,4 @@ function Search({ driver }: { driver: Driver }) {
     return <p class="hint">{words.nothingFound(name)}</p>;
   }
   return null;
-}
-
-/** Makes a video at hand a driver of one's own, so that its emotions are found. */
-function Keep({ file, taken, onKept }: { file: File; taken: string[]; onKept: (name: string) => void }) {
-  const { doing, problem, attempt } = useDoing();
-  const keep = (): Promise<void> =>
-    attempt(async () => onKept((await createDriver(driverName(stem(file.name), taken), file)).name));
-  return (
-    <div class="keep">
-      <button type="button" class="button" disabled={doing} aria-busy={doing} onClick={() => void keep()}>
-        {doing ? words.keeping : words.keep}
-      </button>
-      <p class="hint">{words.keepHint}</p>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
-    </div>
-  );
 }
