@@ -17,7 +17,6 @@ import uvicorn
 
 from service.app import make_app
 from service.auth.repository import any_usable
-from service.bounded_http import BoundedHttp
 from service.context import Context
 from service.logs import configure
 from service.redis_server import redis_command, socket_path
@@ -63,7 +62,8 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     config = uvicorn.Config(
         make_app(context),
         loop="uvloop",
-        http=BoundedHttp,
+        # Strict and bounded. The compiled one takes headers without end, and refuses bodies of who offers an upgrade.
+        http="h11",
         log_config=None,
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,

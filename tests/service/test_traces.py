@@ -188,7 +188,7 @@ def test_addresses_are_told_by_their_template_and_probes_not_at_all(service: Run
     token = secrets.token_urlsafe(16)
     for path in (f"/v1/public/{token}/{token}.mp4", f"/v1/jobs?cursor={token}", f"/{token}.js", "/healthz", "/readyz"):
         service.client.get(path, headers=trace.headers)
-    service.client.request("PROPFIND", "/v1/jobs", headers=trace.headers)
+    service.client.request("BREW", "/v1/jobs", headers=trace.headers)
     spans = collector.until(lambda spans: len(spans) == 4, "all was told of", trace.id)
     assert [span.name for span in spans] == ["GET /v1/public/{token}/{name}", "GET /v1/jobs", "GET", "_OTHER /v1/jobs"]
     assert token.encode() not in b"".join(collector.bodies)

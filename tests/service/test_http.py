@@ -1,4 +1,4 @@
-"""What comes beside the bodies of requests is bounded: addresses, headers, trailers."""
+"""HTTP as the service speaks it: what comes beside the bodies of requests is bounded, and no upgrade is needed."""
 
 from __future__ import annotations
 
@@ -44,13 +44,10 @@ def test_long_headers_within_the_limit_are_read(running: Running) -> None:
     assert running.client.get("/healthz", headers=headers).status_code == 200
 
 
-def test_bodies_in_small_chunks_are_read(running: Running, picture: bytes) -> None:
-    """Their framing is beside the bodies, but bodies come of it."""
-    head = b'--b\r\nContent-Disposition: form-data; name="file"; filename="a.png"\r\n\r\n'
-    body = head + picture + b"\r\n--b--\r\n"
-    sent = running.client.post(
-        "/v1/files",
-        content=(body[k : k + 1] for k in range(len(body))),
-        headers={"Content-Type": "multipart/form-data; boundary=b"},
-    )
+@pytest.mark.parametrize("protocol", ["h2c", "websocket"])
+def test_who_offers_another_protocol_is_answered_in_this_one(running: Running, picture: bytes, protocol: str) -> None:
+    """As some client libraries do with every request, those with a body too."""
+    headers = {"Connection": "Upgrade, HTTP2-Settings", "Upgrade": protocol, "HTTP2-Settings": ""}
+    assert running.client.get("/healthz", headers=headers).json() == {"status": "ok"}
+    sent = running.client.post("/v1/files", files={"file": ("a.png", picture)}, headers=headers)
     assert sent.status_code == 201 and sent.json()["size"] == len(picture)
