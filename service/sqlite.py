@@ -7,11 +7,13 @@ otherwise find its snapshot stale and fail.
 from __future__ import annotations
 
 import fcntl
+import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
+import structlog
 from sqlalchemy import create_engine, event
 from sqlalchemy.engine import Connection, Engine, make_url
 from sqlalchemy.exc import TimeoutError
@@ -22,6 +24,8 @@ PATIENCE_SECONDS = 15
 """How long a transaction waits for another to end."""
 EMPTYING_MILLISECONDS = 50
 """How long the emptying of the log waits for those who read."""
+EMPTYING_TRIES = 20
+EMPTYING_PAUSE_SECONDS = 0.25
 
 
 def engine(url: str, connections: int) -> Engine:
@@ -73,15 +77,20 @@ def alone(url: str) -> Iterator[Connection]:
 
 
 def tidy(connection: Connection) -> None:
-    """Write the log back into the file and empty it, so that what was erased is nowhere on disk; if somebody is
-    reading at this moment, the next time does it.
+    """Write the log back into the file and empty it, so that what was erased is nowhere on disk; if somebody reads all
+    the while, the next time does it.
 
-    Emptying keeps all writers out while it waits for the readers: it must not wait for long.
+    Emptying keeps all writers out while it waits for the readers: it asks often, and never waits for long.
     """
     cursor = connection.connection.cursor()
     cursor.execute("PRAGMA wal_checkpoint(PASSIVE)")  # most of the work, and nobody waits for it
     cursor.execute(f"PRAGMA busy_timeout={EMPTYING_MILLISECONDS}")
     try:
-        cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        for _ in range(EMPTYING_TRIES):
+            busy, _, _ = cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
+            if not busy:
+                return
+            time.sleep(EMPTYING_PAUSE_SECONDS)
+        structlog.get_logger().info("log_not_emptied", why="somebody was reading or writing all the while")
     finally:
         cursor.execute(f"PRAGMA busy_timeout={PATIENCE_SECONDS * 1000}")

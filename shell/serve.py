@@ -26,6 +26,8 @@ from shell.opening import open_context
 from shell.supervisor import Supervisor
 
 PATIENCE_SECONDS = 10.0
+HEAD_BYTES = 64 * 1024
+"""How much of an address and headers may come without their end; what comes whole at once may be more."""
 
 SWITCH_SECONDS = 0.0005
 """How long one thread may keep Python to itself: a request passes from thread to thread several times, and would wait
@@ -64,6 +66,8 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         loop="uvloop",
         # Strict and bounded. The compiled one takes headers without end, and refuses bodies of who offers an upgrade.
         http="h11",
+        h11_max_incomplete_event_size=HEAD_BYTES,
+        ws="none",
         log_config=None,
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,

@@ -83,7 +83,7 @@ def register_track(
             tick((frame + 1) / len(track))
     moved = np.flatnonzero(weight)
     for some in np.array_split(moved, 8):  # a part at a time: long clips have many frames
-        meshes[:, some] = steady(meshes[:, some])
+        meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
 
 

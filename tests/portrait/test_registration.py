@@ -63,6 +63,7 @@ def test_what_stays_as_tracked_is_not_steadied_once_more(tmp_path: Path) -> None
     found = register_track(track, 0).meshes
     for contour in (RIGHT_EYE, LIPS_INNER, FACE_OVAL):
         np.testing.assert_array_equal(found[:, list(contour)], track.meshes[:, list(contour)])
+    np.testing.assert_array_equal(found[..., 2], track.meshes[..., 2])
 
 
 def test_a_true_track_is_left_alone(tmp_path: Path) -> None:

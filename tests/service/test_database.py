@@ -109,7 +109,7 @@ def test_tidying_up_keeps_nobody_from_writing_while_others_read(database: Databa
                 session.add(file())
 
         pool.submit(write).result(10)
-        tidying.result(10)
+        tidying.result(60)
         assert reading.scalar(text("SELECT count(*) FROM files")) == 1
     database.tidy()
     with database.read() as session:

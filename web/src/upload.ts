@@ -40,6 +40,7 @@ export async function uploadFile(
   signal: AbortSignal,
 ): Promise<string> {
   const { Upload, DetailedError } = await import('tus-js-client');
+  if (signal.aborted) throw new DOMException('canceled', 'AbortError');
   return new Promise((resolve, reject) => {
     const end = (finish: () => void) => (): void => {
       stopWatching();

@@ -69,6 +69,7 @@ describe('sending a video', () => {
     const page = await chosen(video);
     await page.getByRole('button', { name: 'Keep it and find the emotions in it' }).click();
     await page.getByText(/Sending the video: [1-9]\d?%/).waitFor();
+    expect(await start(page).isDisabled()).toBe(true); // two at once would take the upload from one another
     await page.getByRole('button', { name: 'Pause' }).click();
     const halted = await share(page);
     await page.waitForTimeout(1500);

@@ -15,12 +15,16 @@ interface Props {
   file: File;
   /** The names that drivers have. */
   taken: string[];
-  onKept: (name: string) => void;
+  /** Something else is being sent: two at once would take the same upload from one another. */
+  disabled: boolean;
+  onKeeping: (on: boolean) => void;
+  /** There is a driver more: of this name, or of no interest any more. */
+  onKept: (name: string | null) => void;
 }
 
 const words = strings.studio;
 
-export function Keep({ file, taken, onKept }: Props) {
+export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
   const [paused, setPaused] = useState(false);
   const [problem, setProblem] = useState<Problem | null>(null);
@@ -29,6 +33,7 @@ export function Keep({ file, taken, onKept }: Props) {
   const arrived = useRef<string | null>(null);
   useEffect(() => {
     arrived.current = null;
+    setProblem(null);
     return () => stopper.current?.abort();
   }, [file]);
 
@@ -41,15 +46,20 @@ export function Keep({ file, taken, onKept }: Props) {
     setProblem(null);
     pause(false);
     setStep({ step: 'video', fraction: 0 });
+    onKeeping(true);
     try {
       const progress = (bytes: number): void => setStep({ step: 'video', fraction: file.size ? bytes / file.size : 1 });
       arrived.current ??= await uploadFile(file, progress, valve.current, signal);
       setStep({ step: 'ordering' });
-      onKept((await createDriver(driverName(stem(file.name), taken), arrived.current)).name);
+      const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);
+      onKept(signal.aborted ? null : name);
     } catch (error) {
-      if (!signal.aborted) setProblem(asProblem(error));
+      const problem = asProblem(error);
+      if (signal.aborted || problem.code === 'unknown_file') arrived.current = null; // what had arrived is gone
+      if (!signal.aborted) setProblem(problem);
     } finally {
       setStep(null);
+      onKeeping(false);
     }
   };
 
@@ -58,7 +68,7 @@ export function Keep({ file, taken, onKept }: Props) {
       {step ? (
         <SendingBar step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
       ) : (
-        <button type="button" class="button" onClick={() => void keep()}>
+        <button type="button" class="button" disabled={disabled} onClick={() => void keep()}>
           {words.keep}
         </button>
       )}

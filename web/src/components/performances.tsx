@@ -17,6 +17,10 @@ interface Props {
   drivers: Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
+  /** Something is being sent. */
+  sending: boolean;
+  /** A video is being kept, or no longer. */
+  onKeeping: (on: boolean) => void;
   /** There is a driver more. */
   onKept: () => void;
 }
@@ -26,7 +30,7 @@ type Strength = (typeof STRENGTHS)[number];
 
 const words = strings.studio;
 
-export function Performances({ drivers, chosen, onChoose, onKept }: Props) {
+export function Performances({ drivers, chosen, onChoose, sending, onKeeping, onKept }: Props) {
   const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;
   const choose = (name: string): void => onChoose({ by: 'name', name });
@@ -104,8 +108,10 @@ export function Performances({ drivers, chosen, onChoose, onKept }: Props) {
         <Keep
           file={chosen.file}
           taken={drivers.map((driver) => driver.name)}
+          disabled={sending}
+          onKeeping={onKeeping}
           onKept={(kept) => {
-            onChoose({ by: 'name', name: kept });
+            if (kept !== null) onChoose({ by: 'name', name: kept });
             onKept();
           }}
         />

@@ -26,6 +26,7 @@ export function StudioPage() {
   const [portrait, setPortrait] = useState<File | null>(null);
   const [performance, setPerformance] = useState<Performance | null>(null);
   const [choices, setChoices] = useState(usual);
+  const [keeping, setKeeping] = useState(false);
   const drivers = useLoaded(listDrivers, 'drivers');
   const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
   useEffect(() => {
@@ -43,10 +44,11 @@ export function StudioPage() {
   }, []);
 
   const hasSound = performance?.by === 'file';
-  const missing = !portrait ? words.needPortrait : !performance ? words.needPerformance : '';
+  const needed = !portrait ? words.needPortrait : !performance ? words.needPerformance : '';
+  const missing = keeping ? words.keepingFirst : needed;
   const start = (event: Event): void => {
     event.preventDefault();
-    if (portrait && performance) sending.begin(portraitOrder(portrait, performance, optionsOf(choices, hasSound)));
+    if (portrait && performance && !keeping) sending.begin(portraitOrder(portrait, performance, optionsOf(choices, hasSound)));
   };
 
   return (
@@ -89,6 +91,8 @@ export function StudioPage() {
             drivers={drivers.value ?? []}
             chosen={performance}
             onChoose={setPerformance}
+            sending={sending.step !== null}
+            onKeeping={setKeeping}
             onKept={drivers.reload}
           />
           <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={setChoices} />

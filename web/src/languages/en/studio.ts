@@ -41,6 +41,7 @@ export const studio = {
     notSearched: (driver: string) => `“${driver}” could not be searched for emotions.`,
     keep: 'Keep it and find the emotions in it',
     keepHint: 'Each portion that begins and ends calmly is offered as a performance.',
+    keepingFirst: 'The video is being sent to be kept.',
     ownVideo: 'Your own video',
     videoDrop: 'Drop a video here',
     videoBrowse: 'or choose one',
