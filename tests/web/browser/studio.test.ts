@@ -45,6 +45,20 @@ describe('choosing', () => {
     expect(await start(page).isEnabled()).toBe(true);
   });
 
+  it('keeps one thing below the other on a phone, wherever it is scrolled to', async () => {
+    const page = await open(browser);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.getByRole('radio', { name: 'Idle', exact: true }).waitFor({ state: 'attached' });
+    for (const share of [0, 0.3, 0.6, 1]) {
+      await page.evaluate((share) => scrollTo(0, share * document.documentElement.scrollHeight), share);
+      const places = await page.locator('.studio > *').evaluateAll((parts) =>
+        parts.map((part) => part.getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })),
+      );
+      expect(places.length).toBeGreaterThan(3);
+      places.slice(1).forEach(({ top }, k) => expect(top).toBeGreaterThanOrEqual(places[k]?.bottom ?? Infinity));
+    }
+  });
+
   it('can be done with the keyboard alone', async () => {
     const page = await open(browser);
     // Listened for from the start: the browser has to know of it before the key that opens the chooser is pressed.
