@@ -45,17 +45,23 @@ describe('choosing', () => {
     expect(await start(page).isEnabled()).toBe(true);
   });
 
-  it('keeps one thing below the other on a phone, wherever it is scrolled to', async () => {
+  it.each([390, 1280])('lays nothing over anything else at %i pixels, wherever it is scrolled to', async (width) => {
     const page = await open(browser);
-    await page.setViewportSize({ width: 390, height: 844 });
+    await page.setViewportSize({ width, height: 844 });
     await page.getByRole('radio', { name: 'Idle', exact: true }).waitFor({ state: 'attached' });
     for (const share of [0, 0.3, 0.6, 1]) {
       await page.evaluate((share) => scrollTo(0, share * document.documentElement.scrollHeight), share);
-      const places = await page.locator('.studio > *').evaluateAll((parts) =>
-        parts.map((part) => part.getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })),
+      const places = await page.locator('.studio > header, .studio .panel, .launch').evaluateAll((parts) =>
+        parts.map((part) => part.getBoundingClientRect()).map(({ left, top, right, bottom }) => ({ left, top, right, bottom })),
       );
-      expect(places.length).toBeGreaterThan(3);
-      places.slice(1).forEach(({ top }, k) => expect(top).toBeGreaterThanOrEqual(places[k]?.bottom ?? Infinity));
+      expect(places.length).toBe(4);
+      for (const [k, one] of places.entries()) {
+        for (const other of places.slice(k + 1)) {
+          const across = Math.min(one.right, other.right) - Math.max(one.left, other.left);
+          const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
+          expect(Math.min(across, down)).toBeLessThanOrEqual(0);
+        }
+      }
     }
   });
 

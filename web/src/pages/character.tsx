@@ -52,24 +52,26 @@ export default function CharacterStudio() {
           <h1>{words.title}</h1>
           <p>{words.lead}</p>
         </header>
-        <section class="panel portrait" aria-labelledby="photo-title">
-          <h2 id="photo-title">{words.photo}</h2>
-          <p class="hint">{words.photoHint}</p>
-          <Dropzone
-            media="image"
-            file={photo}
-            accept={pictureTypes}
-            accepts={isPicture}
-            words={{
-              drop: strings.studio.portraitDrop,
-              browse: strings.studio.portraitBrowse,
-              chosen: words.photoChosen,
-              wrong: strings.studio.wrongPicture,
-            }}
-            onFile={setPhoto}
-          />
-          <Capture media="image" of="body" onFile={setPhoto} />
-        </section>
+        <div class="beside">
+          <section class="panel" aria-labelledby="photo-title">
+            <h2 id="photo-title">{words.photo}</h2>
+            <p class="hint">{words.photoHint}</p>
+            <Dropzone
+              media="image"
+              file={photo}
+              accept={pictureTypes}
+              accepts={isPicture}
+              words={{
+                drop: strings.studio.portraitDrop,
+                browse: strings.studio.portraitBrowse,
+                chosen: words.photoChosen,
+                wrong: strings.studio.wrongPicture,
+              }}
+              onFile={setPhoto}
+            />
+            <Capture media="image" of="body" onFile={setPhoto} />
+          </section>
+        </div>
         <section class="panel" aria-labelledby="motion-title">
           <h2 id="motion-title">{words.motion}</h2>
           <p class="hint">{words.motionHint}</p>

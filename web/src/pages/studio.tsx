@@ -59,24 +59,26 @@ export function StudioPage() {
           <h1>{words.title}</h1>
           <p>{words.lead}</p>
         </header>
-        <section class="panel portrait" aria-labelledby="portrait-title">
-          <h2 id="portrait-title">{words.portrait}</h2>
-          <p class="hint">{words.portraitHint}</p>
-          <Dropzone
-            media="image"
-            file={portrait}
-            accept={pictureTypes}
-            accepts={isPicture}
-            words={{
-              drop: words.portraitDrop,
-              browse: words.portraitBrowse,
-              chosen: words.portraitChosen,
-              wrong: words.wrongPicture,
-            }}
-            onFile={setPortrait}
-          />
-          <Capture media="image" onFile={setPortrait} />
-        </section>
+        <div class="beside">
+          <section class="panel" aria-labelledby="portrait-title">
+            <h2 id="portrait-title">{words.portrait}</h2>
+            <p class="hint">{words.portraitHint}</p>
+            <Dropzone
+              media="image"
+              file={portrait}
+              accept={pictureTypes}
+              accepts={isPicture}
+              words={{
+                drop: words.portraitDrop,
+                browse: words.portraitBrowse,
+                chosen: words.portraitChosen,
+                wrong: words.wrongPicture,
+              }}
+              onFile={setPortrait}
+            />
+            <Capture media="image" onFile={setPortrait} />
+          </section>
+        </div>
         <section class="panel" aria-labelledby="performance-title">
           <h2 id="performance-title">{words.performance}</h2>
           <p class="hint">{words.performanceHint}</p>
