@@ -110,7 +110,7 @@ def test_two_services_do_not_share_a_folder(start: Start, tmp_path_factory: pyte
 
 
 def test_jobs_run_side_by_side_and_none_longer_than_allowed(start: Start, picture: bytes) -> None:
-    running = start(concurrency=2, job_seconds=4)
+    running = start(concurrency=2, job_seconds=30)
     jobs = [running.submit(picture, seconds=60, polls=polls)["id"] for polls in (True, False)]
     for job in jobs:
         running.until_at_rest(job)
