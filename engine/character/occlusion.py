@@ -11,9 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.part_surface import continued, outline
+from engine.character.part_surface import outline
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
+from engine.imaging.nearest import nearest_in
 
 NEAR = 0.16
 """Metres at rest within which two points of the template are near each other on its surface."""
@@ -42,7 +43,7 @@ def rest_places(
     ys, xs = np.nonzero(edge)
     places = np.rint(mean_value_warp(np.stack([xs, ys], 1), border, partners)).astype(int)
     x, y = np.clip(places[:, 0], 0, mask.shape[1] - 1), np.clip(places[:, 1], 0, mask.shape[0] - 1)
-    columns, rows = continued(source)
+    rows, columns = nearest_in(source)
     found[ys, xs] = rest[rows[y, x], columns[y, x]]
     return found
 

@@ -20,6 +20,7 @@ from engine.geometry.grid_diffusion import diffuse
 from engine.geometry.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
+from engine.imaging.nearest import nearest_in
 
 ALONG = 10.0
 """Pixels along the outline over which its depth is smoothed: the template's own outline jumps where limbs overlap."""
@@ -54,8 +55,8 @@ def outline(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 @dataclass(frozen=True)
 class Warp:
     """The paper's f, from a part in the picture to the template's: the `border` (m, 2) and its `partners` (m, 2) on the
-    template's outline; `places` (H, W, 2): where each pixel goes; `filled`: the template's pixel that is nearest to each;
-    `holes`: fills the maps where places fall beside the template (4.1.2)."""
+    template's outline; `places` (H, W, 2): where each pixel goes; `filled`: rows and columns of the template's pixel that
+    is nearest to each; `holes`: fills the maps where places fall beside the template (4.1.2)."""
 
     border: NDArray[np.float64]
     partners: NDArray[np.float64]
@@ -76,7 +77,7 @@ def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
     x, y = np.clip(np.rint(places[ys, xs]), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int).T
     looked_up[y, x] = 1
     wanted = cv2.dilate(looked_up, np.ones((3, 3), np.uint8), iterations=LOOSE) > 0
-    return Warp(border, partners, places, continued(template), harmonic_fill(template, wanted))
+    return Warp(border, partners, places, nearest_in(template), harmonic_fill(template, wanted))
 
 
 def part_surface(
@@ -91,7 +92,6 @@ def part_surface(
     `template`: the part of the template, seen from that side; `weights` (H, W, J) its skinning weights there. `bare` (J,):
     the joints of head, hands and feet; what the others move wears clothes. None: nothing does.
     """
-    filled = warp.filled
     carried = _look_up(weights, warp)
     looked = _look_up(template.normals, warp)
     looked /= np.maximum(np.linalg.norm(looked, axis=-1, keepdims=True), 1e-6)
@@ -100,7 +100,7 @@ def part_surface(
     if bare is not None:
         worn = cv2.GaussianBlur(carried[..., ~bare].sum(-1), (0, 0), WORN)[..., None]
         normals = normals + np.clip(worn, 0, 1) * (_smooth(looked, mask) - normals)
-    depth = template.depth[filled[1], filled[0]]
+    depth = template.depth[warp.filled]
     held = np.zeros(mask.shape, np.bool_)
     at, partners = warp.border.astype(int), warp.partners.astype(int)
     held[at[:, 1], at[:, 0]] = True
@@ -140,21 +140,9 @@ def _smooth(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np
     return np.asarray(narrow + np.clip(inner / (2 * WORN), 0, 1) * (wide - narrow), np.float32)
 
 
-def continued(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each pixel the nearest one of the mask: columns and rows, (H, W) each."""
-    _, labels = cv2.distanceTransformWithLabels(
-        (~mask).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    ys, xs = np.nonzero(mask)
-    of_label = np.zeros((labels.max() + 1, 2), np.intp)
-    of_label[labels[ys, xs]] = np.stack([xs, ys], 1)
-    return of_label[labels, 0], of_label[labels, 1]
-
-
 def _look_up(values: NDArray[np.float32], warp: Warp) -> NDArray[np.float32]:
     """Bilinear values (H, W, C) of the template where each pixel goes, holes filled smoothly."""
-    columns, rows = warp.filled
-    source = warp.holes(values[rows, columns])
+    source = warp.holes(values[warp.filled])
     x, y = np.ascontiguousarray(warp.places[..., 0]), np.ascontiguousarray(warp.places[..., 1])
     pieces = [
         cv2.remap(np.ascontiguousarray(source[..., k : k + 4]), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)

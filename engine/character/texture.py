@@ -18,6 +18,7 @@ from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.inpaint import background_plate
+from engine.imaging.nearest import nearest_in
 from engine.imaging.poisson import poisson_blend
 
 BackTexture = Literal["mirror", "inpaint"]
@@ -125,11 +126,7 @@ def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray
     """The picture with each pixel outside of `own` in the colour of the nearest one inside, softly."""
     if not own.any() or own.all():
         return rgb
-    _, labels = cv2.distanceTransformWithLabels((~own).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
-    colour_of = np.zeros((labels.max() + 1, 3), np.uint8)
-    colour_of[labels[own]] = rgb[own]
-    spread = colour_of[labels]
-    soft = np.asarray(cv2.GaussianBlur(spread, (0, 0), 2.0))
+    soft = np.asarray(cv2.GaussianBlur(rgb[nearest_in(own)], (0, 0), 2.0))
     return np.where(own[..., None], rgb, soft).astype(np.uint8)
 
 

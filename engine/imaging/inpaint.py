@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.exemplar_fill import exemplar_fill
+from engine.imaging.nearest import nearest_in
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
@@ -89,7 +90,7 @@ def _fill(
 ) -> NDArray[np.float32]:
     levels = _pyramid(image, hole, wanted)
     coarsest = levels[-1]
-    around = _nearest_known(coarsest.picture, coarsest.hole)  # what is not asked for only has to be plausible
+    around = coarsest.picture[nearest_in(~coarsest.hole)]  # what is not asked for only has to be plausible
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
@@ -110,19 +111,6 @@ def _fill(
         guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
         guess = heal_seams(guess, field, active & targets)
     return guess
-
-
-def _nearest_known(picture: NDArray[np.float32], hole: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """The picture with the colour of the nearest known pixel in each of the hole."""
-    labels = np.asarray(
-        cv2.distanceTransformWithLabels(
-            hole.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
-        )[1]
-    )
-    known = np.flatnonzero(~hole)
-    place = np.zeros(labels.max() + 1, np.intp)
-    place[labels.ravel()[known]] = known
-    return picture.reshape(-1, 3)[place[labels]]
 
 
 def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
