@@ -4,17 +4,17 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Problem } from './api';
 import { asProblem } from './loading';
 import { type Order, send, type Sending } from './order';
+import { usePausing } from './pausing';
 import { forgetPending, keepPending, readPending } from './pending';
 import { jobLink } from './route';
-import { GIVEN_UP, Valve } from './upload';
+import { GIVEN_UP } from './upload';
 
 export function useSending() {
   const [step, setStep] = useState<Sending | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
-  const [paused, setPaused] = useState(false);
+  const { valve, paused, pause } = usePausing();
   const [waiting, setWaiting] = useState<Order | null>(null);
   const order = useRef<Order | null>(null);
-  const valve = useRef(new Valve());
   const stopper = useRef<AbortController | null>(null);
 
   useEffect(() => {
@@ -31,7 +31,7 @@ export function useSending() {
     pause(false);
     setStep({ step: 'ordering' });
     void keepPending(next);
-    send(next, setStep, valve.current, signal).then(
+    send(next, setStep, valve, signal).then(
       (job) => {
         setStep(null);
         void forgetPending();
@@ -43,10 +43,6 @@ export function useSending() {
         else if (!signal.aborted) setProblem(asProblem(error));
       },
     );
-  };
-  const pause = (on: boolean): void => {
-    setPaused(on);
-    valve.current.closed = on;
   };
 
   return {

@@ -3,8 +3,9 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { type Job, type Problem, reviseCharacter } from '../api';
 import { asProblem } from '../loading';
+import { usePausing } from '../pausing';
 import { jobLink } from '../route';
-import { GIVEN_UP, uploadFile, Valve } from '../upload';
+import { GIVEN_UP, uploadFile } from '../upload';
 import { changesOf, fileOf, fileParts, isChanged, notesFor, type Sent, type Wishes } from './changes';
 
 type Part = keyof Sent;
@@ -12,8 +13,7 @@ type Part = keyof Sent;
 export function useRevision(job: Job, key: { current: string }, onProblem: (problem: Problem | null) => void) {
   const [busy, setBusy] = useState(false);
   const [step, setStep] = useState<{ step: Part; fraction: number } | null>(null);
-  const [paused, setPaused] = useState(false);
-  const valve = useRef(new Valve());
+  const { valve, paused, pause } = usePausing();
   const stopper = useRef<AbortController | null>(null);
   /** What has arrived need not be sent again. */
   const arrived = useRef(new Map<File, string>());
@@ -24,13 +24,9 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
     if (known) return known;
     const progress = (sent: number): void => setStep({ step: part, fraction: file.size ? sent / file.size : 1 });
     progress(0);
-    const id = await uploadFile(file, progress, valve.current, signal);
+    const id = await uploadFile(file, progress, valve, signal);
     arrived.current.set(file, id);
     return id;
-  };
-  const pause = (on: boolean): void => {
-    setPaused(on);
-    valve.current.closed = on;
   };
   const send = async (before: Wishes, wishes: Wishes): Promise<void> => {
     const { signal } = (stopper.current = new AbortController());
@@ -49,7 +45,8 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
       const revised = await reviseCharacter(job.id, { ...changes, ...notesFor(job, wishes) }, key.current);
       location.hash = jobLink(revised.id);
     } catch (error) {
-      if (!signal.aborted) onProblem(asProblem(error));
+      if (signal.aborted) arrived.current.clear(); // what had arrived is gone
+      else onProblem(asProblem(error));
       setStep(null);
       setBusy(false);
     }

@@ -6,8 +6,9 @@ import { stem } from '../format';
 import { asProblem } from '../loading';
 import { driverName } from '../names';
 import type { Sending } from '../order';
+import { usePausing } from '../pausing';
 import { strings } from '../strings';
-import { GIVEN_UP, uploadFile, Valve } from '../upload';
+import { GIVEN_UP, uploadFile } from '../upload';
 import { SendingBar } from './sendingbar';
 import { Trouble } from './trouble';
 
@@ -26,9 +27,8 @@ const words = strings.studio;
 
 export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
-  const [paused, setPaused] = useState(false);
+  const { valve, paused, pause } = usePausing();
   const [problem, setProblem] = useState<Problem | null>(null);
-  const valve = useRef(new Valve());
   const stopper = useRef<AbortController | null>(null);
   const arrived = useRef<string | null>(null);
   useEffect(() => {
@@ -37,10 +37,6 @@ export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
     return () => stopper.current?.abort();
   }, [file]);
 
-  const pause = (on: boolean): void => {
-    setPaused(on);
-    valve.current.closed = on;
-  };
   const keep = async (): Promise<void> => {
     const { signal } = (stopper.current = new AbortController());
     setProblem(null);
@@ -49,7 +45,7 @@ export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
     onKeeping(true);
     try {
       const progress = (bytes: number): void => setStep({ step: 'video', fraction: file.size ? bytes / file.size : 1 });
-      arrived.current ??= await uploadFile(file, progress, valve.current, signal);
+      arrived.current ??= await uploadFile(file, progress, valve, signal);
       setStep({ step: 'ordering' });
       const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);
       onKept(signal.aborted ? null : name);
