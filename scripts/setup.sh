@@ -95,11 +95,13 @@ build_player() {
   done
 }
 
-# What only the tests need: a browser that is driven without a window, PostgreSQL, and what makes networks.
+# What only the tests need: a browser that is driven without a window, PostgreSQL, what makes networks, and what the
+# guide's commands use.
 install_test_tools() {
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || install_debian postgresql
   command -v ip >/dev/null || install_debian iproute2
   command -v nsenter >/dev/null && command -v setpriv >/dev/null || install_debian util-linux
+  command -v curl >/dev/null && command -v jq >/dev/null || install_debian curl jq
   [ -n "${GALATEA_CHROMIUM:-}" ] || command -v chromium >/dev/null || install_debian chromium fonts-dejavu-core
 }
 

@@ -142,12 +142,13 @@ class Settings(BaseSettings):
     @field_validator("database_url")
     @classmethod
     def _database(cls, value: str | None) -> str | None:
-        if value is not None and value.startswith(("postgresql://", "postgres://")):
-            from service import postgresql  # SQLAlchemy with it, which only who serves needs
+        if value is None or value.startswith("sqlite:///"):
+            return value
+        from service import postgresql  # SQLAlchemy with it, which only who serves needs
 
-            postgresql.address(value)
-        elif value is not None and not value.startswith("sqlite:///"):
+        if not postgresql.speaks(value):
             raise ValueError("use sqlite:///PATH or postgresql://USER:PASSWORD@HOST/NAME")
+        postgresql.address(value)
         return value
 
     @field_validator("storage_url")
