@@ -38,7 +38,7 @@ from engine.body.skinning import bone_transforms
 from engine.character import layers
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.measures import pose
-from engine.character.part_surface import ALONG, Surface, Warp, part_surface
+from engine.character.part_surface import ALONG, Surface, Warp, filled, part_surface
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fit_template, label, make_character
 from engine.character.template_fit import FittedBody, load_human, pose_template
@@ -163,7 +163,7 @@ def warped_depth(
     same, that of the outline."""
     surface = part_surface(mask, warp, template, weights, bare)
     x, y = (np.ascontiguousarray(warp.places[..., k]) for k in range(2))
-    source = np.ascontiguousarray(template.depth[warp.filled[1], warp.filled[0]])
+    source = template.depth[filled(warp, template).nearest]
     depth = cv2.remap(source, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     at, partners = warp.border.astype(int), warp.partners.astype(int)
     along = source[partners[:, 1], partners[:, 0]]

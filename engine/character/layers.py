@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
+from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
 from engine.character.labels import (
     ARMS,
@@ -29,7 +30,7 @@ from engine.character.legs import LEGS_APART, cut_along, each_by_its_own, hem
 from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
 from engine.character.part_surface import Surface, part_surface, warp_part
 from engine.character.sheets import THINNEST, Layer
-from engine.character.template_maps import side_maps, weights_at
+from engine.character.template_maps import SideMaps, side_maps, weights_at
 from engine.render.attributes import interpolate
 
 SHOULDER = 0.105
@@ -142,23 +143,22 @@ def build_layers(
     lost = arms & ~np.logical_or.reduce([np.zeros_like(mask), *limbs.values()])
     visible = mask & (~arms | lost)
     body = largest(visible)
+    sides = _sides(template, of_body, mask.shape)
     if apart:
-        silhouette = side_maps(template.vertices, template.triangles[of_body], (mask.shape[0], mask.shape[1]), "front")
-        body = completed(visible, arms & ~lost, found.occlusion, silhouette.mask)
+        body = completed(visible, arms & ~lost, found.occlusion, sides.front.mask)
         under = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
         body = body | (arms & under)
         for _, pixels in near.values():
             body = largest(body | (arms & pixels))
-    layers = [
-        each_by_its_own(
-            _layer(body, template, of_body, rig, cut_along(found.labels, found.parting), face),
-            found.labels,
-            found.parting,
-            rig,
-        )
-    ]
+    trunk = _layer(body, sides, rig, cut_along(found.labels, found.parting), face)
+    shown = np.where(sides.front.mask, part[:, 0][of_body][sides.front.raster.triangle], -1)
+    cloth = body & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
+    ankles = float(min(template.joints[rig.index(name), 1] for name in ("LeftFoot", "RightFoot")))
+    trunk = drape(trunk, cloth, shown, sides.front.depth, sides.back.depth, found.parting, ankles)
+    layers = [each_by_its_own(trunk, found.labels, found.parting, rig)]
     for arm, reached in limbs.items():
-        limb = _layer(reached, template, np.asarray((part == arm).any(1) | near[arm][0]), rig)
+        both = _sides(template, np.asarray((part == arm).any(1) | near[arm][0]), mask.shape)
+        limb = _layer(reached, both, rig)
         own = found.labels == arm
         layers[0] = _behind(layers[0], limb, own)
         layers.append(_sunk(_before(limb, layers[0], own), layers[0], own))
@@ -202,24 +202,37 @@ def _near_shoulder(
     return close[template.triangles].all(1), distance < SHOULDER * template.pixels_per_metre
 
 
+@dataclass(frozen=True)
+class _Sides:
+    """Some triangles (T, 3) of the template, seen from both sides."""
+
+    triangles: NDArray[np.int32]
+    front: SideMaps
+    back: SideMaps
+
+
+def _sides(template: PosedTemplate, chosen: NDArray[np.bool_], shape: Sequence[int]) -> _Sides:
+    triangles, size = template.triangles[chosen], (shape[0], shape[1])
+    front, back = (side_maps(template.vertices, triangles, size, side) for side in ("front", "back"))
+    return _Sides(triangles, front, back)
+
+
 def _layer(
     mask: NDArray[np.bool_],
-    template: PosedTemplate,
-    chosen: NDArray[np.bool_],
+    sides: _Sides,
     rig: Rig,
     cut: NDArray[np.int8] | None = None,
     face: Face | None = None,
 ) -> Layer:
-    triangles = template.triangles[chosen]
-    size = (mask.shape[0], mask.shape[1])
-    front, back = (side_maps(template.vertices, triangles, size, side) for side in ("front", "back"))
-    warp = warp_part(mask, front.mask)
+    warp = warp_part(mask, sides.front.mask)
     bare = np.array([any(part in name for part in BARE) for name in rig.names])
-    seen, behind = (
-        part_surface(mask, own, side, weights_at(side.raster, triangles, rig.bones, rig.weights, len(rig.names)), bare)
-        for own, side in ((warp if face is None else with_face(warp, face), front), (warp, back))
+    front, back = (
+        part_surface(
+            mask, own, side, weights_at(side.raster, sides.triangles, rig.bones, rig.weights, len(rig.names)), bare
+        )
+        for own, side in ((warp if face is None else with_face(warp, face), sides.front), (warp, sides.back))
     )
-    return Layer(mask, seen, behind, np.zeros(mask.shape, np.int8) if cut is None else cut)
+    return Layer(mask, front, back, np.zeros(mask.shape, np.int8) if cut is None else cut)
 
 
 def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:

@@ -55,14 +55,12 @@ def outline(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 @dataclass(frozen=True)
 class Warp:
     """The paper's f, from a part in the picture to the template's: the `border` (m, 2) and its `partners` (m, 2) on the
-    template's outline; `places` (H, W, 2): where each pixel goes; `filled`: rows and columns of the template's pixel that
-    is nearest to each; `holes`: fills the maps where places fall beside the template (4.1.2)."""
+    template's outline; `places` (H, W, 2): where each pixel goes; `wanted` (H, W): the pixels that are looked up."""
 
     border: NDArray[np.float64]
     partners: NDArray[np.float64]
     places: NDArray[np.float32]
-    filled: tuple[NDArray[np.intp], NDArray[np.intp]]
-    holes: HarmonicFill
+    wanted: NDArray[np.bool_]
 
 
 def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
@@ -77,7 +75,22 @@ def warp_part(mask: NDArray[np.bool_], template: NDArray[np.bool_]) -> Warp:
     x, y = np.clip(np.rint(places[ys, xs]), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int).T
     looked_up[y, x] = 1
     wanted = cv2.dilate(looked_up, np.ones((3, 3), np.uint8), iterations=LOOSE) > 0
-    return Warp(border, partners, places, nearest_in(template), harmonic_fill(template, wanted))
+    return Warp(border, partners, places, wanted)
+
+
+@dataclass(frozen=True)
+class Filled:
+    """Maps of one side of the template without holes (4.1.2): `nearest`, rows and columns of the known pixel that is nearest
+    to each, and `holes`, which fills smoothly what is looked up."""
+
+    nearest: tuple[NDArray[np.intp], NDArray[np.intp]]
+    holes: HarmonicFill
+
+
+def filled(warp: Warp, template: SideMaps) -> Filled:
+    """Where a part ends at a cut one sees into it: that side's surface is not known there."""
+    known = template.mask & (template.normals[..., 2] > 0)
+    return Filled(nearest_in(known), harmonic_fill(known, warp.wanted))
 
 
 def part_surface(
@@ -92,15 +105,16 @@ def part_surface(
     `template`: the part of the template, seen from that side; `weights` (H, W, J) its skinning weights there. `bare` (J,):
     the joints of head, hands and feet; what the others move wears clothes. None: nothing does.
     """
-    carried = _look_up(weights, warp)
-    looked = _look_up(template.normals, warp)
+    whole = filled(warp, template)
+    carried = _look_up(weights, warp, whole)
+    looked = _look_up(template.normals, warp, whole)
     looked /= np.maximum(np.linalg.norm(looked, axis=-1, keepdims=True), 1e-6)
     looked = np.where(mask[..., None], looked, 0)
     normals = np.asarray(cv2.GaussianBlur(looked, (0, 0), ACROSS), np.float32)
     if bare is not None:
         worn = cv2.GaussianBlur(carried[..., ~bare].sum(-1), (0, 0), WORN)[..., None]
         normals = normals + np.clip(worn, 0, 1) * (_smooth(looked, mask) - normals)
-    depth = template.depth[warp.filled]
+    depth = template.depth[whole.nearest]
     held = np.zeros(mask.shape, np.bool_)
     at, partners = warp.border.astype(int), warp.partners.astype(int)
     held[at[:, 1], at[:, 0]] = True
@@ -140,9 +154,9 @@ def _smooth(normals: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np
     return np.asarray(narrow + np.clip(inner / (2 * WORN), 0, 1) * (wide - narrow), np.float32)
 
 
-def _look_up(values: NDArray[np.float32], warp: Warp) -> NDArray[np.float32]:
+def _look_up(values: NDArray[np.float32], warp: Warp, whole: Filled) -> NDArray[np.float32]:
     """Bilinear values (H, W, C) of the template where each pixel goes, holes filled smoothly."""
-    source = warp.holes(values[warp.filled])
+    source = whole.holes(values[whole.nearest])
     x, y = np.ascontiguousarray(warp.places[..., 0]), np.ascontiguousarray(warp.places[..., 1])
     pieces = [
         cv2.remap(np.ascontiguousarray(source[..., k : k + 4]), x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
