@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,7 @@ from engine.body.body_space import BodySpace
 from engine.body.skinning import pose_transforms
 from engine.character.picture_space import PictureCamera
 from engine.character.sheets import ClosedMesh
+from engine.character.soles import with_soles
 from engine.character.template_fit import FittedBody
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
@@ -36,6 +38,7 @@ class Character:
 
 def bind(
     mesh: ClosedMesh,
+    mask: NDArray[np.bool_],
     camera: PictureCamera,
     fitted: FittedBody,
     space: BodySpace,
@@ -43,10 +46,10 @@ def bind(
     uv: NDArray[np.float32],
     tile: float,
 ) -> Character:
-    """Bind a mesh in picture space to the fitted skeleton, in T-pose.
+    """Bind a mesh in picture space, made of a person's `mask` (h, w), to the fitted skeleton, in T-pose.
 
     Posed by `Character.pictured` the vertices are where they were: linear blend skinning by the same weights is inverted
-    for each vertex.
+    for each vertex. Only undersides of feet, which the picture does not show, come to lie flat.
     """
     seen = camera.to_metres(mesh.vertices)
     eye = np.array([0.0, -seen[:, 1].min(), camera.distance])
@@ -65,6 +68,14 @@ def bind(
     weights[crushed] = [1, 0, 0, 0]
     blended[crushed] = transforms[bones[crushed, 0]]
     vertices = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
+
+    def covered(which: NDArray[np.intp], places: NDArray[np.float64]) -> NDArray[np.bool_]:
+        back = np.einsum("vij,vj->vi", blended[which, :3, :3], places) + blended[which, :3, 3]
+        x, y = np.rint(camera.to_picture(back - eye)[:, :2]).astype(int).T
+        inside = (x >= 0) & (y >= 0) & (x < mask.shape[1]) & (y < mask.shape[0])
+        return inside & mask[np.where(inside, y, 0), np.where(inside, x, 0)]
+
+    vertices = with_soles(vertices, mesh.triangles, _feet(mesh, rest.names), ~mesh.front & ~mesh.rim, covered)
     lift = np.array([0.0, -vertices[:, 1].min(), 0.0])
     skeleton = Skeleton(rest.names, rest.parents, (rest.heads + lift).astype(np.float32))
     bound = SkinnedMesh(
@@ -72,6 +83,15 @@ def bind(
     )
     pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
     return Character(bound, pictured, eye, tile)
+
+
+def _feet(mesh: ClosedMesh, names: Sequence[str]) -> NDArray[np.intp]:
+    """Which foot each vertex (V,) is of: 0 left, 1 right, -1 neither."""
+    foot = np.full(len(mesh.vertices), -1, np.intp)
+    for side, name in enumerate(("Left", "Right")):
+        own = [k for k, joint in enumerate(names) if joint.startswith((f"{name}Foot", f"{name}Toe"))]
+        foot[(mesh.weights * np.isin(mesh.bones, own)).sum(1) > 0.5] = side
+    return foot
 
 
 def rest_skeleton(fitted: FittedBody, space: BodySpace) -> Skeleton:

@@ -123,7 +123,8 @@ def make_character(
     texture, uv = atlas(tiles, mesh, 0)
     tile = tiles.body.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())
-    character = bind(mesh, camera, fitted, load_human().space, texture, uv, tile)
+    inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv, tile)
     return replace(character, mesh=fewer_triangles(character.mesh, triangles))
 
 

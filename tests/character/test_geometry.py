@@ -77,6 +77,24 @@ def test_a_ball_warped_to_a_wider_outline_grows_deeper_with_it() -> None:
     assert -36 < behind.depth[size // 2, size // 2] < -24
 
 
+def test_what_is_seen_into_a_cut_is_no_surface() -> None:
+    """A ball without its lower third, cut aslant: from behind one sees into it, and there it goes on as it was."""
+    size = 160
+    vertices, triangles = ball(size, 30)
+    middle = vertices[triangles].mean(1) - [size / 2, size / 2, 0]
+    triangles = triangles[middle @ [0, 1, -0.35] < 16]
+    front, back = (side_maps(vertices, triangles, (size, size), side) for side in ("front", "back"))
+    into = back.mask & (back.normals[..., 2] < 0)
+    assert into.sum() > 200
+    warp = warp_part(front.mask, front.mask)
+    behind = part_surface(front.mask, warp, back, np.ones((size, size, 1), np.float32))
+    rows, columns = np.nonzero(front.mask)
+    sphere = -np.sqrt(np.maximum(900 - (rows - size / 2) ** 2 - (columns - size / 2) ** 2, 0))
+    off = behind.depth[rows, columns] - sphere
+    assert np.abs(off).mean() < 2
+    assert off.min() > -9, "nothing sticks out behind"
+
+
 def test_weights_are_carried_along() -> None:
     size = 120
     vertices, triangles = ball(size, 30)
@@ -140,8 +158,9 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     camera = PictureCamera(100.0, (32, 32), 3.0)
     kept = np.isin(space.names, held)
     fitted = FittedBody(fit, 100.0, (32, 32), kept)
+    nowhere = np.zeros((64, 64), np.bool_)  # where undersides of feet would be hidden
     character = bind(
-        mesh, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
+        mesh, nowhere, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
     )
     bound, pictured = character.mesh, character.pictured
     transforms = pose_transforms(bound.skeleton, pictured.rotations, pictured.root)[0]
@@ -149,7 +168,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     np.testing.assert_allclose(posed, camera.to_metres(mesh.vertices) + character.eye, atol=2e-4)
     assert abs(bound.vertices[:, 1].min()) < 1e-5, "the T-pose stands on the ground"
     plain = FittedBody(fit, 100.0, (32, 32), np.zeros_like(kept))
-    straight = bind(mesh, camera, plain, space, bound.texture, bound.uv, 1.0)
+    straight = bind(mesh, nowhere, camera, plain, space, bound.texture, bound.uv, 1.0)
     places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
     np.testing.assert_allclose(*places, atol=1e-4)
     np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
