@@ -43,6 +43,8 @@ OFF = 8.0
 """Levels by which front and back differ where they are not the same."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
+HEAD_FROM, HEAD_TO = 1.2, 4.5
+"""The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -105,7 +107,7 @@ def paint_tiles(
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
     limbs = _filled(seen, _enlarged(arms_reach & ~arms, size), own & around) if arms.any() else seen
-    return Tiles(limbs, body, joined_at_the_outline(body, behind, own, scale), head, scale, shift)
+    return Tiles(limbs, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -153,13 +155,18 @@ def _behind_the_arms(
 
 
 def joined_at_the_outline(
-    front: NDArray[np.uint8], back: NDArray[np.uint8], own: NDArray[np.bool_], scale: float
+    front: NDArray[np.uint8],
+    back: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    head: NDArray[np.bool_],
+    scale: float,
 ) -> NDArray[np.uint8]:
     """The back (h, w, 3) with the front's colours at the outline of `own` (h, w), and from there inward its own gradients (the
-    paper's Poisson-blended seam). `scale`: pixels for each of the grid's."""
+    paper's Poisson-blended seam); on the `head` (h, w) sooner. `scale`: pixels for each of the grid's."""
+    begin, end = np.where(head, HEAD_FROM, SEAM_FROM), np.where(head, HEAD_TO, SEAM_TO)
     depth = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
-    band = (depth > SEAM_FROM * scale) & (depth < SEAM_TO * scale)
-    held = np.where((depth <= SEAM_FROM * scale)[..., None], front, back).astype(np.float32)
+    band = (depth > begin * scale) & (depth < end * scale)
+    held = np.where((depth <= begin * scale)[..., None], front, back).astype(np.float32)
     joined = poisson_blend(back.astype(np.float32), held, band)
     return np.asarray(np.clip(joined + 0.5, 0, 255), np.uint8)
 

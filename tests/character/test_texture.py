@@ -80,11 +80,15 @@ def test_front_and_back_are_one_at_the_outline_and_the_back_keeps_its_gradients(
     own[10:110, 10:110] = True
     ramp = np.arange(120, dtype=np.uint8)[None, :, None]
     front, back = np.full((120, 120, 3), 90, np.uint8), np.broadcast_to(100 + ramp // 4, (120, 120, 3)).copy()
-    joined = joined_at_the_outline(front, back, own, 2.0)
+    nowhere = np.zeros_like(own)
+    joined = joined_at_the_outline(front, back, own, nowhere, 2.0)
     np.testing.assert_array_equal(joined[10:12, 10:110], front[10:12, 10:110])
     np.testing.assert_array_equal(joined[40:80, 40:80], back[40:80, 40:80])
     steps = np.abs(np.diff(joined[60, :, 0].astype(int)))
     assert steps.max() <= 4, "no edge in between, where front and back differ by up to 38"
+    head = joined_at_the_outline(front, back, own, ~nowhere, 2.0)
+    np.testing.assert_array_equal(head[20:100, 20:100], back[20:100, 20:100])
+    assert (joined[60, 20] != back[60, 20]).any(), "a head's back begins sooner"
 
 
 def cylinder(radius: int = 20) -> tuple[Layer, np.ndarray]:
