@@ -7,13 +7,9 @@ deletion and a take-over by another worker show; the process is then told to sto
 
 from __future__ import annotations
 
-import json
-import os
 import shutil
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import asdict
-from errno import EDQUOT, ENOSPC
+from collections.abc import Callable
 from pathlib import Path
 from threading import Event
 from typing import Any
@@ -23,33 +19,27 @@ from opentelemetry.trace import Span
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.orm import Session
 
-from engine.store import StageStore
 from service.context import Context
 from service.disk import free_mb
-from service.files import analyses
-from service.files import repository as files
-from service.jobs import leases, repository
+from service.jobs import leases
 from service.jobs.leases import Lease
-from service.jobs.models import Job, Status
-from service.jobs.stages import erase
-from service.storage import StorageUnavailable
+from service.jobs.models import Job
 from service.traces.tracer import fail
 from worker import inputs
 from worker.children import Child, ChildLost
+from worker.conclusion import DISK_FULL, conclude, erase_unneeded, unwritten
 from worker.eta import Eta
 from worker.fetch import FetchFailed
 from worker.heartbeat import beating
-from worker.insist import insist
 from worker.mirror import Mirror
 from worker.plain_files import Refused
-from worker.publish import publish, publish_all
+from worker.preparation import Folders, prepare
+from worker.publish import publish
 from worker.spans import AttemptSpans
 
 TICK_SECONDS = 0.1
 LOOK_SECONDS = 0.4
 REPORT_SECONDS = 0.4
-MOST_FOUND = 20_000
-"""Characters of what a failed job may say it has found."""
 GRACE_SECONDS = 1.0
 """How long a process may take to stop by itself."""
 
@@ -62,11 +52,9 @@ FETCHING = 0.1
 FAULTS = ("internal_error", "not_permitted")
 """Codes of ends that the operator should hear of."""
 
-DISK_FULL = "The disk became full during the job: free space and submit it again."
-
 
 class Stop(Exception):
-    """The attempt ends from outside: `verdict` says how (see `_conclude`)."""
+    """The attempt ends from outside: `verdict` says how (see `worker.conclusion`)."""
 
     def __init__(self, verdict: dict[str, Any]):
         super().__init__(verdict)
@@ -94,11 +82,8 @@ class Attempt:
         self._child = child
         self._stopping = stopping
         self._spans = spans
-        self._folder = context.settings.job_folder(job.id) / f"attempt-{lease.token}"
-        self._out = self._folder / "out"
-        self._stages = context.settings.job_folder(job.tree) / "stages"
-        self._mirrored = context.settings.job_folder(job.id) / f"mirror-{lease.token}"
-        self._mirror = Mirror(context.storage, job.tree, self._stages, self._mirrored)
+        self._folders = Folders.of(context, job, lease)
+        self._mirror = Mirror(context.storage, job.tree, self._folders.stages, self._folders.mirrored)
         self._started = self._renewed = self._looked = time.monotonic()
         self._reported = self._started - 1
         self._eta = Eta()
@@ -117,14 +102,17 @@ class Attempt:
         log.info("attempt_started")
         try:
             self._fetch_inputs()
-            self._prepare()
+            with beating(self._context, self._lease):
+                told = prepare(self._context, self._job, self._folders, self._mirror, self._user)
+            self._working = True
+            self._child.send(told)
             verdict = self._watch()
         except Stop as stop:
             verdict = stop.verdict
         except ChildLost as lost:
             verdict = {"outcome": "crashed", "reason": str(lost)}
         except OSError as error:
-            verdict = _unwritten(error)
+            verdict = unwritten(error)
         except Exception:
             log.exception("attempt_unwatched")
             verdict = {"outcome": "crashed", "reason": "the worker met a fault of the program"}
@@ -134,20 +122,20 @@ class Attempt:
         if not clean:
             self._child.kill()
         try:
-            verdict = self._conclude(verdict)
+            verdict = conclude(self._context, self._job, self._lease, verdict, self._folders, self._published)
         finally:
             self._spans.end(verdict)
             self._mirror.close(wait=verdict["outcome"] != "lost")
-            for folder in (self._folder, self._mirrored):
+            for folder in (self._folders.attempt, self._folders.mirrored):
                 shutil.rmtree(folder, ignore_errors=True)
-            self._erase_unneeded()
+            erase_unneeded(self._context, self._job)
         log.info("attempt_ended", outcome=verdict["outcome"], code=verdict.get("code"))
         return clean
 
     def _fetch_inputs(self) -> None:
         """Fetch the inputs that are addresses; those that an earlier attempt has fetched are files already."""
         urls = inputs.addresses(self._job.sources)
-        folder = self._folder / "fetched"
+        folder = self._folders.fetched
         if urls:
             folder.mkdir(parents=True, exist_ok=True)
         for number, url in enumerate(urls):
@@ -178,60 +166,6 @@ class Attempt:
         if sources is None:
             raise Stop({"outcome": "lost", "clean": True})
         self._job.sources = sources
-
-    def _prepare(self) -> None:
-        stages, temporary, copies = self._stages, self._folder / "temporary", self._folder / "inputs"
-        for folder in self._folder.parent.glob("*-*"):  # what an attempt left whose worker was killed
-            shutil.rmtree(folder, ignore_errors=True)
-        for folder in (self._out, temporary, copies, self._mirrored, stages):
-            folder.mkdir(parents=True, exist_ok=True)
-        StageStore(stages).discard_drafts()
-        os.utime(stages.parent)  # housekeeping sees that it is in use
-        with beating(self._context, self._lease):
-            self._mirror.restore()
-            local = {name: self._local(source, copies) for name, source in self._job.sources.items()}
-        shared = self._shared() or stages
-        shared.mkdir(parents=True, exist_ok=True)
-        if self._user is not None:
-            hand_over((self._out, temporary, stages, shared), self._user)
-        self._working = True
-        self._child.send(
-            {
-                "command": "work",
-                "kind": self._job.kind,
-                "inputs": local,
-                "options": self._job.options,
-                "out": str(self._out),
-                "temporary": str(temporary),
-                "stages": str(stages),
-                "shared": str(shared),
-                "mark_synthetic": self._context.settings.mark_synthetic,
-                "limits": asdict(self._context.settings.limits),
-            }
-        )
-
-    def _shared(self) -> Path | None:
-        """Where analyses lie that serve other jobs with the same input too."""
-        kind = self._context.kinds[self._job.kind]
-        name = next((one.name for one in kind.inputs if one.serves_many and not one.many), None)
-        source = self._job.sources.get(name) if name is not None else None
-        if source is None or "candidates" in source:  # whose analyses are kept with the job
-            return None
-        if "library" in source:
-            return analyses.folder(self._context.settings, analyses.LIBRARY, source["name"])
-        with self._context.database.read() as session:
-            file = files.get(session, self._job.owner, source["file"])
-        return analyses.folder(self._context.settings, file.owner, file.sha256) if file is not None else None
-
-    def _local(self, source: Any, folder: Path) -> Any:
-        """A source as the process takes it: the path of a file, fetched into the folder where it lies elsewhere."""
-        if isinstance(source, list):
-            return [self._local(one, folder) for one in source]
-        if "candidates" in source:
-            return {"candidates": {name: self._local(one, folder) for name, one in source["candidates"].items()}}
-        if "file" not in source:
-            return source
-        return str(self._context.storage.fetch(f"files/{source['file']}", folder / source["file"]))
 
     def _watch(self) -> dict[str, Any]:
         while True:
@@ -265,7 +199,7 @@ class Attempt:
                 self._mirror.keep(str(event.get("key")))
                 self._write(lambda session: leases.bear_fruit(session, self._lease))
             case "artifact":
-                self._publish(self._out / Path(str(event["name"])).name)
+                self._publish(self._folders.out / Path(str(event["name"])).name)
 
     def _tell(self, stage: str, fraction: float, message: str) -> None:
         """Take note of progress, to be reported soon; the beginning of a stage at once."""
@@ -344,66 +278,3 @@ class Attempt:
                 if event["event"] == "end":
                     return event.get("clean") is True
         return False
-
-    def _conclude(self, verdict: dict[str, Any]) -> dict[str, Any]:
-        """Make the attempt's end true in SQL."""
-        if verdict["outcome"] == "succeeded":
-            try:
-                with beating(self._context, self._lease):
-                    published = publish_all(self._context, self._lease, self._out, self._published)
-                return verdict if published else {"outcome": "lost"}
-            except Refused as refused:
-                verdict = {"outcome": "failed", "code": "internal_error", "detail": str(refused)}
-            except OSError as error:
-                verdict = _unwritten(error)
-            except SQLAlchemyError:
-                verdict = {"outcome": "lost"}
-        shutil.rmtree(self._folder, ignore_errors=True)  # first, so that a full disk has room for the record
-        end = {"failed": self._fail, "crashed": self._give_back, "stopped": self._give_back}.get(verdict["outcome"])
-        try:
-            if end is not None:
-                insist(lambda: end(verdict), self._lease.seconds)
-        except SQLAlchemyError:
-            verdict = {"outcome": "lost"}  # the lease has ended meanwhile, and the job is another worker's
-        return verdict
-
-    def _erase_unneeded(self) -> None:
-        """Erase what is left of a job that was deleted while it ran."""
-        both = [self._job.id, self._job.tree]
-        try:
-            with self._context.database.read() as session:
-                unneeded = set(both) - repository.with_folder(session, both)
-        except SQLAlchemyError:
-            return  # cut off: housekeeping does it
-        for one in unneeded:
-            erase(self._context, one)
-
-    def _fail(self, verdict: dict[str, Any]) -> None:
-        with self._context.database.write() as session:
-            correctable = [str(name) for name in verdict.get("correctable", ())]
-            found = verdict.get("found") or {}
-            if len(json.dumps(found)) > MOST_FOUND:
-                found = {}
-            leases.fail(session, self._lease, str(verdict["code"]), str(verdict["detail"])[:2000], correctable, found)
-
-    def _give_back(self, verdict: dict[str, Any]) -> None:
-        with self._context.database.write() as session:
-            counts = verdict["outcome"] == "crashed"
-            status = leases.give_back(session, self._lease, verdict["reason"], counts)
-        if status == Status.QUEUED:
-            self._context.queue.send(self._job.id, self._job.kind)
-
-
-def hand_over(folders: Sequence[Path], user: int) -> None:
-    """Let a user change these folders and what lies directly in them. Only for folders that this user alone changes."""
-    for folder in folders:
-        for path in (folder, *folder.iterdir()):
-            os.chown(path, user, user, follow_symlinks=False)
-
-
-def _unwritten(error: OSError) -> dict[str, Any]:
-    if isinstance(error, StorageUnavailable):
-        return {"outcome": "stopped", "reason": "the storage did not answer"}
-    if error.errno in (ENOSPC, EDQUOT):
-        return {"outcome": "failed", "code": "disk_full", "detail": DISK_FULL}
-    return {"outcome": "failed", "code": "internal_error", "detail": f"The job's files cannot be written: {error}"}
