@@ -27,6 +27,8 @@ APART = 0.02
 """Pixels of depth between the two sides of a cut, which are otherwise in one place."""
 OUT = 1.2
 """Pixels by which the border may move to the mask's edge."""
+STEPS, LEAST_SLOPE = 25, 0.1
+"""In how many places the edge is looked for, and how steep the mask must be there (a pixel)."""
 BORDER_SWEEPS = 3
 """How often the border is smoothed: a silhouette of pixels is jagged."""
 
@@ -197,19 +199,27 @@ def _rim(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
 
 
 def _to_the_edge(points: NDArray[np.float64], soft: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Points (N, 2) near the mask's edge moved onto it, along its slope; the others stay."""
-    slope = [np.asarray(cv2.Sobel(soft, cv2.CV_32F, *step, ksize=3, scale=1 / 8)) for step in ((1, 0), (0, 1))]
-    moved = points.copy()
-    for _ in range(3):
-        x, y = (moved[:, k].astype(np.float32)[:, None] for k in range(2))
-        value, dx, dy = (
-            cv2.remap(one, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)[:, 0] for one in (soft, *slope)
-        )
-        steep = dx**2 + dy**2
-        step = np.where(steep > 0.01, (0.5 - value) / np.maximum(steep, 0.01), 0)
-        step = np.clip(step[:, None] * np.stack([dx, dy], 1), -0.7, 0.7)
-        moved = np.clip(moved + step, points - OUT, points + OUT)
-    return moved
+    """Points (N, 2) moved along the mask's slope to the nearest place where it is 0.5; those without one within `OUT` stay."""
+    slope = [
+        np.asarray(cv2.Sobel(soft, cv2.CV_32F, *step, ksize=3, scale=1 / 8), np.float32) for step in ((1, 0), (0, 1))
+    ]
+    across = np.stack([_sampled(one, points[None])[0] for one in slope], 1)
+    steep = np.linalg.norm(across, axis=1)
+    across /= np.maximum(steep, 1e-6)[:, None]
+    steps = np.linspace(-OUT, OUT, STEPS)
+    above = _sampled(soft, points[None] + steps[:, None, None] * across[None]) - 0.5
+    crosses = above[:-1] * above[1:] <= 0
+    share = above[:-1] / np.where(above[:-1] == above[1:], 1, above[:-1] - above[1:])
+    place = np.where(crosses, steps[:-1, None] + share * (steps[1] - steps[0]), np.inf)
+    nearest = np.take_along_axis(place, np.abs(place).argmin(0)[None], 0)[0]
+    found = np.isfinite(nearest) & (steep > LEAST_SLOPE)
+    return np.asarray(points + np.where(found, nearest, 0)[:, None] * across)
+
+
+def _sampled(image: NDArray[np.float32], places: NDArray[np.floating]) -> NDArray[np.float32]:
+    """An image (H, W) between its pixels at places (M, N, 2)."""
+    x, y = (np.ascontiguousarray(places[..., axis], np.float32) for axis in range(2))
+    return np.asarray(cv2.remap(image, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
 
 
 def _smoothed(points: NDArray[np.float64], rim: NDArray[np.intp]) -> NDArray[np.float64]:

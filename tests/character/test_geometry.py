@@ -126,6 +126,9 @@ def test_sheets_are_closed_and_end_at_the_masks_edge(count: int) -> None:
     body = mesh.vertices[mesh.layer == 0]
     radius = np.hypot(body[:, 0] - 31.5, body[:, 1] - 31.5).max()
     assert abs(radius - 20.3) < 0.5, "within half a pixel"
+    rim = mesh.vertices[mesh.rim & (mesh.layer == 0)]
+    mean = np.hypot(rim[:, 0] - 31.5, rim[:, 1] - 31.5).mean()
+    assert abs(mean - 20.3) < 0.05, "and in the mean neither larger nor smaller"
     a, b, c = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
     assert (np.cross(a, b) * c).sum() < 0, "outward for one who looks at a picture whose y points down"
 
