@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from engine.character.part_surface import Surface
+from engine.render.rasteriser import rasterise
 
 INFLUENCES = 4
 """Joints that move a vertex, at most: what engines take."""
@@ -69,6 +70,12 @@ class ClosedMesh:
         covered = np.zeros((shape[0], shape[1]), np.bool_)
         covered[y, x] = True
         return covered
+
+    def seen_layer(self, size: tuple[int, int]) -> NDArray[np.intp]:
+        """The part that is nearest to the viewer at each pixel of the grid `size` (height, width), -1 beside all."""
+        raster = rasterise(self.vertices * [1, 1, -1], self.triangles, size)
+        layer = self.layer[self.triangles[:, 0]]
+        return np.where(raster.triangle >= 0, layer[raster.triangle], -1)
 
 
 def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:

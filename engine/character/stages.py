@@ -119,7 +119,8 @@ def make_character(
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
     face = face_ellipse(figure, silhouette.to_grid)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
-    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, face, back)
+    shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
+    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
     texture, uv = atlas(tiles, mesh, 0)
     tile = tiles.body.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())

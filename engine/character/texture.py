@@ -45,6 +45,8 @@ SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 HEAD_FROM, HEAD_TO = 1.2, 4.5
 """The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
+SLIVER = 5
+"""Pixels of the grid up to which an arm that shows beside its label is the outline's roughness."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -70,6 +72,7 @@ def paint_tiles(
     to_grid: NDArray[np.float64],
     labels: Labels,
     arms_reach: NDArray[np.bool_],
+    arms_shown: NDArray[np.bool_],
     face: NDArray[np.float32] | None,
     back: BackTexture,
 ) -> Tiles:
@@ -80,13 +83,12 @@ def paint_tiles(
     rgb, alpha : the picture (H, W, 3) and the person's mask (H, W).
     to_grid : (2, 3) from the picture's pixels to those of the grid.
     labels : what each pixel of the grid shows.
-    arms_reach : (h, w) all that the arms' surfaces cover, seen or not.
+    arms_reach, arms_shown : (h, w) all that the arms' surfaces cover, seen or not; and where they are the nearest.
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
     """
-    reach = cv2.dilate(arms_reach.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
-    arms = np.isin(labels.labels, labels.apart) & reach  # pieces that no arm has are on the body
+    arms = _own_of_arms(np.isin(labels.labels, labels.apart), arms_shown)
     shape = arms.shape
     scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // TILES / shape[1])
     size = (round(shape[1] * scale), round(shape[0] * scale))
@@ -246,6 +248,14 @@ def _like_skin(
     like = np.linalg.norm(colours - skin, axis=-1) < np.linalg.norm(colours - hair, axis=-1)
     grown = cv2.dilate((like & head).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=2)
     return np.asarray(grown > 0) & head
+
+
+def _own_of_arms(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels (h, w) whose colours are the arms': those `labelled` so where their surface is `shown`, and what it shows
+    beyond slivers elsewhere. The others are on the body, whatever they are called."""
+    near = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
+    return np.asarray((labelled & near) | (more > 0))
 
 
 def _up_to_their_edges(arms: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:

@@ -176,9 +176,8 @@ def test_what_is_printed_in_front_is_behind_only_where_backs_are_mirrored(
     printed = replace(figure, rgb=rgb)
     red = []
     for back in ("mirror", "inpaint"):
-        tiles = paint_tiles(
-            printed.rgb, silhouette.alpha, silhouette.to_grid, labels, np.zeros_like(labels.parting), None, back
-        )
+        nowhere = np.zeros_like(labels.parting)
+        tiles = paint_tiles(printed.rgb, silhouette.alpha, silhouette.to_grid, labels, nowhere, nowhere, None, back)
         red.append(int(((tiles.back[..., 0] > 200) & (tiles.back[..., 1] < 80)).sum()))
         assert ((tiles.body[..., 0] > 200) & (tiles.body[..., 1] < 80)).sum() > 300
     assert red[0] > 300 and red[1] == 0
