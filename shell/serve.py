@@ -19,6 +19,7 @@ from service.app import make_app
 from service.auth.repository import any_usable
 from service.context import Context
 from service.logs import configure
+from service.protocol import Protocol
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
 from shell.complaint import Complaint
@@ -65,7 +66,7 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         make_app(context),
         loop="uvloop",
         # Strict and bounded. The compiled one takes headers without end, and refuses bodies of who offers an upgrade.
-        http="h11",
+        http=Protocol,
         h11_max_incomplete_event_size=HEAD_BYTES,
         ws="none",
         log_config=None,

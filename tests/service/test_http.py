@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import socket
 import time
 
@@ -38,6 +39,26 @@ def test_what_never_ends_is_cut_off(running: Running, beginning: bytes, piece: b
             sent += len(piece)
     assert api.memory_info().rss - before < 16 << 20
     assert running.client.get("/healthz").status_code == 200
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n",
+        b"GET / HTTP/1.1\r\n\r\n",
+        b"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: many\r\n\r\n",
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nX-Long: " + b"a" * (70 << 10),
+    ],
+    ids=["TLS", "no host", "a length that is none", "a head too long"],
+)
+def test_what_is_no_request_is_answered_with_a_problem(running: Running, sent: bytes) -> None:
+    with socket.create_connection(
+        (running.client.base_url.host, running.client.base_url.port), timeout=60
+    ) as connection:
+        connection.sendall(sent)
+        head, body = b"".join(iter(lambda: connection.recv(65536), b"")).split(b"\r\n\r\n", 1)
+    assert head.startswith(b"HTTP/1.1 400") and b"content-type: application/problem+json" in head.lower()
+    assert json.loads(body)["code"] == "malformed_request"
 
 
 def test_long_headers_within_the_limit_are_read_however_they_come(running: Running) -> None:
