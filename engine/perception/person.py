@@ -92,12 +92,13 @@ def person_mask(
 def believed_person(rgb: NDArray[np.uint8], share: float = SELFIE_SHARE) -> Mask:
     """What the networks believe to be a person, (H, W) in [0, 1]; `share` is the selfie network's."""
     posed = _pose_mask(rgb)
-    selfie = _selfie_mask(rgb, posed)
+    selfie = selfie_mask(rgb, posed)
     return selfie if posed is None else (share * selfie + (1 - share) * posed).astype(np.float32)
 
 
-def _selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None) -> Mask:
-    """The selfie network's belief, looking closer where people take up a small part of the picture."""
+def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
+    """What the selfie network believes to be a person, (H, W) in [0, 1]: it looks closer where people, also those that
+    `posed` shows, take up a small part of the picture."""
     height, width = rgb.shape[:2]
     with solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
 

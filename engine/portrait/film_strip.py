@@ -45,7 +45,7 @@ class FilmStripWriter:
 
     def write(self, picture: NDArray[np.uint8]) -> None:
         """Append a picture, (h, w, 3) RGB or (h, w)."""
-        bgr = picture if picture.ndim == 2 else picture[..., ::-1]
+        bgr = picture if picture.ndim == 2 else cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
         done, data = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, self._quality])
         assert done
         self._file.write(data.tobytes())

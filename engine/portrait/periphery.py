@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.person import believed_person
+from engine.perception.person import selfie_mask
 
-MOST_POINTS = 160
+MOST_POINTS = 100
 WORKING_HEIGHT = 360
 """Frames are tracked at about this height; points outside the face need no more."""
 FORWARD_BACKWARD = 1.0
@@ -18,6 +18,8 @@ ANCHOR = 3.0
 WINDOW = (21, 21)
 COARSE, NEAR = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
+ENOUGH = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
+"""A match is found after so many steps, or when a step is shorter than so many working pixels."""
 
 
 class PeripheryTracker:
@@ -70,38 +72,47 @@ class PeripheryTracker:
     def _step(self, grey: NDArray[np.uint8]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
         assert self._last is not None and self._first is not None
         last = self._points[-1]
-        moved, good = _lucas_kanade(self._last, grey, last, last, COARSE)
-        moved = np.where(good[:, None], moved, last).astype(np.float32)
+        moved, good = _match(self._last, grey, last, last, COARSE)
         # against the first frame, from where the track is now: takes the drift out
-        anchored, sound = _lucas_kanade(self._first, grey, self._start, moved, NEAR)
+        anchored, sound = _match(self._first, grey, self._start, moved, NEAR)
         sound &= np.linalg.norm(anchored - moved, axis=1) < ANCHOR
+        sound &= _comes_back(self._first, grey, self._start, anchored, NEAR)
+        loose = ~sound
+        if loose.any():
+            good[loose] &= _comes_back(self._last, grey, last[loose], moved[loose], COARSE)
+            moved[loose & ~good] = last[loose & ~good]
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
 
 
-def _lucas_kanade(
+def _match(
     a: NDArray[np.uint8], b: NDArray[np.uint8], points: NDArray[np.float32], guess: NDArray[np.float32], levels: int
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    there, ok, _ = cv2.calcOpticalFlowPyrLK(
+    """Where the surroundings of `points` (K, 2) in `a` are in `b`, looked for from `guess` on; and whether they were found."""
+    there, found, _ = cv2.calcOpticalFlowPyrLK(
         a,
         b,
         points[:, None],
         guess[:, None].copy(),
         winSize=WINDOW,
         maxLevel=levels,
+        criteria=ENOUGH,
         flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
     )
-    back, ok_back, _ = cv2.calcOpticalFlowPyrLK(
-        b, a, there, points[:, None].copy(), winSize=WINDOW, maxLevel=levels, flags=cv2.OPTFLOW_USE_INITIAL_FLOW
-    )
-    near = np.linalg.norm(back[:, 0] - points, axis=1) < FORWARD_BACKWARD
-    good = near & (ok[:, 0] == 1) & (ok_back[:, 0] == 1)
-    return np.asarray(there[:, 0], np.float32), np.asarray(good, bool)
+    return np.asarray(there[:, 0], np.float32), np.asarray(found[:, 0] == 1)
+
+
+def _comes_back(
+    a: NDArray[np.uint8], b: NDArray[np.uint8], points: NDArray[np.float32], there: NDArray[np.float32], levels: int
+) -> NDArray[np.bool_]:
+    """The forward-backward check: whether what was matched from `a` to `there` in `b` is matched back."""
+    back, found = _match(b, a, there, points, levels)
+    return found & (np.linalg.norm(back - points, axis=1) < FORWARD_BACKWARD)
 
 
 def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> NDArray[np.float32]:
     """Good features on the person, outside the face, at working scale (K, 2)."""
     small = np.asarray(cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA) if scale < 1 else rgb)
-    mask = (believed_person(np.asarray(small, np.uint8)) > 0.8).astype(np.uint8)
+    mask = (selfie_mask(np.asarray(small, np.uint8)) > 0.8).astype(np.uint8)
     cv2.fillConvexPoly(mask, cv2.convexHull((mesh[:, :2] * scale).round().astype(np.int32)), 0)
     mask = np.asarray(cv2.erode(mask, np.ones((5, 5), np.uint8)), np.uint8)
     grey = cv2.cvtColor(small, cv2.COLOR_RGB2GRAY)

@@ -70,8 +70,9 @@ def register_track(
         moved = cv2.remap(grey, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         moved = np.clip(moved * (light / _wide(np.asarray(moved))), 0, 255)
         aligned = np.where(origin[..., 0] > -1000, moved, reference).astype(np.uint8)
-        left = cv2.GaussianBlur(own.flow.calc(reference, aligned, None), (0, 0), SMOOTHING)
-        at = cv2.remap(left, rest[None, :, 0].copy(), rest[None, :, 1].copy(), cv2.INTER_LINEAR)[0]
+        half = cv2.resize(own.flow.calc(reference, aligned, None), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+        left = cv2.GaussianBlur(half, (0, 0), SMOOTHING / 2)
+        at = cv2.remap(left, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
         size = np.linalg.norm(at, axis=1, keepdims=True)
         at *= np.where(size < LARGEST, 1, 0)
         return np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
