@@ -139,10 +139,10 @@ class _Effort:
 
 def _effort(steps: int, level: _Level) -> _Effort:
     """Much where it is cheap and decides about structure; at full size the field only needs settling."""
+    if level.number == 0:
+        return _Effort(1, 1, 1)
     rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
-    if level.number > 0:
-        return _Effort(rounds, 2, tries)
-    return _Effort(1, 2, 2) if level.hole.size < 1_000_000 else _Effort(1, 1, 1)
+    return _Effort(rounds, 2, tries)
 
 
 def _refine(
@@ -179,14 +179,16 @@ def _start(
     """A first field: that of the coarser picture where it points to a source, else anywhere."""
     random = np.random.default_rng(seed)
     height, width = targets.shape
+    rows, columns = np.nonzero(targets)
     ys, xs = np.nonzero(sources)
-    pick = random.integers(0, len(ys), (height, width))
-    field = np.stack([ys[pick], xs[pick]], -1).astype(np.int32)
+    pick = random.integers(0, len(ys), len(rows))
+    points_to = np.column_stack([ys[pick], xs[pick]])
     if coarse is not None:
-        rows, columns = np.indices((height, width))
         up_y, up_x = np.minimum(rows // 2, coarse.shape[0] - 1), np.minimum(columns // 2, coarse.shape[1] - 1)
-        found = coarse[up_y, up_x] * 2 + np.stack([rows - 2 * up_y, columns - 2 * up_x], -1)
+        found = coarse[up_y, up_x] * 2 + np.column_stack([rows - 2 * up_y, columns - 2 * up_x])
         found = np.clip(found, 0, [height - 1, width - 1])
-        fits = sources[found[..., 0], found[..., 1]]
-        field = np.where(fits[..., None], found, field).astype(np.int32)
-    return np.ascontiguousarray(field)
+        fits = sources[found[:, 0], found[:, 1]]
+        points_to = np.where(fits[:, None], found, points_to)
+    field = np.zeros((height, width, 2), np.int32)
+    field[rows, columns] = points_to
+    return field
