@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.composite import doubled, over, warp_layer
+from engine.imaging.fold_edges import smooth_folds
 from engine.perception.landmarks import MESH_SIZE
 from engine.portrait.driver import DriverTrack
 from engine.portrait.eyes import draw_eye, prepare_eyes
@@ -25,6 +26,9 @@ from engine.portrait.target import Layers, TargetFace
 
 AHEAD = 2
 """Frames in the making for each thread: keeps all cores busy, holds little memory."""
+
+FOLD = 8.0
+"""Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +80,7 @@ class Renderer:
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], scale=2)
         layer = warp_layer(self._person, origin)
         frame = over(layer, self._plate)
+        smooth_folds(frame, origin, FOLD, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = (self._rig.control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE]).astype(np.float32)
         if self._creases > 0:
             ratio = 1 + self._creases * (ratio - 1)
