@@ -151,7 +151,8 @@ class Motion(Model):
     """A motion that a character's job can name: a built-in one, or one's own with what a check found in it.
 
     `mapping` says which of its joints moves which of a character's (a character's first), `missing` which of those
-    were not found: the option `motion_joints` of a job mends both.
+    were not found: the option `motion_joints` of a job mends both. `clips` are the animations of a GLB, one of which the
+    option `motion_clip` chooses.
     """
 
     name: str
@@ -165,6 +166,7 @@ class Motion(Model):
     created_at: datetime | None = None
     fps: float | None = None
     frames: int | None = None
+    clips: list[str] = []
     joints: list[MotionJoint] = []
     mapping: dict[str, str] = {}
     missing: list[str] = []

@@ -104,7 +104,7 @@ KIND = Kind(
     work=_work,
     correctable=(
         *("joints", "person_box", "person_index", "mask_strokes", "label_strokes"),
-        *("back_texture", "keep", "pose", "motion_joints"),
+        *("back_texture", "keep", "pose", "motion_joints", "motion_clip"),
     ),
     prepare=_prepare,
     rehearse=_rehearse,

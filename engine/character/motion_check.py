@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
-from engine.character.options import MotionJoints
+from engine.character.options import MotionClip, MotionJoints
 from engine.kind import Given, Input, Kind
 from engine.run import Run, write_report
 
@@ -25,18 +25,19 @@ class MotionOptions(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     motion_joints: MotionJoints = {}
+    motion_clip: MotionClip = None
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     """Leaves `motion.json` and `report.json` in `out`. A skeleton that is nobody's is told of, and no failure."""
     from engine.motion.check import check_motion  # the service reads KIND alone: it stays light
-    from engine.motion.reading import read_motion
+    from engine.motion.reading import motion_clips, read_motion
 
     path = inputs["motion"]
     assert isinstance(path, Path) and isinstance(options, MotionOptions)
     run.plan(STAGES)
     with run.timed("read"):
-        motion = read_motion(path)
+        motion = read_motion(path, options.motion_clip)
     with run.timed("map_joints"):
         checked = check_motion(motion, options.motion_joints)
     error = None
@@ -46,6 +47,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     figures = {"fps": round(checked.fps, 4), "frames": checked.frames, "seconds": round(checked.seconds, 3)}
     document = {
         **figures,
+        "clips": list(motion_clips(path)),
         "joints": [
             {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)
         ],
@@ -68,6 +70,6 @@ KIND = Kind(
     inputs=(Input("motion", "motion", "A BVH file, or a GLB with an animated skeleton."),),
     options=MotionOptions,
     work=_work,
-    correctable=("motion_joints",),
+    correctable=("motion_joints", "motion_clip"),
     prepare=_prepare,
 )

@@ -44,16 +44,20 @@ def choose_motion(
     seconds: float,
     fps: float,
     joints: Mapping[str, str | None] | None = None,
+    file_clip: str | None = None,
 ) -> Played:
     """The character's clips at `fps` frames a second, beginning from the pose `start`; parts of the body that are `kept`
-    stay as they are there. `joints` overrides which joint of a file's motion moves which.
+    stay as they are there. `joints` overrides which joint of a file's motion moves which, `file_clip` which of its animations is played.
 
     Raises
     ------
     InputError : what reading and mapping a file's motion may raise.
     """
     skeleton = character.mesh.skeleton
-    clip, mapping = (built_in(name, skeleton, fps), {}) if file is None else _carried_over(character, file, fps, joints)
+    if file is None:
+        clip, mapping = built_in(name, skeleton, fps), {}
+    else:
+        clip, mapping = _carried_over(character, file, fps, joints, file_clip)
     if kept:
         clip = keep(skeleton, clip, start, list(kept))
     length = seconds if clip.loops else None
@@ -89,9 +93,9 @@ def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, f
 
 
 def _carried_over(
-    character: Character, file: Path, fps: float, joints: Mapping[str, str | None] | None
+    character: Character, file: Path, fps: float, joints: Mapping[str, str | None] | None, clip_name: str | None
 ) -> tuple[Clip, dict[str, str]]:
-    carried = retarget(read_motion(file), character.mesh.skeleton, joints, fps=fps)
+    carried = retarget(read_motion(file, clip_name), character.mesh.skeleton, joints, fps=fps)
     clip = carried.clip
     if len(clip.rotations) < 1:
         raise InputError("motion_empty", "The motion has no frames: send one that has.")

@@ -21,6 +21,13 @@ MotionJoints = Annotated[
         description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
     ),
 ]
+MotionClip = Annotated[
+    str | None,
+    Field(
+        max_length=200,
+        description="Which of a GLB's animations is played, by its name; by default the first in which something moves.",
+    ),
+]
 BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg", "arms", "legs"]
 
 
@@ -56,6 +63,7 @@ class CharacterOptions(BaseModel):
 
     motion: Motion = Field("walk", description="The clip into which the person steps, where no file is given.")
     motion_joints: MotionJoints = {}
+    motion_clip: MotionClip = None
     keep: tuple[BodyPart, ...] = Field((), description="Parts of the body that stay as pictured.")
     seconds: Annotated[float, Field(ge=1, le=30)] = Field(4.0, description="Length of the video, at most.")
     size: tuple[Side, Side] | None = Field(
@@ -74,6 +82,9 @@ class CharacterOptions(BaseModel):
         0, description="Further levels of detail, each with a quarter of the triangles: character-lod1.glb and so on."
     )
     vrm: bool = Field(False, description="Write the character as VRM 1.0, too.")
+    vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
+        "Galatea", description="Whose the character is, as its VRM file says: nobody else may use it without asking."
+    )
     partial: bool = Field(
         False, description="Accept a person whose legs are cut off or hidden, and animate what is there."
     )

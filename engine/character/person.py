@@ -30,4 +30,5 @@ class Person:
         self.played = choose_motion(
             *(self.character, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
             options.motion_joints,
+            options.motion_clip,
         )

@@ -155,7 +155,7 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
         write_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, synthetic=marked)
     write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
     if options.vrm:
-        write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=("Galatea",)), synthetic=marked)
+        write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=(options.vrm_author,)), synthetic=marked)
 
 
 def _file(inputs: Mapping[str, Given], name: str) -> Path | None:

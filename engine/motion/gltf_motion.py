@@ -62,7 +62,12 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
         raise InputError("motion_without_skeleton", "The glTF file has no skeleton: export a character with its bones.")
     names = _clip_names(file)
     if clip is not None and clip not in names:
-        raise InputError("motion_clip_unknown", f"The file has no animation {clip!r}.", found={"clips": list(names)})
+        raise InputError(
+            "motion_clip_unknown",
+            f"The file has no animation “{clip[:40]}”: choose one of those that it has.",
+            ("motion_clip",),
+            {"clips": list(names)},
+        )
     chosen = names.index(clip) if clip is not None else _first_that_moves(file, animations)
     nodes = _skeleton_nodes(parents, order, skinned or _turned(animations[chosen]))
     if len(nodes) > MAX_JOINTS:

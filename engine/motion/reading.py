@@ -4,18 +4,42 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from engine.errors import InputError
 from engine.motion.bvh import read_bvh
-from engine.motion.gltf_motion import read_gltf_motion
+from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
 from engine.motion.source_motion import SourceMotion
 
 
-def read_motion(path: Path) -> SourceMotion:
-    """Read a BVH file, or a GLB with an animated skeleton, told apart by their first bytes.
+def read_motion(path: Path, clip: str | None = None) -> SourceMotion:
+    """Read a BVH file, or a GLB with an animated skeleton, told apart by their first bytes; of a GLB the animation named
+    `clip`, or the first in which something moves.
 
     Raises
     ------
-    InputError : see `read_bvh` and `read_gltf_motion`.
+    InputError : see `read_bvh` and `read_gltf_motion`; `motion_clip_unknown` for a clip of a BVH file, too.
     """
+    if _is_gltf(path):
+        return read_gltf_motion(path, clip)
+    if clip is not None:
+        raise InputError(
+            "motion_clip_unknown",
+            "A BVH file holds one motion without a name: leave motion_clip out.",
+            ("motion_clip",),
+            {"clips": []},
+        )
+    return read_bvh(path)
+
+
+def motion_clips(path: Path) -> tuple[str, ...]:
+    """The names of a file's animations: none for a BVH file, which holds one without a name.
+
+    Raises
+    ------
+    InputError : see `gltf_clips`.
+    """
+    return gltf_clips(path) if _is_gltf(path) else ()
+
+
+def _is_gltf(path: Path) -> bool:
     with path.open("rb") as file:
-        head = file.read(4)
-    return read_gltf_motion(path) if head == b"glTF" else read_bvh(path)
+        return file.read(4) == b"glTF"

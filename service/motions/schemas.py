@@ -31,6 +31,8 @@ class MotionOut(BaseModel):
     fps: float | None = None
     """Frames a second of the file."""
     frames: int | None = None
+    clips: list[str] = []
+    """The animations in a GLB, by their names: the option `motion_clip` of a job says which is played."""
     joints: list[MotionJoint] = []
     """The skeleton in the file."""
     mapping: dict[str, str] = {}

@@ -16,6 +16,8 @@ from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
+from engine.motion import rotation
+from engine.motion.gltf_motion import read_gltf_motion
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "export"))
 from glb_reader import Glb, validate
@@ -35,7 +37,7 @@ def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def woken(picture: Path) -> Path:
-    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True)
+    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True, vrm_author="Ada")
 
 
 def test_everything_is_left(woken: Path) -> None:
@@ -97,6 +99,20 @@ def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_p
     out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1)
     names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
     assert names == ["pictured", "step_out", "motion", "motion_in_place", "idle"]
+
+
+def test_one_animation_of_several_is_played(picture: Path, woken: Path, tmp_path: Path) -> None:
+    """A character's own clip, taken from its file, moves it as before: turned joint for turned joint."""
+    out = wake_up(picture, tmp_path / "out", woken / "character.glb", seconds=1, motion_clip="walk")
+    before, after = read_gltf_motion(woken / "character.glb", "walk"), read_gltf_motion(out / "character.glb", "motion")
+    arm = before.names.index("LeftArm")  # legs are bent a little anew, so that feet stand
+    assert len(after.rotations) == len(before.rotations)
+    apart = rotation.multiply(after.rotations[:, arm], rotation.inverse(before.rotations[:, arm]))
+    assert np.degrees(rotation.angle(apart)).max() < 3
+
+
+def test_the_vrm_says_whose_it_is(woken: Path) -> None:
+    assert Glb(woken / "character.vrm").json["extensions"]["VRMC_vrm"]["meta"]["authors"] == ["Ada"]
 
 
 def refused(tmp_path: Path, photo: Path, motion: Path | None = None, **options: object) -> InputError:

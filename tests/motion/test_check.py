@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,13 +11,16 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton, told_by
 
+from engine.character.motion_check import KIND, MotionOptions
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.check import check_motion
+from engine.motion.gltf_motion import read_gltf_motion
 from engine.motion.library import built_in
-from engine.motion.reading import read_motion
+from engine.motion.reading import motion_clips, read_motion
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
+from engine.run import Run
 
 
 @pytest.fixture
@@ -71,6 +75,29 @@ def test_files_are_told_apart_by_how_they_begin(media: Callable[[str], Path], tm
     with pytest.raises(InputError) as error:
         read_motion(tmp_path / "a.bvh")
     assert error.value.code == "motion_unreadable"
+
+
+def test_one_of_several_animations_is_chosen(media: Callable[[str], Path], tmp_path: Path) -> None:
+    """The job kind `motion` tells of all by their names, and looks at the one that is meant."""
+    soldier = media("scans3d/body_soldier/soldier.glb")
+    told = {}
+    for clip in (None, "Run", "Walk"):
+        KIND.work({"motion": soldier}, MotionOptions(motion_clip=clip), tmp_path, Run())
+        told[clip] = json.loads((tmp_path / "motion.json").read_text())
+        assert told[clip]["clips"] == ["Idle", "Run", "TPose", "Walk"]
+    assert told[None]["frames"] == len(read_gltf_motion(soldier, "Idle").rotations)
+    assert len({document["seconds"] for document in told.values()}) == 3
+    with pytest.raises(InputError) as error:
+        KIND.work({"motion": soldier}, MotionOptions(motion_clip="Swim"), tmp_path, Run())
+    assert (error.value.code, error.value.correctable) == ("motion_clip_unknown", KIND.correctable[1:])
+
+
+def test_a_bvh_file_has_no_animations_to_choose_among(media: Callable[[str], Path]) -> None:
+    jumping = media("mocap/cmu_jumping_jacks.bvh")
+    assert motion_clips(jumping) == ()
+    with pytest.raises(InputError) as error:
+        read_motion(jumping, "Jump")
+    assert (error.value.code, error.value.found) == ("motion_clip_unknown", {"clips": []})
 
 
 def test_renamed_joints_need_overrides_where_their_shape_says_nothing() -> None:

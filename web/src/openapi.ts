@@ -1210,6 +1210,8 @@ export interface components {
             fps?: number | null;
             frames?: number | null;
             /** @default [] */
+            clips?: string[];
+            /** @default [] */
             joints?: components["schemas"]["MotionJoint"][];
             /** @default {} */
             mapping?: {
@@ -1380,6 +1382,11 @@ export interface components {
                 [key: string]: string | null;
             };
             /**
+             * @description Which of a GLB's animations is played, by its name; by default the first in which something moves.
+             * @default null
+             */
+            motion_clip?: string | null;
+            /**
              * @description Parts of the body that stay as pictured.
              * @default []
              */
@@ -1429,6 +1436,11 @@ export interface components {
              * @default false
              */
             vrm?: boolean;
+            /**
+             * @description Whose the character is, as its VRM file says: nobody else may use it without asking.
+             * @default Galatea
+             */
+            vrm_author?: string;
             /**
              * @description Accept a person whose legs are cut off or hidden, and animate what is there.
              * @default false
@@ -1555,6 +1567,11 @@ export interface components {
             motion_joints?: {
                 [key: string]: string | null;
             };
+            /**
+             * @description Which of a GLB's animations is played, by its name; by default the first in which something moves.
+             * @default null
+             */
+            motion_clip?: string | null;
         };
         /** @description Options of the portrait system; every one has a sound default. */
         PortraitOptions: {

@@ -25,6 +25,7 @@ export const failures = {
     motion_without_animation: 'Nothing moves in the motion',
     motion_not_humanoid: 'The motion is not that of a person',
     motion_joint_unknown: 'The motion has no such joint',
+    motion_clip_unknown: 'The motion’s file has no such animation',
     mask_size: 'The mask is not as large as the picture',
     labels_size: 'The map of the parts is not as large as the picture',
     no_face_in_driver: 'No face was found in the performance',
