@@ -54,8 +54,9 @@ def choose_motion(
     InputError : what reading and mapping a file's motion may raise.
     """
     skeleton = character.mesh.skeleton
+    mapping: dict[str, str] = {}
     if file is None:
-        clip, mapping = built_in(name, skeleton, fps), {}
+        clip = built_in(name, skeleton, fps)
     else:
         clip, mapping = _carried_over(character, file, fps, joints, file_clip)
     if kept:
