@@ -34,7 +34,7 @@ def smooth_folds(
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
 def _face_down(moved, triangles):  # type: ignore[no-untyped-def]
-    """The box (left, top), (right, bottom) around the triangles that are turned over; far apart the wrong way round if none is."""
+    """The box (left, top), (right, bottom) around the triangles that are turned over; right of left none if there are none."""
     area = np.zeros(len(triangles), np.float32)
     for t in range(len(triangles)):
         a, b, c = triangles[t]

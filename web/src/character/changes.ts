@@ -27,6 +27,8 @@ export interface Wishes extends Choices {
   labelsFile: File | Held | null;
   motion: Motion | Held;
   motionJoints: MotionJoints;
+  /** The animation that was chosen in the job's own motion; another motion has others. */
+  motionClip: string | null;
   pose: Pose;
 }
 
@@ -60,6 +62,7 @@ export function wishesOf(job: Job): Wishes {
     labelsFile: held('labels'),
     motion: held('motion') ?? { by: 'name', name: made.motion ?? USUAL_MOTION },
     motionJoints: made.motion_joints ?? {},
+    motionClip: made.motion_clip ?? null,
     pose: (made.pose as Pose | undefined) ?? {},
   };
 }
@@ -87,6 +90,7 @@ export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterCha
     ...(!same(before.labels, now.labels) && { label_strokes: filled(now.labels) }),
     ...(renamed && before.motion.by === 'held' && { motion: null }),
     ...(motion.by === 'kept' && { motion: motion.name }),
+    ...(before.motionClip && !same(before.motion, motion) && { motion_clip: null }),
     ...(!same(before.motionJoints, now.motionJoints) && { motion_joints: filled(now.motionJoints) }),
     ...sent,
   };
