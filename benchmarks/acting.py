@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.portrait.driver import DriverTrack, track_driver
-from engine.portrait.fine_details import RatioImages
+from engine.portrait.fine_details import RatioImages, keep_ratio_images
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer
 from engine.portrait.rig import Rig, rig_target
+from engine.portrait.second_look import glance_at_driver, look_again
 from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
 
 
@@ -32,11 +33,19 @@ class Acting:
     layers: Layers
     rig: Rig
     options: PortraitOptions
+    looked: bool = True
+    """Whether a second look corrects it."""
 
     def frames(self, parts: Parts = ALL_PARTS, refined: bool = True, step: int = 1) -> Iterator[NDArray[np.uint8]]:
         """Every `step`-th frame of the animation; the others are not drawn."""
-        renderer = Renderer(self.track, self.neutral, self.target, self.layers, self.rig, self.options, parts)
-        ratios = RatioImages(self.track, self.neutral, outliers=refined, refined=refined)
+        given = self.track, self.neutral
+        setting = self.target, self.layers, self.rig, self.options
+        misfit = None
+        if self.looked:
+            glances, strip = glance_at_driver(*given), keep_ratio_images(*given)
+            misfit = look_again(*given, glances, strip, *setting)
+        renderer = Renderer(*given, *setting, misfit=misfit, parts=parts)
+        ratios = RatioImages(*given, outliers=refined, refined=refined)
         moments = zip(renderer.motions(), ratios, strict=True)
         with ThreadPoolExecutor() as pool:
             drawn = [pool.submit(renderer.draw, motion, ratio) for motion, ratio in moments if motion.frame % step == 0]

@@ -34,6 +34,7 @@ WARP = Parts(layers=False, hidden=False, details=False, eyes=False)
 PLANE, SPACE = {"head_3d": False}, {"head_3d": True}
 SMOOTHING = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
 FULL = "+ full ratio image"
+ALL = "+ second look (all)"
 ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
     ("warp, no smoothing", WARP, PLANE),
     ("warp, constant smoothing", WARP, PLANE),
@@ -43,7 +44,8 @@ ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
     ("+ refined ratio image", replace(WARP, hidden=True, details=True), PLANE),
     ("+ layers", replace(WARP, hidden=True, details=True, layers=True), PLANE),
     ("+ eyes", Parts(), PLANE),
-    ("+ 3D head (all)", Parts(), SPACE),
+    ("+ 3D head", Parts(), SPACE),
+    (ALL, Parts(), SPACE),
 )
 
 
@@ -81,9 +83,10 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
         with TemporaryDirectory() as folder:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
             kept = true[::STEP]
-            for label, parts, options in ABLATIONS:
+            for label, parts, space in ABLATIONS:
                 rig = rig_target(acting.target, acting.layers, SMOOTHING.get(label, "confidence"))
-                varied = replace(acting, rig=rig, options=acting.options.model_copy(update=options))
+                options = acting.options.model_copy(update=space)
+                varied = replace(acting, rig=rig, options=options, looked=label == ALL)
                 made = list(varied.frames(parts, refined=label != FULL, step=STEP))
                 regions = _regional(kept, made)
                 figures[label].append([*_measures(kept, made), *(regions[r] for r in REGIONS)])

@@ -47,7 +47,7 @@ def main() -> None:
     frame = round(SECONDS * track.fps)
 
     def drawn(parts: Parts) -> Picture:
-        renderer = Renderer(track, neutral, target, layers, rig, options, parts)
+        renderer = Renderer(track, neutral, target, layers, rig, options, parts=parts)
         motion = next(one for one in renderer.motions() if one.frame == frame)
         return renderer.draw(motion, ratios[frame])
 

@@ -25,11 +25,22 @@ def smooth_folds(
     moved, triangles : the mesh (V, 2), (T, 3) that made the map; where it folds, triangles lie face down.
     """
     height, width = frame.shape[:2]
-    low, high = _face_down(moved, triangles)
-    left, top = np.clip(low, 1, (width, height)).astype(int).tolist()
-    right, bottom = np.clip(high + 2, 0, (width - 1, height - 1)).astype(int).tolist()
+    left, top, right, bottom = folded(moved, triangles, (height, width))
+    left, top, right, bottom = max(left, 1), max(top, 1), min(right, width - 1), min(bottom, height - 1)
     if left < right and top < bottom:
         _smooth(frame, frame[top - 1 : bottom + 1, left - 1 : right + 1].copy(), origin, left, top, np.float32(jump))
+
+
+def folded(
+    moved: NDArray[np.float32], triangles: NDArray[np.int32], shape: tuple[int, int]
+) -> tuple[int, int, int, int]:
+    """The box (left, top, right, bottom) of the pixels of a picture (height, width) where a mesh (V, 2), (T, 3) folds
+    over itself; right of left and below the top none if it does not. It is one sheet whose border stays: where it lies
+    double, a triangle lies face down."""
+    low, high = _face_down(moved, triangles)
+    left, top = np.clip(low, 0, shape[::-1]).astype(int).tolist()
+    right, bottom = np.clip(high + 2, 0, shape[::-1]).astype(int).tolist()
+    return left, top, right, bottom
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)

@@ -18,9 +18,9 @@ SETTLING_PASSES = 3
 class FaceTracker:
     """Follows the faces of a video, frame by frame. Use as a context manager."""
 
-    def __init__(self, faces: int = 1, confidence: float = 0.3):
-        self._mesh = _face_mesh(faces, confidence)
-        self._following = False
+    def __init__(self, faces: int = 1, confidence: float = 0.3, alone: bool = False):
+        self._mesh = _face_mesh(faces, confidence, alone)
+        self._alone = self._following = alone
 
     def __enter__(self) -> FaceTracker:
         return self
@@ -47,7 +47,7 @@ class FaceTracker:
         if found and not self._following:
             for _ in range(SETTLING_PASSES):
                 found = self._mesh.process(rgb).multi_face_landmarks or found
-        self._following = bool(found)
+        self._following = bool(found) or self._alone
         meshes = [_pixels(face, rgb.shape[:2]) for face in found]
         return sorted(meshes, key=_area, reverse=True)
 
@@ -96,10 +96,10 @@ def _detect(rgb: NDArray[np.uint8], confidence: float) -> list[NDArray[np.float6
     return boxes
 
 
-def _face_mesh(faces: int, confidence: float) -> Any:
+def _face_mesh(faces: int, confidence: float, alone: bool) -> Any:
 
     return solution("face_mesh").FaceMesh(
-        static_image_mode=False,
+        static_image_mode=alone,
         refine_landmarks=True,
         max_num_faces=faces,
         min_detection_confidence=confidence,

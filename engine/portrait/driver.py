@@ -102,7 +102,7 @@ def track_driver(
             found.append(bool(faces))
             mesh = faces[0] if faces else (meshes[-1] if meshes else np.full((MESH_SIZE, 3), np.nan, np.float32))
             meshes.append(mesh)
-            places.append(_crop_place(mesh) if np.isfinite(mesh).all() else np.eye(2, 3))
+            places.append(crop_place(mesh) if np.isfinite(mesh).all() else np.eye(2, 3))
             crop = cv2.warpAffine(
                 frame.rgb, places[-1], CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
             )
@@ -140,7 +140,8 @@ def track_driver(
     )
 
 
-def _crop_place(mesh: NDArray[np.float32]) -> NDArray[np.float64]:
+def crop_place(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2, 3): carries pixels of a picture with a face at `mesh` (478, 2 or 3) to pixels of the crop, upright by the eyes."""
     eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])
     return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
 

@@ -19,6 +19,7 @@ from engine.portrait.eyes import gaze
 from engine.portrait.head_motion import HeadMotion, split_motion, turns
 from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
+from engine.portrait.misfit import Misfit
 from engine.portrait.options import Part, PortraitOptions
 
 PLANE_SHARE = 0.65
@@ -56,8 +57,9 @@ def carry_motion(
     control: ControlPoints,
     proxy: HeadProxy | None,
     options: PortraitOptions,
+    misfit: Misfit | None = None,
 ) -> Iterator[ControlMotion]:
-    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D.
+    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `misfit`.
 
     Parameters
     ----------
@@ -71,6 +73,7 @@ def carry_motion(
     rim = rim_distance(target, control.points[control.periphery]) / unit
     head = options.strength if "head" in options.follow else 0.0
     eyes = options.strength if "eyes" in options.follow else 0.0
+    correct = min(options.strength, 1.0) * follow
     for start in range(0, len(track), CHUNK):
         some = slice(start, min(start + CHUNK, len(track)))
         motion = split_motion(track.meshes[some], rest)
@@ -92,6 +95,9 @@ def carry_motion(
         else:
             frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
         for k, (offsets, depth) in enumerate(frames):
+            if misfit is not None:
+                placed = control.points[:MESH_SIZE] + offsets[:MESH_SIZE]
+                offsets[:MESH_SIZE] += correct[:, None] * misfit.correction(track.in_crop(start + k), placed)
             yield ControlMotion(start + k, offsets, depth, look[k].astype(np.float32))
 
 

@@ -84,3 +84,7 @@ class PortraitOptions(BaseModel):
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
         kept = {name: getattr(self, name) for name in ("size", "crop", "face_index", "landmarks")}
         return PortraitOptions.model_validate({**kept, "reactive": bool(self.reactive)})
+
+    def acting(self) -> PortraitOptions:
+        """Only what decides on how the target moves, so that other choices leave what a second look found as it is."""
+        return PortraitOptions.model_validate({name: getattr(self, name) for name in ("strength", "follow", "head_3d")})

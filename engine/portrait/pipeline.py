@@ -20,11 +20,13 @@ from engine.portrait.choice import choose_driver
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.fine_details import RatioStrip, keep_ratio_images
 from engine.portrait.loop import close_loop
+from engine.portrait.misfit import Misfit
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import render
 from engine.portrait.rig import Rig, rig_target
+from engine.portrait.second_look import Glances, glance_at_driver, look_again
 from engine.portrait.target import Layers, TargetFace, find_target_face, in_pixels, separate_layers
 from engine.run import Beside, Run, write_report
 
@@ -33,8 +35,10 @@ STAGES = {
     "track_driver": 12.0,
     "register_driver": 3.0,
     "ratio_images": 3.0,
+    "glance_at_driver": 0.5,
     "separate_layers": 1.0,
     "rig_target": 0.5,
+    "look_again": 1.0,
     "animate": 12.0,
 }
 """The stages and their usual share of the time."""
@@ -62,8 +66,9 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
     track, neutral = performed.track, performed.neutral
     layers, rig = prepared.layers(), prepared.rig()
     height, width = target.rgb.shape[:2]
+    misfit = performed.look_again(target, layers, rig, options, run)
     with run.timed("animate"):
-        frames = render(track, neutral, performed.ratios, target, layers, rig, options)
+        frames = render(track, neutral, performed.ratios, target, layers, rig, options, misfit)
         name = _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
     write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(
@@ -105,11 +110,19 @@ def prepare_target(image: Path, options: PortraitOptions, out: Path, run: Run) -
 
 @dataclass(frozen=True)
 class Performed:
-    """A driver's performance: its `track` on the skin, its `neutral` frame, its `ratios`."""
+    """A driver's performance: its `track` on the skin, its `neutral` frame, its `ratios`, the `glances` at it."""
 
     track: DriverTrack
     neutral: int
     ratios: RatioStrip
+    glances: Glances
+
+    def look_again(
+        self, target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, run: Run
+    ) -> Misfit:  # fmt: skip
+        """What is amiss where a target acts this out."""
+        seen = self.track, self.neutral, self.glances, self.ratios
+        return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting())
 
 
 def analyse_driver(
@@ -127,8 +140,9 @@ def analyse_driver(
     track = replace(track, meshes=registration.meshes)
     if loop:
         track = close_loop(track)
+    ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
     return Performed(
-        track, neutral, run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
+        track, neutral, ratios, run.stage("glance_at_driver", glance_at_driver, track, neutral, shared=True)
     )
 
 

@@ -19,6 +19,7 @@ from engine.portrait.eyes import draw_eye, prepare_eyes
 from engine.portrait.fine_details import shade
 from engine.portrait.head_proxy import build_head_proxy
 from engine.portrait.hidden_regions import match_palette, transfer_mouth
+from engine.portrait.misfit import Misfit
 from engine.portrait.motion import ControlMotion, carry_motion
 from engine.portrait.options import PortraitOptions
 from engine.portrait.rig import Rig
@@ -55,9 +56,10 @@ class Renderer:
         layers: Layers,
         rig: Rig,
         options: PortraitOptions,
+        misfit: Misfit | None = None,
         parts: Parts = ALL_PARTS,
     ):
-        self._track, self._neutral, self._target, self._rig = track, neutral, target, rig
+        self._track, self._neutral, self._target, self._rig, self._misfit = track, neutral, target, rig, misfit
         self._options, self._parts = options, parts
         opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
         self._person = doubled(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
@@ -71,8 +73,16 @@ class Renderer:
 
     def motions(self) -> Iterator[ControlMotion]:
         """Where the control points go, frame by frame (section 4)."""
+        return self.carry(self._track, self._neutral)
+
+    def carry(self, track: DriverTrack, neutral: int) -> Iterator[ControlMotion]:
+        """Where a track of the driver, or of some of its frames, carries the control points."""
         proxy = build_head_proxy(self._rig.control.points, self._target.mesh) if self._options.head_3d else None
-        return carry_motion(self._track, self._neutral, self._target.mesh, self._rig.control, proxy, self._options)
+        return carry_motion(track, neutral, self._target.mesh, self._rig.control, proxy, self._options, self._misfit)
+
+    def face(self, motion: ControlMotion) -> NDArray[np.float32]:
+        """(478, 2) where a motion puts the face's points, pixels."""
+        return np.asarray(self._rig.control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE], np.float32)
 
     def draw(self, motion: ControlMotion, ratio: NDArray[np.float32]) -> NDArray[np.uint8]:
         """One frame: the warp, the plate behind, the creases, the eyes, the mouth's inside."""
@@ -81,7 +91,7 @@ class Renderer:
         layer = warp_layer(self._person, origin)
         frame = over(layer, self._plate)
         smooth_folds(frame, origin, FOLD, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
-        face = (self._rig.control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE]).astype(np.float32)
+        face = self.face(motion)
         if self._creases > 0:
             ratio = 1 + self._creases * (ratio - 1)
             shade(frame, self._rig.details, self._landing, ratio, origin, scale=2, within=face)
@@ -103,14 +113,16 @@ def render(
     layers: Layers,
     rig: Rig,
     options: PortraitOptions,
+    misfit: Misfit | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
     """The target acting out the driver: one (H, W, 3) uint8 frame for each frame of the driver.
 
-    `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame. A cut-out target gives (H, W, 4)
+    `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame; `misfit` corrects what a second look
+    found amiss. A cut-out target gives (H, W, 4)
     where the format can hold its alpha. Frames are drawn side by side on all cores and given in order; memory does
     not grow with the length.
     """
-    renderer = Renderer(track, neutral, target, layers, rig, options)
+    renderer = Renderer(track, neutral, target, layers, rig, options, misfit)
     yield from draw_in_order(renderer, zip(renderer.motions(), ratios, strict=True))
 
 

@@ -11,6 +11,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.fold_edges import folded
 from engine.imaging.mesh_warp import inverse_map
 
 
@@ -41,10 +42,19 @@ class WarpMesh:
     ) -> NDArray[np.float32]:
         """(H, W, 2): for each pixel of the output its origin in the image, for vertex offsets (V, 2).
 
-        `scale` gives the origin in pixels of the image enlarged by that factor.
+        `scale` gives the origin in pixels of the image enlarged by that factor. `depth` (V,) decides where the mesh
+        folds over itself: the nearest is seen.
         """
         source = scale * (self.vertices + np.float32(0.5)) - np.float32(0.5)
-        return inverse_map(self.vertices + offsets, source, self.triangles, self.shape, depth)
+        moved = self.vertices + offsets
+        origin = inverse_map(moved, source, self.triangles, self.shape)
+        left, top, right, bottom = folded(moved, self.triangles, self.shape)
+        if depth is not None and left < right and top < bottom:
+            corner = np.array([left, top], np.float32)
+            origin[top:bottom, left:right] = inverse_map(
+                moved - corner, source, self.triangles, (bottom - top, right - left), depth
+            )
+        return origin
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)

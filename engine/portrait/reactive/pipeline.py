@@ -17,6 +17,7 @@ from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
 from engine.portrait.fine_details import RatioStrip
 from engine.portrait.head_proxy import build_head_proxy
+from engine.portrait.misfit import Misfit
 from engine.portrait.motion import carry_motion
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
@@ -33,7 +34,7 @@ from engine.run import Run, write_report
 
 MOST_SECONDS = 20.0
 """Of a driving video of the user's own: a page loads the clip and all ways out of it."""
-PER_DRIVER = ("track_driver", "register_driver", "ratio_images", "animate")
+PER_DRIVER = ("track_driver", "register_driver", "ratio_images", "glance_at_driver", "look_again", "animate")
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,8 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     fps = options.fps or float(FPS)
     performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
     layers, rig = prepared.layers(), prepared.rig()
-    acts = plan_acts(states, performed, prepared.face, rig, options)
+    misfits = [one.look_again(prepared.face, layers, rig, options, run) for one in performed]
+    acts = plan_acts(states, performed, misfits, prepared.face, rig, options)
     _draw(acts, prepared.face, layers, rig, options, fps, out, run)
     profile = _describe(acts, prepared.face, fps)
     (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
@@ -111,13 +113,18 @@ def _frame(state: State, fps: float) -> float:
 
 
 def plan_acts(
-    states: Sequence[State], performed: Sequence[Performed], target: TargetFace, rig: Rig, options: PortraitOptions
+    states: Sequence[State],
+    performed: Sequence[Performed],
+    misfits: Sequence[Misfit | None],
+    target: TargetFace,
+    rig: Rig,
+    options: PortraitOptions,
 ) -> list[Act]:
     """The poses of all states, and the ways out of them, before anything is drawn."""
     proxy = build_head_proxy(rig.control.points, target.mesh) if options.head_3d else None
     poses, rests = [], []
-    for state, one in zip(states, performed, strict=True):
-        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options))
+    for state, one, misfit in zip(states, performed, misfits, strict=True):
+        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options, misfit))
         rests.append(motions[one.neutral].depth)
         poses.append(excursion(motions, rests[-1], one.track.fps, state.loops))
     steps = [longest_step(one, state.loops) for state, one in zip(states, poses, strict=True)]

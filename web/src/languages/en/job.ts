@@ -151,6 +151,8 @@ export const job = {
     track_driver: 'Watching the performance',
     register_driver: 'Following the skin',
     ratio_images: 'Finding creases and wrinkles',
+    glance_at_driver: 'Looking at the performance',
+    look_again: 'Comparing the face with the performance',
     animate: 'Animating',
     find_figure: 'Finding the person',
     cut_out: 'Cutting the person out',

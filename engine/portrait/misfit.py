@@ -1,0 +1,89 @@
+"""What is amiss on a made face where a tracker looks at it (see `second_look`), and what is done about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
+from engine.portrait.driver import CROP_EYES, crop_place
+from engine.portrait.lids_and_lips import LID_SKIN, LIDS, LIPS
+
+UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
+"""Eye distance in the crop, pixels."""
+SHARE = 0.5
+"""How much of what is amiss is corrected: the rest is the tracker's own scatter."""
+ALIKE = 0.05
+"""Root mean square distance of two faces' points, in eye distances, at which the frames are alike."""
+SCATTER = 0.1
+"""Ridge of the regression: the tracker's scatter in what it finds amiss."""
+MOST = 0.08
+"""Eye distances: more than this is the tracker's error."""
+PARTED = 0.08
+"""Eye distances between two lips or lids from which each is corrected by itself; closed ones move as one."""
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """What was amiss on the frames that were looked at, as a kernel ridge regression.
+
+    faces : (K, 956) float32, the driver's face on them. weights : (K, 956) float32. Both in eye distances, upright.
+    """
+
+    faces: NDArray[np.float32]
+    weights: NDArray[np.float32]
+
+    def correction(self, face: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.float32]:
+        """What corrects a frame's points: (478, 2) offsets, pixels of the target.
+
+        Parameters
+        ----------
+        face : (478, 2) the driver's face in its crop. placed : (478, 2) the target's points as they were carried.
+        """
+        amiss = (_likeness(flat(face[None]), self.faces) @ self.weights).reshape(MESH_SIZE, 2)
+        back = np.linalg.inv(crop_place(placed)[:, :2])
+        offsets = -SHARE * UNIT * amiss @ back.T
+        unit = UNIT * float(np.linalg.norm(back[:, 0]))
+        return np.asarray(_keep_closed(offsets, placed, unit), np.float32)
+
+
+def fit_misfit(faces: NDArray[np.floating], amiss: NDArray[np.floating]) -> Misfit:
+    """From what was `amiss` (K, 478, 2) on frames of the driver with these `faces` (K, 478, 2), pixels of its crop."""
+    known = flat(faces)
+    size = np.linalg.norm(amiss, axis=2, keepdims=True) / UNIT
+    believed = flat(amiss * np.minimum(1, MOST / np.maximum(size, 1e-6)))
+    weights = np.linalg.solve(_likeness(known, known) + SCATTER * np.eye(len(known)), believed)
+    return Misfit(known, weights.astype(np.float32))
+
+
+def no_misfit() -> Misfit:
+    """Nothing amiss anywhere."""
+    return Misfit(np.zeros((0, 2 * MESH_SIZE), np.float32), np.zeros((0, 2 * MESH_SIZE), np.float32))
+
+
+def flat(faces: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(K, 478, 2) pixels of the crop as (K, 956) eye distances."""
+    return np.asarray(faces.reshape(len(faces), -1) / UNIT, np.float32)
+
+
+def _likeness(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(N, K) from 0 to 1 for the same face, between faces (N, 956) and (K, 956)."""
+    apart = ((a[:, None] - b) ** 2).mean(axis=2)
+    return np.asarray(np.exp(-apart / (2 * ALIKE**2)), np.float32)
+
+
+def _keep_closed(offsets: NDArray[np.floating], placed: NDArray[np.floating], unit: float) -> NDArray[np.floating]:
+    """Lips and lids that are closed stay so: both sides take the mean. Irises and the lids' skin go with their eye."""
+    down = placed[152] - placed[10]
+    top, bottom = np.array(LIPS + LIDS).T
+    gap = (placed[bottom] - placed[top]) @ (down / np.linalg.norm(down))
+    middle, apart = (offsets[top] + offsets[bottom]) / 2, (offsets[bottom] - offsets[top]) / 2
+    apart = apart * np.clip(gap / (PARTED * unit), 0, 1)[:, None]
+    offsets[top], offsets[bottom] = middle - apart, middle + apart
+    skin, edge = np.array(LID_SKIN).T
+    offsets[skin] = offsets[edge]
+    for eye, iris in ((RIGHT_EYE, RIGHT_IRIS), (LEFT_EYE, LEFT_IRIS)):
+        offsets[list(iris)] = offsets[list(eye)].mean(axis=0)
+    return offsets

@@ -1,0 +1,106 @@
+"""A second look: what a tracker sees in the made face is held against what it sees in the driver's.
+
+Control points go where they should, and still the made face may look otherwise: a nose that was carried to the side
+keeps the shading of a nose seen from the front, and seems turned by less. So a few frames are drawn, tracked, and
+compared with the driver's own, both in the same crop and by the same eye: its errors cancel. What is left corrects
+all frames, each by those that it resembles.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from threading import local
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import MESH_SIZE
+from engine.portrait.driver import CROP, DriverTrack, crop_place
+from engine.portrait.fine_details import RatioStrip
+from engine.portrait.misfit import Misfit, fit_misfit, flat, no_misfit
+from engine.portrait.options import PortraitOptions
+from engine.portrait.render import Renderer
+from engine.portrait.rig import Rig
+from engine.portrait.target import Layers, TargetFace
+
+LOOKS = 16
+"""Frames that are looked at, besides the neutral one."""
+MOST_FRAMES = 1024
+"""Among this many, evenly spread over the driver, they are chosen."""
+
+
+@dataclass(frozen=True)
+class Glances:
+    """The driver's face where it is looked at: in `frames` (K,), the neutral one first; `seen` (K, 478, 2) float32 is
+    what a tracker sees there by itself, pixels of the crop, NaN where it sees no face."""
+
+    frames: NDArray[np.int64]
+    seen: NDArray[np.float32]
+
+
+def glance_at_driver(track: DriverTrack, neutral: int) -> Glances:
+    """Look at the driver's most different faces, without what was seen before or after."""
+    frames = _most_different(track, neutral)
+    return Glances(np.array(frames), _see(lambda k: track.crop(frames[k]), len(frames)))
+
+
+def look_again(
+    track: DriverTrack,
+    neutral: int,
+    glances: Glances,
+    ratios: RatioStrip,
+    target: TargetFace,
+    layers: Layers,
+    rig: Rig,
+    options: PortraitOptions,
+) -> Misfit:
+    """What is amiss on the target where the driver was glanced at."""
+    frames = glances.frames.tolist()
+    some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], tracked=track.tracked[frames])
+    renderer = Renderer(track, neutral, target, layers, rig, options)
+    motions = [replace(motion, frame=frames[motion.frame]) for motion in renderer.carry(some, frames.index(neutral))]
+    placed = [renderer.face(motion) for motion in motions]
+    places = [crop_place(face) for face in placed]
+
+    def made(k: int) -> NDArray[np.uint8]:
+        frame = renderer.draw(motions[k], ratios.ratio(frames[k]))[..., :3]
+        crop = cv2.warpAffine(frame, places[k], CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        return np.asarray(crop, np.uint8)
+
+    meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
+    faces = np.stack([track.in_crop(frame) for frame in frames])
+    amiss = (_see(made, len(frames)) - meant) - (glances.seen - faces)
+    amiss -= amiss[0]  # at rest nothing is
+    known = np.asarray(np.isfinite(amiss).all(axis=(1, 2)))
+    return fit_misfit(faces[known], amiss[known]) if known[0] else no_misfit()
+
+
+def _most_different(track: DriverTrack, neutral: int) -> list[int]:
+    """The frames whose faces differ most from each other, beginning with the neutral one."""
+    step = -(-len(track) // MOST_FRAMES)
+    among = [neutral, *range(0, len(track), step)]
+    faces = flat(np.stack([track.in_crop(frame) for frame in among]))
+    chosen, apart = [0], ((faces - faces[0]) ** 2).mean(axis=1)
+    while len(chosen) <= LOOKS and apart.max() > 0:
+        chosen.append(int(apart.argmax()))
+        apart = np.minimum(apart, ((faces - faces[chosen[-1]]) ** 2).mean(axis=1))
+    return [among[k] for k in chosen]
+
+
+def _see(picture: Callable[[int], NDArray[np.uint8]], count: int) -> NDArray[np.float32]:
+    """(count, 478, 2) the face on each of the pictures, seen by itself; NaN where there is none."""
+    own = local()
+
+    def seen(k: int) -> NDArray[np.float32]:
+        if not hasattr(own, "tracker"):
+            own.tracker = FaceTracker(alone=True)
+        found = own.tracker(picture(k))
+        return found[0][:, :2] if found else np.full((MESH_SIZE, 2), np.nan, np.float32)
+
+    with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="look") as pool:
+        return np.stack(list(pool.map(seen, range(count))))
