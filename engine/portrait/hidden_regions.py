@@ -15,9 +15,14 @@ from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 EROSION = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
 APPEARS, WHOLE = 1.0, 2.0
-"""Section 5: the inside appears between once and twice the neutral mouth's own inner area."""
-LEAST_AREA = 0.012
-"""Floor of the neutral inner area, in squares of the mouth's width: a closed mouth has almost none."""
+"""Section 5: the inside appears between once and twice the neutral mouth's own inner area ..."""
+PARTS, PARTED = 1.3, 1.7
+"""... and here also between these multiples of the gap between its lips: a smile that becomes an O hardly grows."""
+LEAST_AREA, LEAST_GAP = 0.012, 0.04
+"""Floors of the neutral inner area, in squares of the mouth's width, and of its gap, in widths: a closed mouth has
+almost none."""
+MIDDLE = ((82, 87), (13, 14), (312, 317))
+"""Facing vertices of the inner lips, where they part most."""
 
 PALE, RED = 0.2, 0.45
 """Saturation of teeth, and of lips."""
@@ -33,13 +38,14 @@ class MouthPalette:
     """How the driver's colours become the target's: `gain` (3,) for the light; `tint` (3,) of the target's
     skin at luminance 1, and `chroma`, how far its palette departs from that tint (0 in black and white);
     `brightest` luminance that its face shows, which teeth do not exceed by much;
-    `area` the neutral mouth's inner area, px^2; `height` of its lips."""
+    `area` the neutral mouth's inner area, px^2; `gap` between its lips and `height` of both, px."""
 
     gain: NDArray[np.float32]
     tint: NDArray[np.float32]
     chroma: float
     brightest: float
     area: float
+    gap: float
     height: float
 
 
@@ -82,8 +88,15 @@ def match_palette(
         chroma,
         _brightest(target, mesh),
         area,
+        max(_gap(mesh), LEAST_GAP * width),
         float(np.ptp(outer[:, 1])),
     )
+
+
+def _gap(mesh: NDArray[np.floating]) -> float:
+    """Pixels between the lips, in the middle."""
+    top, bottom = np.array(MIDDLE).T
+    return float(np.linalg.norm(mesh[top, :2] - mesh[bottom, :2], axis=1).mean())
 
 
 def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -110,7 +123,8 @@ def transfer_mouth(
     crop : the driver's frame, with its face at `crop_mesh` (478, 2).
     """
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
-    blend = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
+    grown = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
+    blend = max(grown, (_gap(mesh) / palette.gap - PARTS) / (PARTED - PARTS))
     if blend <= 0:
         return
     outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)

@@ -15,6 +15,8 @@ from engine.portrait.driver import CROP
 from engine.portrait.hidden_regions import (
     APPEARS,
     LEAST_AREA,
+    PARTED,
+    PARTS,
     WHOLE,
     MouthPalette,
     match_palette,
@@ -103,10 +105,25 @@ def test_the_inside_appears_between_once_and_twice_the_area(closed, driver, pale
 
     def seen(share: float) -> float:
         """Mean change inside the lips where the mouth's area is `share` times the neutral one's."""
-        return float(change(mesh, driver, replace(palette, area=area(mesh) / share))[inner_mask(mesh, -2)].mean())
+        known = replace(palette, area=area(mesh) / share, gap=1e9)
+        return float(change(mesh, driver, known)[inner_mask(mesh, -2)].mean())
 
     for share in (1.1, 1.25, 1.5, 1.75, 2.0, 2.6, 10.0):
         assert seen(share) / seen(WHOLE) == pytest.approx(min(share - APPEARS, 1), abs=0.03)
+
+
+def test_lips_that_part_show_the_inside_though_the_mouth_grows_no_larger(closed, driver, palette) -> None:
+    """A smile that becomes an O: half of the driver's mouth where its gap is half-way through the ramp."""
+    mesh = opened(closed, 0.3)
+    gap = float(np.linalg.norm(mesh[[82, 13, 312], :2] - mesh[[87, 14, 317], :2], axis=1).mean())
+
+    def seen(share: float) -> float:
+        known = replace(palette, area=1e9, gap=gap / share)
+        return float(change(mesh, driver, known)[inner_mask(mesh, -2)].mean())
+
+    assert seen(0.99 * PARTS) == 0
+    assert seen((PARTS + PARTED) / 2) / seen(PARTED) == pytest.approx(0.5, abs=0.03)
+    assert seen(10) == seen(PARTED) > 0
 
 
 def test_a_closed_mouth_s_area_has_a_floor(closed, palette) -> None:
