@@ -30,11 +30,11 @@ def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens,
 @pytest.mark.parametrize(
     ("change", "redone"),
     [
-        ({"strength": 0.5}, set()),
-        ({"head_3d": False}, set()),
+        ({"strength": 0.5}, {"look_again"}),
+        ({"head_3d": False}, {"look_again"}),
         ({"format": "png"}, set()),
-        ({"crop": "face"}, {"find_face", "separate_layers", "rig_target"}),
-        ({"trim": (1.9, 2.3)}, {"track_driver", "register_driver", "ratio_images"}),
+        ({"crop": "face"}, {"find_face", "separate_layers", "rig_target", "look_again"}),
+        ({"trim": (1.9, 2.3)}, {"track_driver", "register_driver", "ratio_images", "glance_at_driver", "look_again"}),
     ],
     ids=["strength", "head_3d", "format", "crop", "trim"],
 )

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import Delaunay
 
+from engine.imaging.fold_edges import folded
+from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 from engine.portrait.control_points import ControlPoints, place_control_points
 from engine.portrait.dense_field import (
@@ -208,3 +210,17 @@ def test_points_that_are_not_usable_move_nothing(control: ControlPoints, face: N
     wild = offsets.copy()
     wild[~usable] = 300
     np.testing.assert_array_equal(mesh.offsets(wild), mesh.offsets(offsets))
+
+
+def test_where_the_sheet_folds_the_nearer_side_is_seen(mesh: WarpMesh, offsets: NDArray) -> None:
+    """Only there is depth looked at; the whole picture drawn with depth is the same."""
+    moved = mesh.offsets(offsets)
+    middle = np.linalg.norm(mesh.vertices - CENTRE, axis=1) < 0.4 * UNIT
+    moved[middle, 0] += 0.8 * UNIT
+    depth = np.where(middle, 1.0, 2.0).astype(np.float32)
+    left, top, right, bottom = folded(mesh.vertices + moved, mesh.triangles, SHAPE)
+    assert 0 < left < right < SHAPE[1] and 0 < top < bottom < SHAPE[0]
+    plain = inverse_map(mesh.vertices + moved, mesh.vertices, mesh.triangles, SHAPE, depth)
+    assert np.quantile(np.abs(mesh.inverse_map(moved, depth) - plain), 0.999) < 0.01
+    behind = mesh.inverse_map(moved, -depth)
+    assert np.abs(behind - plain)[top:bottom, left:right].max() > 0.3 * UNIT

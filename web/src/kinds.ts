@@ -96,6 +96,8 @@ export interface MotionDetails {
   joints: readonly { name: string }[];
   /** Which of them moves which of ours, as it was found. */
   mapping: Readonly<Record<string, string>>;
+  /** The names of its animations, where it has several. */
+  clips?: readonly string[];
 }
 
 /** What is ordered; `metadata` holds the names that this page gives it. */

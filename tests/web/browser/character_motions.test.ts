@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import { accepted, isOrder, openCorrections, revised } from './character_kit';
-import { ask, complaints, inPython, launch, LONG, open, samplePerson } from './page';
+import { ask, complaints, inPython, launch, LONG, media, open, samplePerson } from './page';
 
 /** A motion of the tests' own, one that is nobody's, and the names that the engine has. */
 const MADE = `
@@ -59,7 +59,7 @@ afterEach(async () => {
   expect(complaints).toEqual([]);
 });
 
-const table = (page: Page) => page.getByText('Which joint moves which');
+const table = (page: Page) => page.getByText('What is in the motion');
 const mover = (page: Page, joint: string) => page.getByRole('combobox', { name: joint, exact: true });
 const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'Nothing moves these yet' });
 
@@ -124,6 +124,25 @@ describe('the joints of a motion', () => {
       options: {},
     });
     await accepted(request);
+  });
+
+  it('come with the animations of a file, of which one can be chosen', async ({ skip }) => {
+    const soldier = media('scans3d/body_soldier/soldier.glb') ?? skip('the shared test media are not here');
+    const page = await open(browser, '#/character');
+    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a BVH/).setInputFiles(soldier);
+    await table(page).click();
+    const animation = page.getByRole('combobox', { name: 'Animation', exact: true });
+    await animation.waitFor({ timeout: LONG });
+    expect(await animation.locator('option').allInnerTexts()).toEqual(['Idle', 'Run', 'TPose', 'Walk']);
+    await animation.selectOption('Run');
+    const [request] = await Promise.all([
+      page.waitForRequest(isOrder),
+      page.getByRole('button', { name: 'Have them walk out' }).click(),
+    ]);
+    expect(request.postDataJSON().options).toEqual({ motion_clip: 'Run' });
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await page.getByText('This job was stopped before it was done').waitFor();
   });
 
   it('are asked for where a motion was nobody’s', async () => {

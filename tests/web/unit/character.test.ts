@@ -68,11 +68,13 @@ describe('a revision', () => {
     expect(notesFor(of({}), plain)).toEqual({});
   });
 
-  it('forgets the animation of a motion that another one takes the place of', () => {
+  it('plays another animation of the motion, or the first again', () => {
     const made = wishesOf(of({ motion_clip: 'Run' }, { motion: 'kick' }));
     expect(changesOf(made, made, {}).corrections).toEqual({});
-    expect(after({ motion: { by: 'kept', name: 'jig' } }, made).corrections).toEqual({ motion: 'jig', motion_clip: null });
-    expect(after({ motion: { by: 'name', name: 'bow' } }, made).corrections).toEqual({ motion: null, motion_clip: null });
+    expect(after({ motionClip: 'Jump' }, made).corrections).toEqual({ motion_clip: 'Jump' });
+    expect(after({ motionClip: null }, made).corrections).toEqual({ motion_clip: null });
+    const jig = { motion: { by: 'kept', name: 'jig' }, motionClip: null } as const;
+    expect(after(jig, made).corrections).toEqual({ motion: 'jig', motion_clip: null });
   });
 
   it('gives files in place of what was found, and takes them back', () => {

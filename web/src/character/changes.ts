@@ -27,7 +27,7 @@ export interface Wishes extends Choices {
   labelsFile: File | Held | null;
   motion: Motion | Held;
   motionJoints: MotionJoints;
-  /** The animation that was chosen in the job's own motion; another motion has others. */
+  /** Which of the motion's animations; null for the first. */
   motionClip: string | null;
   pose: Pose;
 }
@@ -90,7 +90,7 @@ export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterCha
     ...(!same(before.labels, now.labels) && { label_strokes: filled(now.labels) }),
     ...(renamed && before.motion.by === 'held' && { motion: null }),
     ...(motion.by === 'kept' && { motion: motion.name }),
-    ...(before.motionClip && !same(before.motion, motion) && { motion_clip: null }),
+    ...(!same(before.motionClip, now.motionClip) && { motion_clip: now.motionClip }),
     ...(!same(before.motionJoints, now.motionJoints) && { motion_joints: filled(now.motionJoints) }),
     ...sent,
   };

@@ -1,4 +1,4 @@
-/** Which joint of a motion's file moves which of the character's, to be looked at and said otherwise; folded away. */
+/** Which animation of a motion's file, and which of its joints moves which of the character's; folded away. */
 
 import { useEffect, useId, useState } from 'preact/hooks';
 import type { MotionDetails, MotionJoints } from '../api';
@@ -21,25 +21,28 @@ interface Props {
   wanted?: boolean;
   value: MotionJoints;
   onChange: (value: MotionJoints) => void;
+  /** Which of its animations; null for the first. */
+  clip: string | null;
+  onClip: (clip: string | null) => void;
 }
 
 /** Open from the beginning where it is wanted, or known that something is wanting. */
-export function JointMap({ motion, known = null, wanted = false, value, onChange }: Props) {
+export function JointMap({ motion, known = null, wanted = false, ...chosen }: Props) {
   const wanting = wanted || (known !== null && missing(known.mapping, {}).length > 0);
   const [open, setOpen] = useState(wanting);
   useEffect(() => setOpen(wanting), [keyOf(motion)]);
-  const changes = Object.keys(value).length;
+  const changes = Object.keys(chosen.value).length + (chosen.clip === null ? 0 : 1);
   return (
     <details class="jointmap" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
         {words.title} {changes > 0 && <span class="chip">{words.changed(changes)}</span>}
       </summary>
-      {open && <Look key={keyOf(motion)} motion={motion} known={known} value={value} onChange={onChange} />}
+      {open && <Look key={keyOf(motion)} motion={motion} known={known} {...chosen} />}
     </details>
   );
 }
 
-function Look({ motion, known, value, onChange }: Omit<Props, 'wanted'>) {
+function Look({ motion, known, ...chosen }: Omit<Props, 'wanted'>) {
   const { value: details, problem, reload } = useLoaded(
     async (signal) => known ?? detailsOf(motion, signal),
     keyOf(motion),
@@ -60,16 +63,15 @@ function Look({ motion, known, value, onChange }: Omit<Props, 'wanted'>) {
       </p>
     );
   }
-  return <Table details={details} value={value} onChange={onChange} />;
+  return <Table details={details} {...chosen} />;
 }
 
-interface TableProps {
+interface TableProps extends Pick<Props, 'value' | 'onChange' | 'clip' | 'onClip'> {
   details: MotionDetails;
-  value: MotionJoints;
-  onChange: (value: MotionJoints) => void;
 }
 
-function Table({ details: { joints, mapping }, value, onChange }: TableProps) {
+function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip, onClip }: TableProps) {
+  const clipId = useId();
   const [fingers, setFingers] = useState(false);
   const wanting = missing(mapping, value);
   const group = (name: Group) => (
@@ -89,6 +91,22 @@ function Table({ details: { joints, mapping }, value, onChange }: TableProps) {
   );
   return (
     <div class="jointmap-body">
+      {clips.length > 1 && (
+        <div class="field">
+          <label for={clipId}>{words.clip}</label>
+          <select
+            id={clipId}
+            value={clip ?? clips[0]}
+            onChange={({ currentTarget }) => onClip(currentTarget.value === clips[0] ? null : currentTarget.value)}
+          >
+            {clips.map((name) => (
+              <option key={name} value={name}>
+                {name}
+              </option>
+            ))}
+          </select>
+        </div>
+      )}
       <p class="hint">{words.hint}</p>
       <p class={wanting.length ? 'wanting' : 'unseen'} role="status">
         {wanting.length ? words.wanting(wanting.map(jointName).join(', ')) : ''}

@@ -31,8 +31,8 @@ export async function detailsOf(motion: OwnMotion, signal: AbortSignal): Promise
   if (motion.by === 'file') return look(motion.file, signal);
   const name = motion.by === 'kept' ? motion.name : motion.input;
   if (motion.by === 'held' && (isUrl(name) || isFileId(name))) return look(name, signal);
-  const { joints = [], mapping = {} } = await getMotion(name, signal);
-  return { joints, mapping };
+  const { joints = [], mapping = {}, clips = [] } = await getMotion(name, signal);
+  return { joints, mapping, clips };
 }
 
 async function look(motion: string | File, signal: AbortSignal): Promise<MotionDetails> {

@@ -5,12 +5,14 @@ import { type Job, listOwnMotions, type MotionDetails, type MotionJoints, type M
 import { useLoaded } from '../loading';
 import { isFileId, isUrl, motionName } from '../names';
 import { plain, strings } from '../strings';
-import type { Held, Wishes } from './changes';
+import { type Held, type Wishes, wishesOf } from './changes';
 import { JointMap } from './jointmap';
 import { MotionDrop } from './motiondrop';
 import { detailsIn, motionNames } from './motions';
 
 const words = strings.character;
+/** What an error may name that is put right in the table of the motion. */
+const wanted = ['motion_joints', 'motion_clip'];
 
 interface Props {
   job: Job;
@@ -18,16 +20,21 @@ interface Props {
   /** What the job moved by before. */
   before: Wishes['motion'];
   joints: MotionJoints;
-  onChange: (wishes: Pick<Wishes, 'motion' | 'motionJoints'>) => void;
+  clip: Wishes['motionClip'];
+  onChange: (wishes: Partial<Wishes>) => void;
 }
 
-export function MotionField({ job, value, before, joints, onChange }: Props) {
+export function MotionField({ job, value, before, joints, clip, onChange }: Props) {
   const id = useId();
   const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
   const held = before.by === 'held' ? before : null;
-  const made = job.options.motion_joints as MotionJoints | undefined;
+  const made = wishesOf(job);
   const choose = (motion: Wishes['motion']): void =>
-    onChange({ motion, motionJoints: motion.by === 'held' ? (made ?? {}) : {} });
+    onChange({
+      motion,
+      motionJoints: motion.by === 'held' ? made.motionJoints : {},
+      motionClip: motion.by === 'held' ? made.motionClip : null,
+    });
   const known = value.by === 'kept' ? detailsIn(kept, value.name) : value.by === 'held' ? listedIn(job) : null;
   return (
     <>
@@ -69,9 +76,11 @@ export function MotionField({ job, value, before, joints, onChange }: Props) {
         <JointMap
           motion={value}
           known={known}
-          wanted={value.by === 'held' && (job.error?.correctable ?? []).includes('motion_joints')}
+          wanted={value.by === 'held' && wanted.some((name) => job.error?.correctable?.includes(name))}
           value={joints}
-          onChange={(motionJoints) => onChange({ motion: value, motionJoints })}
+          onChange={(motionJoints) => onChange({ motionJoints })}
+          clip={clip}
+          onClip={(motionClip) => onChange({ motionClip })}
         />
       )}
     </>

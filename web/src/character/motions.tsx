@@ -36,15 +36,18 @@ interface Props {
   /** Of a motion of one's own: what moves which joint otherwise than found. */
   joints: MotionJoints;
   onJoints: (joints: MotionJoints) => void;
+  /** Which of its animations; null for the first. */
+  clip: string | null;
+  onClip: (clip: string | null) => void;
 }
 
 /** What the list of motions says of one of them. */
 export const detailsIn = (kept: readonly KeptMotion[], name: string): MotionDetails | null => {
-  const { joints = [], mapping = {} } = kept.find((one) => one.name === name) ?? {};
-  return joints.length ? { joints, mapping } : null;
+  const { joints = [], mapping = {}, clips = [] } = kept.find((one) => one.name === name) ?? {};
+  return joints.length ? { joints, mapping, clips } : null;
 };
 
-export function Motions({ chosen, onChoose, joints, onJoints }: Props) {
+export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Props) {
   const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
   const known = chosen.by === 'kept' ? detailsIn(kept, chosen.name) : null;
   return (
@@ -83,7 +86,9 @@ export function Motions({ chosen, onChoose, joints, onJoints }: Props) {
       )}
       <h3>{words.ownMotion}</h3>
       <MotionDrop file={chosen.by === 'file' ? chosen.file : null} onFile={(file) => onChoose({ by: 'file', file })} />
-      {chosen.by !== 'name' && <JointMap motion={chosen} known={known} value={joints} onChange={onJoints} />}
+      {chosen.by !== 'name' && (
+        <JointMap motion={chosen} known={known} value={joints} onChange={onJoints} clip={clip} onClip={onClip} />
+      )}
     </>
   );
 }

@@ -141,6 +141,7 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
           value={wishes.motion}
           before={before.motion}
           joints={wishes.motionJoints}
+          clip={wishes.motionClip}
           onChange={wish}
         />
         <KeepField value={wishes} onChange={wish} />

@@ -18,18 +18,23 @@ import { strings } from '../strings';
 
 const words = strings.character;
 
-/** The option for it, where there is something to say. */
-const said = (joints: MotionJoints): CharacterOptions => (Object.keys(joints).length ? { motion_joints: joints } : {});
+/** What is said of the motion, where there is something to say. */
+const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
+  ...(Object.keys(joints).length && { motion_joints: joints }),
+  ...(clip !== null && { motion_clip: clip }),
+});
 
 export default function CharacterStudio() {
   const [photo, setPhoto] = useState<File | null>(null);
   const [motion, setMotion] = useState<Motion>({ by: 'name', name: USUAL_MOTION });
   const [joints, setJoints] = useState<MotionJoints>({});
+  const [clip, setClip] = useState<string | null>(null);
   const [choices, setChoices] = useState<Choices>(usual);
   const sending = useSending();
   const move = (next: Motion): void => {
     setMotion(next);
-    setJoints({}); // another motion has other joints
+    setJoints({}); // another motion has other joints, and other animations
+    setClip(null);
   };
   useDropsAnywhere((file) => {
     if (isPicture(file)) setPhoto(file);
@@ -41,7 +46,7 @@ export default function CharacterStudio() {
 
   const start = (event: Event): void => {
     event.preventDefault();
-    if (photo) sending.begin(characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints) }));
+    if (photo) sending.begin(characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }));
   };
   const change = (part: Partial<Choices>): void => setChoices((known) => ({ ...known, ...part }));
   return (
@@ -75,7 +80,14 @@ export default function CharacterStudio() {
         <section class="panel" aria-labelledby="motion-title">
           <h2 id="motion-title">{words.motion}</h2>
           <p class="hint">{words.motionHint}</p>
-          <Motions chosen={motion} onChoose={move} joints={joints} onJoints={setJoints} />
+          <Motions
+            chosen={motion}
+            onChoose={move}
+            joints={joints}
+            onJoints={setJoints}
+            clip={clip}
+            onClip={setClip}
+          />
           <details class="choices">
             <summary>{strings.studio.options}</summary>
             <div class="fields">

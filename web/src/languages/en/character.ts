@@ -60,7 +60,8 @@ export const character = {
   },
 
   motionJoints: {
-    title: 'Which joint moves which',
+    title: 'What is in the motion',
+    clip: 'Animation',
     hint: 'Left the character’s joints, right those of the motion that move them. Choose otherwise where a limb moves wrongly; what nothing moves goes along.',
     looking: 'Looking into the motion.',
     nothing: 'None',
