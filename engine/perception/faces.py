@@ -16,11 +16,14 @@ SETTLING_PASSES = 3
 
 
 class FaceTracker:
-    """Follows the faces of a video, frame by frame. Use as a context manager."""
+    """Follows the faces of a video, frame by frame; or sees each picture `alone`, once, whatever came before.
+
+    Use as a context manager.
+    """
 
     def __init__(self, faces: int = 1, confidence: float = 0.3, alone: bool = False):
         self._mesh = _face_mesh(faces, confidence, alone)
-        self._alone = self._following = alone
+        self._alone, self._following = alone, False
 
     def __enter__(self) -> FaceTracker:
         return self
@@ -44,10 +47,10 @@ class FaceTracker:
         """
         rgb = np.ascontiguousarray(rgb)
         found = self._mesh.process(rgb).multi_face_landmarks or []
-        if found and not self._following:
+        if found and not (self._alone or self._following):
             for _ in range(SETTLING_PASSES):
                 found = self._mesh.process(rgb).multi_face_landmarks or found
-        self._following = bool(found) or self._alone
+        self._following = bool(found)
         meshes = [_pixels(face, rgb.shape[:2]) for face in found]
         return sorted(meshes, key=_area, reverse=True)
 

@@ -117,12 +117,10 @@ class Performed:
     ratios: RatioStrip
     glances: Glances
 
-    def look_again(
-        self, target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, run: Run
-    ) -> Misfit:  # fmt: skip
+    def look_again(self, target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, run: Run) -> Misfit:
         """What is amiss where a target acts this out."""
         seen = self.track, self.neutral, self.glances, self.ratios
-        return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting())
+        return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting(), run.tick)
 
 
 def analyse_driver(

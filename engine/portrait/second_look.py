@@ -58,8 +58,18 @@ def look_again(
     layers: Layers,
     rig: Rig,
     options: PortraitOptions,
+    tick: Callable[[float], None] = lambda fraction: None,
 ) -> Misfit:
-    """What is amiss on the target where the driver was glanced at."""
+    """What is amiss on the target where the driver was glanced at.
+
+    Parameters
+    ----------
+    ratios : the driver's, one for each frame. options : how the target moves, see `PortraitOptions.acting`.
+
+    Returns
+    -------
+    Nothing amiss anywhere if the tracker sees no face on the target itself.
+    """
     frames = glances.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], tracked=track.tracked[frames])
     renderer = Renderer(track, neutral, target, layers, rig, options)
@@ -74,7 +84,7 @@ def look_again(
 
     meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
     faces = np.stack([track.in_crop(frame) for frame in frames])
-    amiss = (_see(made, len(frames)) - meant) - (glances.seen - faces)
+    amiss = (_see(made, len(frames), tick) - meant) - (glances.seen - faces)
     amiss -= amiss[0]  # at rest nothing is
     known = np.asarray(np.isfinite(amiss).all(axis=(1, 2)))
     return fit_misfit(faces[known], amiss[known]) if known[0] else no_misfit()
@@ -92,9 +102,12 @@ def _most_different(track: DriverTrack, neutral: int) -> list[int]:
     return [among[k] for k in chosen]
 
 
-def _see(picture: Callable[[int], NDArray[np.uint8]], count: int) -> NDArray[np.float32]:
+def _see(
+    picture: Callable[[int], NDArray[np.uint8]], count: int, tick: Callable[[float], None] = lambda fraction: None
+) -> NDArray[np.float32]:
     """(count, 478, 2) the face on each of the pictures, seen by itself; NaN where there is none."""
     own = local()
+    faces = np.empty((count, MESH_SIZE, 2), np.float32)
 
     def seen(k: int) -> NDArray[np.float32]:
         if not hasattr(own, "tracker"):
@@ -103,4 +116,7 @@ def _see(picture: Callable[[int], NDArray[np.uint8]], count: int) -> NDArray[np.
         return found[0][:, :2] if found else np.full((MESH_SIZE, 2), np.nan, np.float32)
 
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="look") as pool:
-        return np.stack(list(pool.map(seen, range(count))))
+        for k, face in enumerate(pool.map(seen, range(count))):
+            faces[k] = face
+            tick((k + 1) / count)
+    return faces

@@ -134,7 +134,7 @@ describe('the joints of a motion', () => {
     await table(page).click();
     const animation = page.getByRole('combobox', { name: 'Animation', exact: true });
     await animation.waitFor({ timeout: LONG });
-    expect(await animation.locator('option').allInnerTexts()).toEqual(['Idle', 'Run', 'TPose', 'Walk']);
+    expect(await animation.locator('option').allInnerTexts()).toEqual(['The first that moves', 'Idle', 'Run', 'TPose', 'Walk']);
     await animation.selectOption('Run');
     const [request] = await Promise.all([
       page.waitForRequest(isOrder),

@@ -27,7 +27,7 @@ export interface Wishes extends Choices {
   labelsFile: File | Held | null;
   motion: Motion | Held;
   motionJoints: MotionJoints;
-  /** Which of the motion's animations; null for the first. */
+  /** Which of the motion's animations; null for the first in which something moves. */
   motionClip: string | null;
   pose: Pose;
 }

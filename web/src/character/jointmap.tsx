@@ -21,7 +21,7 @@ interface Props {
   wanted?: boolean;
   value: MotionJoints;
   onChange: (value: MotionJoints) => void;
-  /** Which of its animations; null for the first. */
+  /** Which of its animations; null for the first in which something moves. */
   clip: string | null;
   onClip: (clip: string | null) => void;
 }
@@ -96,9 +96,11 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
           <label for={clipId}>{words.clip}</label>
           <select
             id={clipId}
-            value={clip ?? clips[0]}
-            onChange={({ currentTarget }) => onClip(currentTarget.value === clips[0] ? null : currentTarget.value)}
+            // the empty name is no animation's
+            value={clip ?? ''}
+            onChange={({ currentTarget }) => onClip(currentTarget.value || null)}
           >
+            <option value="">{words.firstClip}</option>
             {clips.map((name) => (
               <option key={name} value={name}>
                 {name}

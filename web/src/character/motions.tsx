@@ -36,7 +36,7 @@ interface Props {
   /** Of a motion of one's own: what moves which joint otherwise than found. */
   joints: MotionJoints;
   onJoints: (joints: MotionJoints) => void;
-  /** Which of its animations; null for the first. */
+  /** Which of its animations; null for the first in which something moves. */
   clip: string | null;
   onClip: (clip: string | null) => void;
 }

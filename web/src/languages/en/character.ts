@@ -62,6 +62,7 @@ export const character = {
   motionJoints: {
     title: 'What is in the motion',
     clip: 'Animation',
+    firstClip: 'The first that moves',
     hint: 'Left the character’s joints, right those of the motion that move them. Choose otherwise where a limb moves wrongly; what nothing moves goes along.',
     looking: 'Looking into the motion.',
     nothing: 'None',
