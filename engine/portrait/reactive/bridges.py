@@ -19,7 +19,7 @@ NEAR = 0.4
 """How far an exit may be from the frames that use it, against the longest step between two frames of its clip ..."""
 LEAST_PACE = 0.5
 """... or this share of the longest step in all clips, where that is more ..."""
-UNSEEN = (0.3, 1.0)
+UNSEEN = (0.25, 0.8)
 """... or these pixels (the head, the furthest point), which nobody sees."""
 TAPER = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
