@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from engine.body.rig import Rig
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
+from engine.character.free_cloth import free_cloth
 from engine.character.labels import (
     ARMS,
     PARTS,
@@ -26,10 +27,11 @@ from engine.character.labels import (
     vertex_parts,
     without_specks,
 )
-from engine.character.legs import LEGS_APART, cut_along, each_by_its_own, hem
+from engine.character.legs import LEGS_APART, cut_along, each_by_its_own
 from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
 from engine.character.part_surface import Surface, part_surface, warp_part
 from engine.character.sheets import THINNEST, Layer
+from engine.character.skirt_weights import moved_by_both
 from engine.character.template_maps import SideMaps, side_maps, weights_at
 from engine.render.attributes import interpolate
 
@@ -118,8 +120,6 @@ def _occluded(labels: NDArray[np.integer], projected: NDArray[np.integer], rest:
     for leg, other in ((left, right), (right, left)):
         only = [where if part in (left, right) else np.full_like(where, np.nan) for part, where in enumerate(places)]
         parting |= occlusion_pixels(np.where(np.isin(labels, (leg, other)), labels, -1), leg, only, LEGS_APART)
-    legs = np.isin(labels, (left, right))
-    parting[: hem(legs, np.isin(projected, (left, right)))] = False
     return Labels(
         labels.astype(np.int8),
         occlusion_mask(pixels[ARMS[0]] | pixels[ARMS[1]]),
@@ -150,12 +150,16 @@ def build_layers(
         body = body | (arms & under)
         for _, pixels in near.values():
             body = largest(body | (arms & pixels))
-    trunk = _layer(body, sides, rig, cut_along(found.labels, found.parting), face)
     shown = np.where(sides.front.mask, part[:, 0][of_body][sides.front.raster.triangle], -1)
     cloth = body & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
-    ankles = float(min(template.joints[rig.index(name), 1] for name in ("LeftFoot", "RightFoot")))
-    trunk = drape(trunk, cloth, shown, sides.front.depth, sides.back.depth, found.parting, ankles)
-    layers = [each_by_its_own(trunk, found.labels, found.parting, rig)]
+    around_legs = free_cloth(cloth, shown, sides.front.depth, sides.back.depth, found.parting)
+    parting = found.parting.copy()
+    parting[: around_legs.rings[-1].row + 1 if around_legs else 0] = False
+    trunk = _layer(body, sides, rig, cut_along(found.labels, parting), face)
+    trunk = each_by_its_own(trunk, found.labels, parting, rig)
+    if around_legs:
+        trunk = moved_by_both(drape(trunk, around_legs), around_legs, rig)
+    layers = [trunk]
     for arm, reached in limbs.items():
         both = _sides(template, np.asarray((part == arm).any(1) | near[arm][0]), mask.shape)
         limb = _layer(reached, both, rig)

@@ -1,4 +1,4 @@
-"""Legs that touch in the picture: where they part, down to where a skirt joins them, and what moves each.
+"""Legs that touch in the picture: where they part, and what moves each.
 
 Beyond the paper, in which legs are one surface where they touch.
 """
@@ -10,7 +10,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt, uniform_filter1d
+from scipy.ndimage import distance_transform_edt
 
 from engine.body.rig import Rig
 from engine.character.labels import PARTS
@@ -19,23 +19,8 @@ from engine.character.sheets import Layer
 
 LEGS_APART = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""
-WIDER, SHINS = 1.7, 0.72
-"""How much wider than the template's legs cloth is that goes around both; how far down the legs it is looked for: shoes are
-wide, too."""
 HALF = 0.5
 """Share of what moves a leg that must be its own to be believed."""
-
-
-def hem(legs: NDArray[np.bool_], template: NDArray[np.bool_]) -> int:
-    """The row down to which one piece of cloth goes around both legs (h, w), much wider than the template's; 0 without."""
-    rows = np.flatnonzero(template.any(1))
-    if not len(rows) or not legs.any():
-        return 0
-    smooth = max(1, legs.shape[0] // 40)
-    wide, usual = (uniform_filter1d(mask.sum(1).astype(np.float64), smooth) for mask in (legs, template))
-    cloth = wide > WIDER * np.maximum(usual, np.median(usual[rows]))
-    cloth[int(rows[0] + SHINS * (rows[-1] - rows[0])) :] = False
-    return int(np.flatnonzero(cloth)[-1]) + 1 if cloth.any() else 0
 
 
 def cut_along(labels: NDArray[np.integer], parting: NDArray[np.bool_]) -> NDArray[np.int8]:

@@ -151,7 +151,7 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
     mesh, marked = person.character.mesh, run.mark_synthetic
     write_glb(out / f"{name}.glb", mesh, person.played.all, synthetic=marked)
     for level in range(1, options.levels + 1):
-        coarser = fewer_triangles(mesh, len(mesh.triangles) // 4**level)
+        coarser = fewer_triangles(person.character, len(mesh.triangles) // 4**level)
         write_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, synthetic=marked)
     write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
     if options.vrm:

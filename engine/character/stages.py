@@ -18,6 +18,7 @@ from engine.character.hands import turn_hands
 from engine.character.head import turn_head
 from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
+from engine.character.measures import pose
 from engine.character.options import LabelStroke
 from engine.character.rigging import Character, bind
 from engine.character.sheets import ClosedMesh, close
@@ -126,14 +127,18 @@ def make_character(
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv, tile)
-    return replace(character, mesh=fewer_triangles(character.mesh, triangles))
+    return replace(character, mesh=fewer_triangles(character, triangles))
 
 
-def fewer_triangles(mesh: SkinnedMesh, triangles: int) -> SkinnedMesh:
-    """The mesh with so many triangles at most: silhouette and face are kept longest."""
+def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
+    """Its mesh with so many triangles at most: silhouette and face are kept longest. What that changes is measured as it is
+    pictured, since in T-pose creases are drawn out."""
+    mesh = character.mesh
     if len(mesh.triangles) <= triangles:
         return mesh
-    return decimate(mesh, triangles, joint_importance(mesh, {"Head": FACE_COUNTS})).mesh
+    pictured = replace(mesh, vertices=pose(character, character.pictured))
+    fewer, kept = decimate(pictured, triangles, joint_importance(mesh, {"Head": FACE_COUNTS}))
+    return replace(fewer, vertices=mesh.vertices[kept])
 
 
 @dataclass(frozen=True)

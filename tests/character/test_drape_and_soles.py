@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import cv2
 import numpy as np
 import pytest
 import trimesh
 
-from engine.character.drape import ROUND, drape
+from engine.character.drape import drape
+from engine.character.free_cloth import ROUND, FreeCloth, free_cloth
 from engine.character.labels import PARTS
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
+from engine.character.skirt_weights import moved_by_both
 from engine.character.soles import with_soles
+from engine.character.template_fit import load_human
 
 HEIGHT, WIDTH, MIDDLE = 200, 120, 60
-WAIST, CROTCH, HEM, ANKLES = 80, 100, 150, 185.0
+WAIST, CROTCH, HEM = 80, 100, 150
+RIG = load_human().rig
 
 
 def body() -> tuple[np.ndarray, np.ndarray]:
@@ -26,9 +33,13 @@ def body() -> tuple[np.ndarray, np.ndarray]:
 
 
 def worn(mask: np.ndarray) -> Layer:
-    """A layer 8 pixels deep to each side all over."""
+    """A layer 8 pixels deep to each side all over; the trunk moves what is above the crotch, each leg what is beneath on its
+    side of the middle."""
     sides = [np.where(mask, depth, np.nan).astype(np.float32) for depth in (8, -8)]
-    weights = np.zeros((*mask.shape, 1), np.float32)
+    weights = np.zeros((*mask.shape, len(RIG.names)), np.float32)
+    weights[:CROTCH, :, RIG.index("Hips")] = 1
+    weights[CROTCH:, :MIDDLE, RIG.index("RightUpLeg")] = 1
+    weights[CROTCH:, MIDDLE:, RIG.index("LeftUpLeg")] = 1
     return Layer(mask, *(Surface(side, weights) for side in sides), np.zeros(mask.shape, np.int8))
 
 
@@ -41,10 +52,61 @@ def skirt(shown: np.ndarray) -> np.ndarray:
     return mask
 
 
-def test_a_skirt_is_as_round_as_hips() -> None:
+def trousers(shown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The body's mask in trousers whose legs touch, and where they do (h, w)."""
+    mask = shown >= 0
+    mask[CROTCH:195, MIDDLE - 14 : MIDDLE + 14] = True
+    parting = np.zeros_like(mask)
+    parting[CROTCH + 4 : 195, MIDDLE] = True
+    return mask, parting
+
+
+def found_in(mask: np.ndarray, parting: np.ndarray | None = None) -> FreeCloth | None:
     shown, depth = body()
+    return free_cloth(mask, shown, depth, -depth, np.zeros_like(mask) if parting is None else parting)
+
+
+def test_a_skirt_ends_in_its_hem() -> None:
+    shown, _ = body()
+    for mask in (skirt(shown), skirt(shown) | (np.arange(HEIGHT) >= 180)[:, None] & cv2.dilate(
+            (shown >= 0).astype(np.uint8), np.ones((1, 15), np.uint8)).astype(bool)):  # fmt: skip
+        cloth = found_in(mask)
+        assert cloth is not None and cloth.hangs and not cloth.goes_on, "with wide shoes or without"
+        assert abs(cloth.rings[-1].row - HEM) <= 2
+        assert abs(cloth.rings[cloth.above].row - CROTCH) <= 2
+
+
+def gown(shown: np.ndarray, end: int) -> tuple[np.ndarray, np.ndarray]:
+    """The body's mask in a gown that is close at the thighs and ends at a row, and a line between the legs (h, w)."""
+    mask, line = shown >= 0, np.zeros(shown.shape, np.bool_)
+    for row in range(WAIST, end):
+        half = 12 + (row - WAIST) // 8
+        mask[row, MIDDLE - half : MIDDLE + half] = True
+    line[CROTCH + 4 : end, MIDDLE] = True
+    return mask, line
+
+
+@pytest.mark.parametrize("end", [150, 175, 190, 195])
+def test_lines_between_the_legs_of_a_gown_are_folds(end: int) -> None:
+    shown, _ = body()
+    mask, line = gown(shown, end)
+    if end == 190:
+        mask[end:] = False  # the picture's edge
+    cloth = found_in(mask, line)
+    assert cloth is not None and cloth.hangs, "to the ground, too"
+    assert abs(cloth.rings[-1].row - end) <= 2
+
+
+def test_nobody_in_a_mask_wears_nothing() -> None:
+    assert found_in(np.zeros((HEIGHT, WIDTH), np.bool_)) is None
+
+
+def test_a_skirt_is_as_round_as_hips() -> None:
+    shown, _ = body()
     mask = skirt(shown)
-    draped = drape(worn(mask), mask, shown, depth, -depth, np.zeros_like(mask), ANKLES)
+    cloth = found_in(mask)
+    assert cloth is not None
+    draped = drape(worn(mask), cloth)
     thick = draped.front.depth - draped.back.depth
     for row in (HEM - 20, HEM - 8):
         width = mask[row].sum()
@@ -57,32 +119,80 @@ def test_a_skirt_is_as_round_as_hips() -> None:
 
 
 def test_a_hem_that_hangs_lower_beside_the_legs_goes_on() -> None:
-    shown, depth = body()
+    shown, _ = body()
     mask = skirt(shown)
     mask[HEM : HEM + 10, MIDDLE - 46 : MIDDLE - 20] = True
-    draped = drape(worn(mask), mask, shown, depth, -depth, np.zeros_like(mask), ANKLES)
+    cloth = found_in(mask)
+    assert cloth is not None
+    draped = drape(worn(mask), cloth)
     column = MIDDLE - 28
     assert draped.front.depth[HEM + 5, column] == pytest.approx(draped.front.depth[HEM - 2, column], abs=1.5)
     assert draped.front.depth[HEM + 5, MIDDLE - 6] == 8, "the leg beside it is the leg"
 
 
-def test_trousers_are_no_skirt() -> None:
-    shown, depth = body()
-    mask = shown >= 0
-    mask[CROTCH:195, MIDDLE - 14 : MIDDLE + 14] = True
-    parting = np.zeros_like(mask)
-    parting[CROTCH + 4 : 195, MIDDLE] = True
+def test_a_skirt_goes_over_from_leg_to_leg() -> None:
+    shown, _ = body()
+    mask = skirt(shown)
+    cloth = found_in(mask)
+    assert cloth is not None
     before = worn(mask)
-    after = drape(before, mask, shown, depth, -depth, parting, ANKLES)
+    moved = moved_by_both(before, cloth, RIG)
+    left = moved.front.weights[..., RIG.index("LeftUpLeg")]
+    for surface in (moved.front, moved.back):
+        np.testing.assert_allclose(surface.weights[mask].sum(1), 1, atol=1e-5)
+    row = left[HEM - 5][mask[HEM - 5]]
+    step = np.diff(row)
+    assert row[0] == 0 and row[-1] == 1 and (step > -1e-6).all(), "the ends go with one leg each"
+    assert step.max() < 1.5 / (0.8 * len(row)), "and between them nothing jumps"
+    assert row[len(row) // 2 - 1 : len(row) // 2 + 1].mean() == pytest.approx(0.5, abs=0.01)
+    low = HEM + 30
+    np.testing.assert_array_equal(left[low], before.front.weights[low, :, RIG.index("LeftUpLeg")])
+    below = left[HEM - 1 : low, MIDDLE - 4]
+    assert np.abs(np.diff(below)).max() < 0.1, "legs that come from under the hem are not torn from it"
+
+
+def test_of_somebody_seen_from_behind_the_left_leg_is_at_the_left() -> None:
+    shown, _ = body()
+    cloth = found_in(skirt(shown))
+    assert cloth is not None
+    before = worn(skirt(shown))
+    front, back = (replace(side, weights=side.weights[:, ::-1]) for side in (before.front, before.back))
+    turned = replace(before, front=front, back=back)
+    row = moved_by_both(turned, cloth, RIG).front.weights[HEM - 5][cloth.worn[HEM - 5]]
+    assert row[0, RIG.index("LeftUpLeg")] == 1 and row[-1, RIG.index("RightUpLeg")] == 1
+
+
+def test_a_hand_beside_a_hem_stays_a_hand() -> None:
+    shown, _ = body()
+    mask = skirt(shown)
+    before = worn(mask)
+    hand = np.zeros_like(mask)
+    hand[40 : HEM + 14, 5:11] = True
+    before.mask[hand] = True
+    for side in (before.front, before.back):
+        side.weights[hand] = np.eye(len(RIG.names))[RIG.index("RightHand")]
+    cloth = found_in(mask & ~hand)
+    assert cloth is not None
+    moved = moved_by_both(before, cloth, RIG)
+    assert (moved.front.weights[hand][:, RIG.index("RightHand")] == 1).all()
+
+
+def test_trousers_are_no_skirt() -> None:
+    shown, _ = body()
+    mask, parting = trousers(shown)
+    cloth = found_in(mask, parting)
+    before = worn(mask)
+    assert cloth is not None and not cloth.hangs and cloth.goes_on
+    after = moved_by_both(drape(before, cloth), cloth, RIG)
     assert np.nanmax(np.abs(after.front.depth - before.front.depth)) < 1
+    assert np.abs(after.front.weights - before.front.weights)[CROTCH + 8 :].max() < 1e-6
 
 
 def test_nobody_without_legs_wears_a_skirt() -> None:
     shown, depth = body()
     shown = np.where(shown == PARTS.index("torso"), shown, -1)
     mask = shown >= 0
-    before = worn(mask)
-    assert drape(before, mask, shown, depth, -depth, np.zeros_like(mask), ANKLES) is before
+    assert free_cloth(mask, shown, depth, -depth, np.zeros_like(mask)) is None
 
 
 def foot() -> trimesh.Trimesh:

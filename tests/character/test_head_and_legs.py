@@ -11,7 +11,6 @@ from engine.body.fitting import COEFFICIENTS, Fit
 from engine.character.face_warp import Face, with_face
 from engine.character.figure import Figure
 from engine.character.head import turn_head
-from engine.character.legs import hem
 from engine.character.part_surface import Surface, warp_part
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody, load_human
@@ -96,17 +95,3 @@ def test_legs_that_touch_are_two() -> None:
     assert left.sum() > 100 and right.sum() > 100
     assert not (left & right).any()
     assert ((moved_by == 0).any(1) & left).any(), "the legs hang on the trunk"
-
-
-def test_a_skirt_joins_the_legs_down_to_its_hem() -> None:
-    template = np.zeros((200, 100), np.bool_)
-    template[50:190, 35:47] = template[50:190, 53:65] = True
-    assert hem(template, template) == 0, "trousers as tight as skin"
-    trousers = cv2.dilate(template.astype(np.uint8), np.ones((1, 9), np.uint8)) > 0
-    assert hem(trousers, template) == 0
-    skirt = template.copy()
-    skirt[50:110, 20:80] = True
-    assert abs(hem(skirt, template) - 110) <= 5
-    shoes = template.copy()
-    shoes[175:190, 20:80] = True
-    assert hem(shoes, template) == 0

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import replace
 
-from engine.character.measures import _loops, _odd_edges, _turned_away
+import numpy as np
+from scipy.spatial import cKDTree
+from template_character import template_character
+
+from engine.character.measures import _loops, _odd_edges, _turned_away, pose
+from engine.character.rigging import Character
+from engine.character.stages import fewer_triangles
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.motion.library import built_in
 
 
 def tube(around: int = 6, along: int = 4) -> np.ndarray:
@@ -45,3 +53,21 @@ def test_a_triangle_that_turns_the_other_way_shows_its_back() -> None:
     )  # down, then right: counter-clockwise for y down
     turned = _turned_away(corners, np.array([[0, 1, 2], [0, 2, 1]]))
     np.testing.assert_array_equal(turned, [False, True])
+
+
+def test_fewer_triangles_are_chosen_as_pictured_and_stay_in_t_pose() -> None:
+    mesh = template_character(texture_size=64)
+    dance = built_in("dance", mesh.skeleton)
+    pictured = replace(dance, rotations=dance.rotations[60:61], root=dance.root[60:61])
+    character = Character(mesh, pictured, np.zeros(3), 1.0)
+    fewer = fewer_triangles(character, 6000)
+    assert len(fewer.triangles) <= 6000
+    assert fewer_triangles(character, len(mesh.triangles)) is mesh
+
+    def rows(of: SkinnedMesh) -> set[bytes]:
+        return {row.tobytes() for row in np.hstack([of.vertices, of.uv, of.weights, of.bones.astype(np.float32)])}
+
+    assert rows(fewer) <= rows(mesh), "what is left is as it was"
+    as_pictured, whole = pose(replace(character, mesh=fewer), pictured), pose(character, pictured)
+    distance, _ = cKDTree(as_pictured).query(whole)
+    assert np.median(distance) < 0.01

@@ -1,0 +1,179 @@
+"""Cloth that goes round both legs: a skirt, a dress, the tails of a coat, found row by row of the picture.
+
+Beyond the paper, which knows no clothes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.labels import PARTS
+
+CLOSE, FREE = 1.12, 1.5
+"""How much wider than the template cloth is that still follows the legs, and that hangs freely."""
+ROUND = 0.68
+"""Depth of free cloth as a share of its width: about that of hips."""
+LOOSE = 0.5
+"""From which share on cloth is no trousers' whose legs touch."""
+WAIST = 0.65
+"""How far down the trunk cloth may begin to hang freely."""
+HEM, LATELY = 0.85, 16
+"""It ends where it is narrower than this share of what it was within so many rows."""
+EVEN, FADE = 0.012, 4.0
+"""Share of the person's height over which cloth changes along the body, and over how much of that it begins."""
+UNEVEN = 0.1
+"""Share of the height by which a hem may hang lower beside the legs."""
+BENEATH = 0.05
+"""Share of the height beneath its end over which is looked what goes on."""
+TROUSERS = 0.75
+"""Share of its looseness that goes on there, from which on it was trousers' or a jumper's."""
+
+
+@dataclass(frozen=True)
+class Ring:
+    """The cloth in one row of pixels: its `first` and `last` column, the `middle` of its depth and `half` of it, in pixels,
+    and how freely it hangs, `share` in [0, 1]."""
+
+    row: int
+    first: int
+    last: int
+    middle: float
+    half: float
+    share: float
+
+    @property
+    def width(self) -> int:
+        return self.last - self.first + 1
+
+    def across(self, columns: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Where columns are in it, from -1 at the viewer's left to 1."""
+        return np.clip(2 * (columns - self.first) / max(self.last - self.first, 1) - 1, -1, 1)
+
+
+@dataclass(frozen=True)
+class FreeCloth:
+    """What is `worn` (h, w), and its `rings`, row by row from the waist down, the first `above` of them above the crotch. It
+    `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or trousers', and may
+    `go_on` in legs. `lower` (h, w): what hangs beneath the last ring between and beside the legs. `even`: pixels over which
+    cloth changes along the body."""
+
+    worn: NDArray[np.bool_]
+
+    rings: tuple[Ring, ...]
+    above: int
+    hangs: bool
+    goes_on: bool
+    lower: NDArray[np.bool_]
+    even: float
+
+    def rows(self) -> Iterator[tuple[int, int, NDArray[np.intp]]]:
+        """Each row of it: the index of its ring, the row, its columns. What is lower is of the last ring."""
+        for k, ring in enumerate(self.rings):
+            yield k, ring.row, np.arange(ring.first, ring.last + 1)
+        for row in np.flatnonzero(self.lower.any(1)):
+            yield len(self.rings) - 1, int(row), np.flatnonzero(self.lower[row])
+
+    def begins(self, first: int = 0) -> NDArray[np.float64]:
+        """From 0 to 1 over the first rings from the one of index `first` on, and to 0 over the last if it goes on."""
+        count = len(self.rings)
+        step = np.clip((np.arange(count) - first) / (FADE * self.even), 0, 1)
+        return np.minimum(step, np.arange(count)[::-1] / (FADE * self.even)) if self.goes_on else step
+
+
+def free_cloth(
+    cloth: NDArray[np.bool_],
+    shown: NDArray[np.integer],
+    nearest: NDArray[np.floating],
+    furthest: NDArray[np.floating],
+    parting: NDArray[np.bool_],
+) -> FreeCloth | None:
+    """Find it: in each row one piece, round all that the template has there. None where nothing goes round it.
+
+    `cloth` (h, w): which pixels may be cloth; `shown` (h, w): the part that the template's body shows, -1 beside it;
+    `nearest` and `furthest` (h, w): its depths there; `parting` (h, w): where one leg meets the other. There close cloth is
+    trousers, unless it gets loose further down and ends in a hem.
+    """
+    trunk, left, right = (shown == PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
+    if not (cloth.any() and trunk.any() and left.any() and right.any()):
+        return None
+    rings = _rings(cloth, trunk, left, right, nearest, furthest)
+    high = float(np.ptp(np.flatnonzero(cloth.any(1))))
+    far = max(2, round(BENEATH * high))
+    hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
+    if not hangs:
+        parts = np.array([ring.share < LOOSE and parting[ring.row, ring.first : ring.last + 1].any() for ring in rings])
+        many = [k for k in np.flatnonzero(parts) if parts[k : k + far // 2].mean() > 0.5]
+        if many:
+            rings, goes_on = rings[: many[0]], True
+    if len(rings) < 2:
+        return None
+    even = EVEN * high
+    around = cv2.dilate((left | right).astype(np.uint8), np.ones((1, 2 * round(even) + 1), np.uint8)) > 0
+    first = rings[-1].row + 1
+    lower = np.zeros_like(cloth)
+    within = slice(first, round(first + UNEVEN * high))
+    lower[within] = np.logical_and.accumulate((cloth & ~around)[within], axis=0)
+    crotch = np.flatnonzero(trunk.any(1))[-1]
+    above = sum(ring.row < crotch for ring in rings)
+    return FreeCloth(cloth, tuple(rings), above, hangs, goes_on, lower, even)
+
+
+def _hem(rings: Sequence[Ring], cloth: NDArray[np.bool_], template: NDArray[np.bool_], far: int) -> tuple[bool, bool]:
+    """Whether rings hang, and if not, whether as loose cloth is `far` rows beneath. `template` (h, w): trunk and legs. Where
+    nothing is beneath, they reach the ground or the picture's edge, and hang if they are loose there."""
+    if not rings:
+        return False, False
+    end, shares = rings[-1].row + 1, [ring.share for ring in rings]
+    above = _looseness(cloth, template, max(end - far // 2, 0), end)
+    beneath = _looseness(cloth, template, end + far, end + 2 * far)
+    goes_on = beneath > TROUSERS * above
+    loose = max(shares) if beneath > 0 else float(np.median(shares[-far:]))
+    return not goes_on and loose > LOOSE, goes_on
+
+
+def _rings(
+    cloth: NDArray[np.bool_],
+    trunk: NDArray[np.bool_],
+    left: NDArray[np.bool_],
+    right: NDArray[np.bool_],
+    nearest: NDArray[np.floating],
+    furthest: NDArray[np.floating],
+) -> list[Ring]:
+    """From the waist down, row by row as long as one piece goes round all that the template has there."""
+    rings: list[Ring] = []
+    rows = np.flatnonzero(trunk.any(1))
+    for row in range(int(rows[0] + WAIST * (rows[-1] - rows[0])), len(cloth)):
+        if not (trunk[row].any() or (left[row].any() and right[row].any())):
+            break
+        there = np.flatnonzero((trunk | left | right)[row])
+        piece = _piece(cloth[row], (there[0] + there[-1]) // 2)
+        if piece is None:
+            break
+        width, least = piece[1] - piece[0] + 1, there[-1] - there[0] + 1
+        share = float(np.clip((width / least - CLOSE) / (FREE - CLOSE), 0, 1))
+        if rings and share < LOOSE and width < HEM * max(ring.width for ring in rings[-LATELY:]):
+            break
+        near, far = float(np.nanmax(nearest[row, there])), float(np.nanmin(furthest[row, there]))
+        rings.append(Ring(row, *piece, (near + far) / 2, max((near - far) / 2, ROUND * width / 2), share))
+    return rings
+
+
+def _looseness(cloth: NDArray[np.bool_], template: NDArray[np.bool_], first: int, end: int) -> float:
+    """How many times as wide as the template cloth is in the rows from `first` to `end`; 0 where either is not there."""
+    wide, least = cloth[first:end].sum(1), template[first:end].sum(1)
+    there = least > 0
+    return float(np.median(wide[there] / least[there])) if there.any() else 0.0
+
+
+def _piece(row: NDArray[np.bool_], column: int) -> tuple[int, int] | None:
+    """The first and last column of the piece of a row (w,) that a column is in."""
+    if not row[column]:
+        return None
+    gaps = np.flatnonzero(~row)
+    before, after = gaps[gaps < column], gaps[gaps > column]
+    return (int(before[-1]) + 1 if len(before) else 0), (int(after[0]) - 1 if len(after) else len(row) - 1)
