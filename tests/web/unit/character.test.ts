@@ -18,11 +18,14 @@ describe('the options of a character', () => {
     expect(optionsOf({ ...usual, keep: ['right_arm', 'head'], back: 'inpaint', vrm: true })).toEqual({
       ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', vrm: true },
     });
+    expect(optionsOf({ ...usual, vrm: true, author: ' Ada ' })).toEqual({ vrm: true, vrm_author: 'Ada' });
+    expect(optionsOf({ ...usual, author: '  ' })).toEqual({});
   });
 
   it('shows what a job was made with, names for two parts included', () => {
     expect(choicesOf({})).toEqual(usual);
     expect(choicesOf({ keep: ['legs', 'head'], camera: 'orbit' }).keep).toEqual(['head', 'left_leg', 'right_leg']);
+    expect(choicesOf({ vrm: true, vrm_author: 'Ada' })).toEqual({ ...usual, vrm: true, author: 'Ada' });
   });
 });
 

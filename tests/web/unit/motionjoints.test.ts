@@ -1,4 +1,4 @@
-import { groups, jointName, missing, moved, moverOf, required } from '@web/character/motionjoints';
+import { commonPrefix, groups, jointName, missing, moved, moverOf, required } from '@web/character/motionjoints';
 import { describe, expect, it } from 'vitest';
 
 const found = { Hips: 'pelvis', LeftArm: 'arm_l', Neck: 'neck' };
@@ -39,5 +39,19 @@ describe('the joints of a character', () => {
     const names = all.map(jointName);
     expect(new Set(names).size).toBe(all.length);
     expect([jointName('LeftToeBase'), jointName('RightHandIndex2')]).toEqual(['Left toes', 'Right index finger, 2']);
+  });
+});
+
+describe('what exporters put before all names', () => {
+  it('ends with a mark, and is of all of them', () => {
+    expect(commonPrefix(['mixamorig:Hips', 'mixamorig:Head'])).toBe('mixamorig:');
+    expect(commonPrefix(['rig|m_avg_L_Hip', 'rig|m_avg_R_Hip'])).toBe('rig|m_avg_');
+    expect(commonPrefix(['LeftLeg', 'LeftFoot'])).toBe('');
+    expect(commonPrefix(['mixamorig:Hips', 'Head'])).toBe('');
+  });
+
+  it('leaves something of each name', () => {
+    expect(commonPrefix(['a_', 'a_b'])).toBe('');
+    expect(commonPrefix([])).toBe('');
   });
 });

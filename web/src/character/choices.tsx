@@ -24,9 +24,19 @@ export interface Choices {
   back: (typeof backs)[number];
   partial: boolean;
   vrm: boolean;
+  /** Whose the character is, for its VRM file; empty where nobody says. */
+  author: string;
 }
 
-export const usual: Choices = { keep: [], camera: 'fixed', seconds: 4, back: 'mirror', partial: false, vrm: false };
+export const usual: Choices = {
+  keep: [],
+  camera: 'fixed',
+  seconds: 4,
+  back: 'mirror',
+  partial: false,
+  vrm: false,
+  author: '',
+};
 
 /** The options to send: what differs from the usual, so that the service's own defaults hold elsewhere. */
 export const optionsOf = (choices: Choices): CharacterOptions => changedOptions(usual, choices) as CharacterOptions;
@@ -42,6 +52,7 @@ export function changedOptions(before: Choices, now: Choices): { [Name in keyof 
     ...(now.back !== before.back && { back_texture: now.back === usual.back ? null : now.back }),
     ...(now.partial !== before.partial && { partial: now.partial || null }),
     ...(now.vrm !== before.vrm && { vrm: now.vrm || null }),
+    ...(now.author.trim() !== before.author && { vrm_author: now.author.trim() || null }),
   };
 }
 
@@ -55,6 +66,7 @@ export function choicesOf(options: CharacterOptions): Choices {
     back: options.back_texture ?? usual.back,
     partial: options.partial ?? usual.partial,
     vrm: options.vrm ?? usual.vrm,
+    author: options.vrm_author ?? usual.author,
   };
 }
 
@@ -137,6 +149,19 @@ export function VideoFields({ value, onChange }: Props) {
         <Check label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
         <Check label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
       </div>
+      {value.vrm && (
+        <div class="field">
+          <label for={`${id}-author`}>{words.author}</label>
+          <input
+            id={`${id}-author`}
+            type="text"
+            maxLength={200}
+            value={value.author}
+            placeholder={words.usualAuthor}
+            onInput={({ currentTarget }) => onChange({ author: currentTarget.value })}
+          />
+        </div>
+      )}
     </>
   );
 }

@@ -6,7 +6,7 @@ import { Trouble } from '../components/trouble';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { detailsOf, keyOf, type OwnMotion } from './motiondetails';
-import { type Group, groups, jointName, missing, moved, moverOf, required } from './motionjoints';
+import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './motionjoints';
 import '../styles/jointmap.css';
 
 const words = strings.motionJoints;
@@ -74,6 +74,7 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
   const clipId = useId();
   const [fingers, setFingers] = useState(false);
   const wanting = missing(mapping, value);
+  const prefix = commonPrefix(joints.map(({ name }) => name));
   const group = (name: Group) => (
     <fieldset key={name}>
       <legend>{words.groups[name]}</legend>
@@ -82,6 +83,7 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
           key={joint}
           joint={joint}
           offered={joints}
+          prefix={prefix}
           mover={moverOf(joint, mapping, value)}
           changed={value[joint] !== undefined}
           onChange={(mover) => onChange(moved(joint, mover, mapping, value))}
@@ -132,12 +134,14 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
 interface RowProps {
   joint: string;
   offered: MotionDetails['joints'];
+  /** Of all names that are offered; not shown. */
+  prefix: string;
   mover: string | null;
   changed: boolean;
   onChange: (mover: string | null) => void;
 }
 
-function Row({ joint, offered, mover, changed, onChange }: RowProps) {
+function Row({ joint, offered, prefix, mover, changed, onChange }: RowProps) {
   const id = useId();
   const wanting = mover === null && required.includes(joint);
   return (
@@ -153,7 +157,7 @@ function Row({ joint, offered, mover, changed, onChange }: RowProps) {
         <option value="">{words.nothing}</option>
         {offered.map(({ name }) => (
           <option key={name} value={name}>
-            {name}
+            {name.slice(prefix.length)}
           </option>
         ))}
       </select>

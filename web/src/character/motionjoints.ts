@@ -44,6 +44,17 @@ export function moved(joint: string, mover: string | null, found: Found, wanted:
 export const missing = (found: Found, wanted: MotionJoints): string[] =>
   required.filter((joint) => moverOf(joint, found, wanted) === null);
 
+/** What all names begin with, up to a colon, a bar or an underscore: exporters put it before each. */
+export function commonPrefix(names: readonly string[]): string {
+  const shared = names.reduce((one, other) => {
+    let length = 0;
+    while (length < one.length && one[length] === other[length]) length += 1;
+    return one.slice(0, length);
+  }, names[0] ?? '');
+  const prefix = /^.*[:|_]/.exec(shared)?.[0] ?? '';
+  return names.some((name) => name.length === prefix.length) ? '' : prefix;
+}
+
 /** `Left upper arm`; `Left index finger, 2`. */
 export function jointName(joint: string): string {
   const { bones } = strings.viewer;

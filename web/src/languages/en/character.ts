@@ -46,6 +46,8 @@ export const character = {
     backs: { mirror: 'The front, mirrored', inpaint: 'Painted to match' },
     partial: 'Accept a person whose legs are cut off or hidden',
     vrm: 'Also as VRM, for avatars in games and chats',
+    author: 'Whose the character is, as its VRM file says',
+    usualAuthor: 'Galatea',
     start: 'Have them walk out',
     needPhoto: 'First choose a picture.',
 
