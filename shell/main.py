@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
+
 import click
 
 import engine
+
+atexit.register(gc.freeze)
+"""Python looks for rubbish once more when it ends, in all that the numeric libraries hold: half a second for nothing."""
 
 
 class Kinds(click.Group):
