@@ -166,10 +166,3 @@ def inverse_map(
         far = np.zeros(len(out_xy), np.float32) if depth is None else np.ascontiguousarray(depth, np.float32)
         _rasterise(out_xy, far, source, triangles, field, np.full(shape, np.inf, np.float32))
     return field
-
-
-def delaunay(points: NDArray[np.floating]) -> NDArray[np.int32]:
-    """(T, 3) the Delaunay triangles over points (V, 2)."""
-    from scipy.spatial import Delaunay  # slow to import, and not needed where the triangles were kept
-
-    return np.asarray(Delaunay(points).simplices, np.int32)

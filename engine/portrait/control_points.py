@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mesh_warp import delaunay
+from engine.imaging.delaunay import delaunay
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 from engine.portrait.alignment import Similarity

@@ -10,11 +10,11 @@ costs one small product and one rasterisation of that mesh, which is the inverse
 from __future__ import annotations
 
 import cv2
+import numba
 import numpy as np
-import scipy.sparse as sparse
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, cKDTree
 
+from engine.imaging.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 from engine.portrait.warp_mesh import WarpMesh
 
@@ -26,6 +26,8 @@ FALLOFF = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
 CELLS = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
+NEAR = 1e-9
+"""Pixels and weights by which a point may lie beside a triangle and still counts as inside."""
 
 
 def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
@@ -42,30 +44,24 @@ def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: 
     return np.round(level * (DISKS - 1)) / (DISKS - 1) * LARGEST_DISK * diagonal
 
 
-def interpolation_matrix(
-    control: NDArray[np.floating], points: NDArray[np.floating], triangulation: Delaunay | None = None
-) -> sparse.csr_matrix:
-    """Piecewise-linear interpolation over the Delaunay triangulation: (N, C), rows sum to one.
+def interpolation(
+    control: NDArray[np.floating], triangles: NDArray[np.int32], points: NDArray[np.floating]
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """Piecewise-linear interpolation over triangles (T, 3) of control points (C, 2).
 
-    Points outside the control points' hull take the value of the nearest control point.
+    Returns
+    -------
+    For each of the points (N, 2) the three control points around it, (N, 3), and their weights, (N, 3), which sum to
+    one. Points outside the control points' hull take the value of the nearest control point.
     """
-    triangulation = triangulation or Delaunay(control)
-    simplex = triangulation.find_simplex(points)
-    inside = simplex >= 0
-    transform = triangulation.transform[simplex[inside]]
-    first = np.einsum("nij,nj->ni", transform[:, :2], points[inside] - transform[:, 2])
-    weights = np.column_stack([first, 1 - first.sum(axis=1)])
-    columns = triangulation.simplices[simplex[inside]]
-    rows = np.repeat(np.flatnonzero(inside), 3)
-    outside = np.flatnonzero(~inside)
-    nearest = ((points[outside, None] - control[None]) ** 2).sum(axis=2).argmin(axis=1) if len(outside) else outside
-    return sparse.csr_matrix(
-        (
-            np.concatenate([weights.ravel(), np.ones(len(outside))]),
-            (np.concatenate([rows, outside]), np.concatenate([columns.ravel(), nearest])),
-        ),
-        shape=(len(points), len(control)),
-    )
+    order = np.argsort(points[:, 1], kind="stable")
+    corners, weights = np.zeros((len(points), 3), np.int32), np.zeros((len(points), 3))
+    _locate(control, triangles, points[order, 0], points[order, 1], order, corners, weights)
+    outside = np.flatnonzero(weights.sum(axis=1) == 0)
+    if len(outside):
+        nearest = ((points[outside, None] - control[None]) ** 2).sum(axis=2).argmin(axis=1)
+        corners[outside], weights[outside, 0] = nearest[:, None], 1
+    return corners, weights
 
 
 def build_warp_mesh(
@@ -91,28 +87,33 @@ def build_warp_mesh(
     used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
     on_face = used[used < len(face)]
     vertices = np.concatenate([face[on_face, :2].astype(float), _grid_around(face, shape, spacing)])
-    samples_x = np.linspace(0, width - 1, int(np.ceil(2 * width / spacing)) + 1)
-    samples_y = np.linspace(0, height - 1, int(np.ceil(2 * height / spacing)) + 1)
-    samples = np.stack(np.meshgrid(samples_x, samples_y), axis=-1).reshape(-1, 2)
-    triangulation = Delaunay(control[used])
-    select = sparse.csr_matrix((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(control)))
-    around = interpolation_matrix(control[used], vertices[len(on_face) :], triangulation)
-    operator = sparse.vstack([sparse.eye(len(control), format="csr")[on_face], around @ select], format="csr")
+    triangles = delaunay(control[used])
+    corners, weights = interpolation(control[used], triangles, vertices)
+    corners[: len(on_face)], weights[: len(on_face)] = np.arange(len(on_face))[:, None], (1, 0, 0)
+    matrix = np.zeros((len(vertices), len(control)), np.float32)
+    np.add.at(matrix, (np.arange(len(vertices))[:, None], used[corners]), weights.astype(np.float32))
     if smoothing != "none":
         radii = (
             disk_radii(face, vertices, shape)
             if smoothing == "confidence"
             else np.full(len(vertices), LARGEST_DISK * diagonal / 2)
         )
-        field = interpolation_matrix(control[used], samples, triangulation) @ select
         on_border = ((vertices <= 0) | (vertices >= np.array([width - 1, height - 1]))).any(axis=1)
-        keep = sparse.diags(((radii < spacing / 2) | on_border).astype(float))
-        smooth = _disk_average(vertices, radii, samples, spacing) @ field
-        operator = keep @ operator + (sparse.eye(len(vertices)) - keep) @ smooth
-    triangles = Delaunay(vertices).simplices
-    matrix = sparse.csr_matrix(operator).astype(np.float32)
+        smooth = np.flatnonzero((radii >= spacing / 2) & ~on_border)
+        across = np.linspace(0, width - 1, int(np.ceil(2 * width / spacing)) + 1)
+        down = np.linspace(0, height - 1, int(np.ceil(2 * height / spacing)) + 1)
+        samples = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
+        corners, weights = interpolation(control[used], triangles, samples)
+        reach = np.maximum(radii[smooth], 0.75 * spacing)
+        matrix[smooth] = _disk_average(vertices[smooth], reach, across, down, used[corners], weights, len(control))
+    entries = matrix != 0
     return WarpMesh(
-        vertices.astype(np.float32), triangles.astype(np.int32), matrix.indptr, matrix.indices, matrix.data, shape
+        vertices.astype(np.float32),
+        delaunay(vertices),
+        np.concatenate([[0], np.cumsum(entries.sum(axis=1))]).astype(np.int32),
+        np.nonzero(entries)[1].astype(np.int32),
+        matrix[entries],
+        shape,
     )
 
 
@@ -127,12 +128,40 @@ def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: fl
     return grid[distance < -0.4 * spacing]
 
 
-def _disk_average(
-    vertices: NDArray[np.float64], radii: NDArray[np.float64], samples: NDArray[np.float64], spacing: float
-) -> sparse.csr_matrix:
-    """(V, S): each vertex's mean over the samples within its disk; samples beyond the image count as the border's."""
-    neighbours = cKDTree(samples).query_ball_point(vertices, np.maximum(radii, 0.75 * spacing))
-    rows = np.repeat(np.arange(len(vertices)), [len(n) for n in neighbours])
-    columns = np.concatenate([np.asarray(n, int) for n in neighbours])
-    counts = np.array([len(n) for n in neighbours], float)
-    return sparse.csr_matrix((1 / counts[rows], (rows, columns)), shape=(len(vertices), len(samples)))
+@numba.njit(cache=True, nogil=True)
+def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[no-untyped-def]
+    """Write corners and weights (N, 3) of the points that lie in a triangle; x and y are sorted by y."""
+    for t in range(len(triangles)):
+        a, b, c = triangles[t]
+        bx, by = control[b, 0] - control[a, 0], control[b, 1] - control[a, 1]
+        cx, cy = control[c, 0] - control[a, 0], control[c, 1] - control[a, 1]
+        area = bx * cy - by * cx
+        if area == 0:
+            continue
+        top = control[a, 1] + min(0.0, by, cy)
+        bottom = control[a, 1] + max(0.0, by, cy)
+        for k in range(np.searchsorted(y, top - NEAR), np.searchsorted(y, bottom + NEAR)):
+            px, py = x[k] - control[a, 0], y[k] - control[a, 1]
+            wb, wc = (px * cy - py * cx) / area, (bx * py - by * px) / area
+            if min(wb, wc, 1 - wb - wc) >= -NEAR:
+                corners[order[k]] = a, b, c
+                weights[order[k]] = 1 - wb - wc, wb, wc
+
+
+@numba.njit(cache=True, nogil=True)
+def _disk_average(vertices, radii, across, down, corners, weights, count):  # type: ignore[no-untyped-def]
+    """(V, count) float32: what the mean over the samples within each vertex's disk takes of each control point. The
+    samples lie where `across` and `down` cross, row by row; corners and weights (S, 3) are theirs."""
+    out = np.zeros((len(vertices), count), np.float32)
+    for v in range(len(vertices)):
+        x, y, radius = vertices[v, 0], vertices[v, 1], radii[v]
+        inside = 0
+        for row in range(np.searchsorted(down, y - radius), np.searchsorted(down, y + radius, "right")):
+            wide = np.sqrt(max(radius**2 - (down[row] - y) ** 2, 0.0))
+            for column in range(np.searchsorted(across, x - wide), np.searchsorted(across, x + wide, "right")):
+                inside += 1
+                sample = row * len(across) + column
+                for k in range(3):
+                    out[v, corners[sample, k]] += weights[sample, k]
+        out[v] /= inside
+    return out

@@ -17,7 +17,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mesh_warp import delaunay, inverse_map
+from engine.imaging.delaunay import delaunay
+from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
 from engine.portrait.driver import CROP, CROP_EYES, DriverTrack

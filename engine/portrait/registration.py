@@ -17,7 +17,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mesh_warp import delaunay, inverse_map
+from engine.imaging.delaunay import delaunay
+from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import (
     FACE_OVAL,
     LEFT_EYE,

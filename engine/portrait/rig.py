@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from engine.portrait.control_points import ControlPoints, place_control_points
+from engine.portrait.dense_field import build_warp_mesh
 from engine.portrait.fine_details import DetailRegion, detail_region
 from engine.portrait.target import Layers, TargetFace
 from engine.portrait.warp_mesh import WarpMesh
@@ -23,8 +24,6 @@ class Rig:
 
 def rig_target(target: TargetFace, layers: Layers, smoothing: str = "confidence") -> Rig:
     """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it."""
-    from engine.portrait.dense_field import build_warp_mesh  # slow to import, and a kept rig does not need it
-
     control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255))
     mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], smoothing, control.usable)
     return Rig(control, mesh, detail_region(target.rgb, target.mesh))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import Delaunay
 
+from engine.imaging.delaunay import delaunay
 from engine.imaging.fold_edges import folded
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
@@ -20,7 +21,7 @@ from engine.portrait.dense_field import (
     LARGEST_DISK,
     build_warp_mesh,
     disk_radii,
-    interpolation_matrix,
+    interpolation,
 )
 from engine.portrait.warp_mesh import WarpMesh
 
@@ -195,12 +196,25 @@ def test_interpolation_is_exact_for_planes_and_holds_beyond_the_hull() -> None:
     rng = np.random.default_rng(0)
     control = rng.uniform(0, 100, (30, 2))
     inside = rng.uniform(35, 65, (50, 2))
-    matrix = interpolation_matrix(control, inside)
-    np.testing.assert_allclose(np.asarray(matrix.sum(axis=1)).ravel(), 1)
-    np.testing.assert_allclose(matrix @ (control @ [2.0, -1.0] + 3), inside @ [2.0, -1.0] + 3, atol=1e-9)
+    corners, weights = interpolation(control, delaunay(control), inside)
+    np.testing.assert_allclose(weights.sum(axis=1), 1)
+    assert weights.min() >= -1e-9
+    plane = control @ [2.0, -1.0] + 3
+    np.testing.assert_allclose((weights * plane[corners]).sum(axis=1), inside @ [2.0, -1.0] + 3, atol=1e-9)
     nearest = int(np.argmin(np.linalg.norm(control - (-500, -500), axis=1)))
-    beyond = interpolation_matrix(control, np.array([[-500.0, -500.0]]))
-    assert beyond[0, nearest] == 1 and beyond.nnz == 1
+    corners, weights = interpolation(control, delaunay(control), np.array([[-500.0, -500.0]]))
+    assert corners[0, 0] == nearest and weights[0].tolist() == [1, 0, 0]
+
+
+def test_interpolation_is_scipys() -> None:
+    rng = np.random.default_rng(1)
+    control, points = rng.uniform(0, 100, (60, 2)), rng.uniform(-10, 110, (500, 2))
+    values = rng.normal(size=60)
+    corners, weights = interpolation(control, delaunay(control), points)
+    theirs = LinearNDInterpolator(control, values)(points)
+    known = np.isfinite(theirs)
+    assert 250 < known.sum() < 400
+    np.testing.assert_allclose((weights * values[corners]).sum(axis=1)[known], theirs[known], atol=1e-9)
 
 
 def test_points_that_are_not_usable_move_nothing(control: ControlPoints, face: NDArray, offsets: NDArray) -> None:
