@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -85,6 +86,8 @@ class Run:
         self._done = 0.0
         self._current = ""
         self._last_report = (0.0, "")
+        self._broken = False
+        self._here = _Here()
         self.seconds: dict[str, float] = {}
         self.reused: list[str] = []
         self.notices: list[Notice] = []
@@ -105,41 +108,43 @@ class Run:
         among the arguments (such as `run.tick`) do not count towards the key.
         """
         with self.timed(name):
-            store = (self._shared if shared else self._store) if stored else None
-            before = len(self.notices)
-            return self._output(name, function, arguments, store, lambda: self.notices[before:])
+            return self._output(
+                name, function, arguments, (self._shared if shared else self._store) if stored else None
+            )
 
-    def beside(self, name: str, function: Callable[..., T], *arguments: Any) -> Beside[T]:
+    def beside(self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False) -> Beside[T]:
         """Begin a stage on another core while the next ones run; calling what is returned waits for its output.
 
-        For stages that give no notices and report nothing on the way. Its time is that of the wait. Arguments may
-        be stages that were begun so: this one then follows them.
+        What it reports on the way and warns of is heard where it is waited for, and its time is that of the wait.
+        Arguments may be stages that were begun so: this one then follows them. It ends early, at its next `tick`,
+        where another stage breaks off: then nobody will ask for it.
         """
+        one: Beside[T] = Beside(self, name)
 
         def work() -> T:
-            ready = [one.output.result() if isinstance(one, Beside) else one for one in arguments]
-            return self._output(name, function, ready, self._store, list)
+            ready = [other.output.result() if isinstance(other, Beside) else other for other in arguments]
+            self._here.beside = one
+            return self._output(name, function, ready, self._shared if shared else self._store)
 
         pool = ThreadPoolExecutor(1, thread_name_prefix=name)
-        output = pool.submit(work)
+        one.output = pool.submit(work)
         pool.shutdown(wait=False)
-        return Beside(self, name, output)
+        return one
 
-    def _output(
-        self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None,
-        given: Callable[[], list[Notice]],
-    ) -> T:  # fmt: skip
-        """The output from the store, or made and stored together with the notices `given` while it was made."""
+    def _output(self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None) -> T:
+        """The output from the store, or made and stored together with the notices given while it was made."""
+        heard = self._here.beside.notices if self._here.beside else self.notices
+        before = len(heard)
         key = self.key(name, *arguments)
         kept = store.load(key, get_type_hints(function)["return"]) if store is not None else None
         if kept is not None:
             notices, output = kept
-            self.notices.extend(notices)
+            heard.extend(notices)
             self.reused.append(name)
         else:
             output = function(*arguments)
             if store is not None:
-                store.save(key, output, given())
+                store.save(key, output, heard[before:])
                 if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
                     _, output = kept
         self._keys[id(output)] = (output, key)
@@ -159,6 +164,7 @@ class Run:
             turn = "ended"
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started
+            self._broken = turn == "broke"
             self._on_stage(name, turn)
         self._done += self._weights.get(name, 0.0)
         self._current = name
@@ -166,18 +172,22 @@ class Run:
     def tick(self, fraction: float, message: str = "") -> None:
         """Called inside long loops with the stage's own fraction [0, 1]: reports, and may raise `Canceled`."""
         self.check()
-        self._report(fraction, message)
+        if self._here.beside:
+            self._here.beside.fraction = fraction
+        else:
+            self._report(fraction, message)
 
     def check(self) -> None:
-        """Raise `Canceled` if the run was told to stop."""
-        if self._canceled():
+        """Raise `Canceled` if the run was told to stop, and beside a stage that broke off."""
+        if self._canceled() or (self._here.beside and self._broken):
             raise Canceled
 
     def warn(self, code: str, message: str) -> None:
         """Put a warning into the report, once."""
+        heard = self._here.beside.notices if self._here.beside else self.notices
         notice = Notice(code, message)
-        if notice not in self.notices:
-            self.notices.append(notice)
+        if notice not in heard:
+            heard.append(notice)
 
     def publish(self, path: Path) -> None:
         """Say that an artifact is complete although the run goes on."""
@@ -218,19 +228,29 @@ class Run:
         self._on_progress(Progress(self._current, min(self._done + share * fraction, 1.0), message))
 
 
-@dataclass(frozen=True)
 class Beside(Generic[T]):
     """A stage at work on another core; calling it waits for its `output`, unless the run is canceled."""
 
-    run: Run
-    name: str
     output: Future[T]
 
+    def __init__(self, run: Run, name: str):
+        self.fraction = 0.0
+        self.notices: list[Notice] = []
+        self._run, self._name = run, name
+
     def __call__(self) -> T:
-        with self.run.timed(self.name):
+        with self._run.timed(self._name):
             while not wait_for([self.output], timeout=PATIENCE).done:
-                self.run.check()
+                self._run.tick(self.fraction)
+            for notice in self.notices:
+                self._run.warn(notice.code, notice.message)
             return self.output.result()
+
+
+class _Here(threading.local):
+    """The stage `beside` the others that this thread works on, if it does."""
+
+    beside: Beside[Any] | None = None
 
 
 def content_hash(path: Path) -> str:

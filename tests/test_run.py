@@ -356,3 +356,55 @@ def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
     wait = run.beside("heavy", _heavy, Points(np.ones(3)), -1.0)
     with pytest.raises(ValueError, match="less than nothing"):
         wait()
+
+
+def test_what_works_beside_warns_where_it_is_waited_for_and_again_when_it_is_reused(store: StageStore) -> None:
+    for reused in ([], ["dim"]):
+        run = Run(store=store)
+        wait = run.beside("dim", _warning, run.warn)
+        wait.output.result()
+        assert run.notices == [] and run.reused == reused
+        wait()
+        assert [notice.code for notice in run.notices] == ["dark"]
+
+
+def test_what_works_beside_reports_while_it_is_waited_for() -> None:
+    seen: list[Progress] = []
+    told = threading.Event()
+
+    def slow(points: Points, tick) -> Points:
+        tick(0.5)
+        told.wait(30)
+        return points
+
+    def hear(progress: Progress) -> None:
+        seen.append(progress)
+        if progress.fraction > 0.5:
+            told.set()
+
+    run = Run(on_progress=hear)
+    run.plan({"light": 1, "slow": 3})
+    wait = run.beside("slow", slow, Points(np.ones(1)), run.tick)
+    run.stage("light", _heavy, Points(np.ones(1)), 1.0)
+    assert {one.stage for one in seen} == {"light"}, "nothing is heard of it before"
+    wait()
+    assert (seen[-1].stage, seen[-1].fraction) == ("slow", pytest.approx(0.25 + 0.75 * 0.5))
+
+
+def test_what_works_beside_ends_where_another_stage_breaks_off() -> None:
+    began, broken = threading.Event(), threading.Event()
+
+    def endless(points: Points, tick) -> Points:
+        began.set()
+        for _ in range(3000):
+            tick(0.5)
+            broken.wait(0.01)
+        return points
+
+    run = Run()
+    wait = run.beside("endless", endless, Points(np.ones(1)), run.tick)
+    began.wait(30)
+    with pytest.raises(ValueError, match="less than nothing"):
+        run.stage("heavy", _heavy, Points(np.ones(1)), -1.0)
+    with pytest.raises(Canceled):
+        wait.output.result(timeout=20)

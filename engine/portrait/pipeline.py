@@ -49,6 +49,7 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
     image, driver = inputs["image"], inputs["driver"]
     assert isinstance(image, Path) and isinstance(driver, Path | Candidates)
     run.plan(STAGES)
+    tracking = follow(driver, options.fps, options.trim, run) if isinstance(driver, Path) else None
     prepared = prepare_target(image, options, out, run)
     target = prepared.face
     choice: dict[str, object] = {}
@@ -56,9 +57,7 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
         chosen = choose_driver(target, driver, run)
         driver, choice = chosen.path, {"driver_chosen": chosen.name, "driver_scores": chosen.scores}
     performed = analyse_driver(
-        driver,
-        options.fps,
-        options.trim,
+        tracking or follow(driver, options.fps, options.trim, run),
         lambda track: choose_neutral_frame(track, target.mesh, options.neutral_frame),
         run,
         loop=options.loop,
@@ -123,25 +122,24 @@ class Performed:
         return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting(), run.tick)
 
 
+def follow(driver: Path, fps: float | None, trim: tuple[float, float] | None, run: Run) -> Beside[DriverTrack]:
+    """Begin to follow the driver's face, which nothing else has to wait for."""
+    return run.beside("track_driver", track_driver, driver, fps, trim, run.limits, run.tick, run.warn, shared=True)
+
+
 def analyse_driver(
-    driver: Path,
-    fps: float | None,
-    trim: tuple[float, float] | None,
-    neutral_of: Callable[[DriverTrack], int],
-    run: Run,
-    loop: bool = False,
+    tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], int], run: Run, loop: bool = False
 ) -> Performed:
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
-    track = run.stage("track_driver", track_driver, driver, fps, trim, run.limits, run.tick, run.warn, shared=True)
+    track = tracking()
     neutral = neutral_of(track)
     registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
     track = replace(track, meshes=registration.meshes)
     if loop:
         track = close_loop(track)
+    glances = run.beside("glance_at_driver", glance_at_driver, track, neutral, shared=True)
     ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
-    return Performed(
-        track, neutral, ratios, run.stage("glance_at_driver", glance_at_driver, track, neutral, shared=True)
-    )
+    return Performed(track, neutral, ratios, glances())
 
 
 def _write_animation(

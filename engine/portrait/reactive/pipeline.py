@@ -21,7 +21,7 @@ from engine.portrait.misfit import Misfit
 from engine.portrait.motion import carry_motion
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
-from engine.portrait.pipeline import STAGES, Performed, analyse_driver, prepare_target, write_landmarks
+from engine.portrait.pipeline import STAGES, Performed, analyse_driver, follow, prepare_target, write_landmarks
 from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
 from engine.portrait.reactive.bundle import write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
@@ -94,17 +94,16 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
 def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
     """A driver's analysis, the same that a portrait driven by it alone would make where the frame rates agree."""
     if not state.own:
-        asked = options.fps
-        return analyse_driver(state.video, asked, None, lambda track: round(_frame(state, track.fps)), run)
+        tracking = follow(state.video, options.fps, None, run)
+        return analyse_driver(tracking, lambda track: round(_frame(state, track.fps)), run)
     trim = options.trim
     if trim is None and probe_video(state.video, run.limits).seconds > MOST_SECONDS:
         trim = (0.0, MOST_SECONDS)
         run.warn(
             "driver_shortened", f"The first {MOST_SECONDS:.0f} seconds of the driver are used: trim chooses others."
         )
-    return analyse_driver(
-        state.video, fps, trim, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run
-    )
+    tracking = follow(state.video, fps, trim, run)
+    return analyse_driver(tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run)
 
 
 def _frame(state: State, fps: float) -> float:
