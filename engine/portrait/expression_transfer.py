@@ -27,14 +27,14 @@ def local_maps(
     ----------
     neutral, target : (478, 3) meshes. unit : the driver's eye distance, pixels.
     """
-    source, destination = neutral[:, :2].astype(float), target[:, :2].astype(float)
-    apart = ((source[:, None] - source[None]) ** 2).sum(axis=2)
-    weight = np.exp(-apart / (2 * (NEIGHBOURHOOD * unit) ** 2))
+    source, destination = (mesh[:, :2] - mesh[:, :2].mean(axis=0, dtype=float) for mesh in (neutral, target))
+    (x, y), (u, v) = source.T, destination.T
+    weight = np.exp(-((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2) / (2 * (NEIGHBOURHOOD * unit) ** 2))
     weight /= weight.sum(axis=1, keepdims=True)
-    a = source[None] - (weight @ source)[:, None]
-    b = destination[None] - (weight @ destination)[:, None]
-    spread = np.einsum("vw,vwi,vwj->vij", weight, a, a)
-    cross = np.einsum("vw,vwi,vwj->vij", weight, b, a)
+    mean = weight @ np.column_stack([source, destination])
+    squares = weight @ np.column_stack([x * x, x * y, x * y, y * y, u * x, u * y, v * x, v * y])
+    squares -= mean[:, [0, 0, 1, 1, 2, 2, 3, 3]] * mean[:, [0, 1, 0, 1, 0, 1, 0, 1]]
+    spread, cross = squares[:, :4].reshape(-1, 2, 2), squares[:, 4:].reshape(-1, 2, 2)
     ridge = RIDGE * np.trace(spread, axis1=1, axis2=2)[:, None, None] / 2 * np.eye(2)
     return (cross + phi.linear @ ridge) @ np.linalg.inv(spread + ridge)
 
