@@ -8,20 +8,18 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from errno import EDQUOT, ENOSPC
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import click
 from pydantic import BaseModel, ValidationError
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-from engine import run as engine_run
 from engine.errors import Canceled, InputError
 from engine.kind import AUTO, Candidates, Given, Input, Kind
-from engine.run import Run
+from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from service.kinds import library
 from service.settings import MEGABYTE, Settings
@@ -108,13 +106,8 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
         with (
             tempfile.TemporaryDirectory(prefix=".galatea-", dir=out) as draft,
             libraries_silenced() as shown,
-            _bar(Console(file=shown)) as bar,
+            _bar(kind.name, shown) as report,
         ):
-            task = bar.add_task(kind.name, total=1.0)
-
-            def report(progress: engine_run.Progress) -> None:
-                bar.update(task, completed=progress.fraction, description=progress.message or progress.stage)
-
             run = Run(store=cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic)
             kind.work(inputs, options, Path(draft), run)
             results = [Path(shutil.move(made, out / made.name)) for made in sorted(Path(draft).iterdir())]
@@ -133,6 +126,21 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
     trim([cache.folder], settings.cache_mb * MEGABYTE)
 
 
-def _bar(console: Console) -> Progress:
-    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    return Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
+@contextmanager
+def _bar(name: str, shown: TextIO) -> Iterator[Callable[[Progress], None]]:
+    """A progress bar where somebody can see it; what moves it."""
+    if not shown.isatty():
+        yield lambda progress: None
+        return
+    from rich import console  # slow to import, and only a terminal needs it
+    from rich import progress as bars
+
+    columns = (
+        bars.TextColumn("{task.description}"),
+        bars.BarColumn(),
+        bars.TaskProgressColumn(),
+        bars.TimeRemainingColumn(),
+    )
+    with bars.Progress(*columns, console=console.Console(file=shown), transient=True) as bar:
+        task = bar.add_task(name, total=1.0)
+        yield lambda now: bar.update(task, completed=now.fraction, description=now.message or now.stage)

@@ -9,8 +9,10 @@ import click
 
 import engine
 
+gc.set_threshold(20_000, 20, 20)
+"""Python looks for rubbish after every 700 new objects, and the numeric libraries make a hundred thousand that stay."""
 atexit.register(gc.freeze)
-"""Python looks for rubbish once more when it ends, in all that the numeric libraries hold: half a second for nothing."""
+"""It looks once more when it ends, in all that they hold: half a second for nothing."""
 
 
 class Kinds(click.Group):
