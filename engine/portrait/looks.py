@@ -41,6 +41,9 @@ PATCH = 0.06
 FPS, SECONDS = 6.0, 30.0
 """How often, and how far into it, a driver is looked at."""
 
+AT_ONCE = 256
+"""Meshes that are turned to the front together, so that memory does not grow with a video's length."""
+
 
 @dataclass(frozen=True)
 class Looks:
@@ -88,6 +91,10 @@ def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = 
 
 def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """`EXPRESSION` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
+    return np.concatenate([_expressed(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
+
+
+def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     front = frontal(meshes)
     middle = (front[:, 13] + front[:, 14]) / 2
     corners = (front[:, 61] + front[:, 291]) / 2
