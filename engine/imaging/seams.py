@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.poisson import membrane
 
-CYCLES = 5
+CYCLES = 3
 
 
 def heal_seams(picture: NDArray[np.float32], field: NDArray[np.int32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
