@@ -10,7 +10,7 @@ from typing import Any
 
 import psutil
 import pytest
-from running import Running
+from running import Running, eventually
 
 from service.redis_server import socket_path
 
@@ -21,6 +21,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     running = Running(
         data, kinds="hostile_kind:KIND", job_memory_mb=700, job_cpu_seconds=4, sweep_seconds=0.5, lease_seconds=5
     )
+    eventually(lambda: bool(running.processes("shell.main worker")), "the worker starts")
     yield running
     running.stop()
 
