@@ -9,10 +9,8 @@ import click
 
 import engine
 
-gc.set_threshold(20_000, 20, 20)
-"""Python looks for rubbish after every 700 new objects, and the numeric libraries make a hundred thousand that stay."""
 atexit.register(gc.freeze)
-"""It looks once more when it ends, in all that they hold: half a second for nothing."""
+"""Python looks for rubbish once more when it ends, in all that the numeric libraries hold: half a second for nothing."""
 
 
 class Kinds(click.Group):
@@ -28,6 +26,7 @@ class Kinds(click.Group):
         fixed = super().get_command(context, name)
         if fixed is not None:
             return fixed
+        gc.set_threshold(20_000, 20, 20)  # not after 700 new objects: the numeric libraries make many that stay
         from service.kinds.registry import load_kinds
         from service.settings import Settings
         from shell.kind_command import kind_command

@@ -259,27 +259,31 @@ def shade(
     origin: NDArray[np.float32],
     scale: float,
     within: NDArray[np.floating] | None = None,
+    strength: float = 1.0,
 ) -> None:
-    """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows.
+    """Equation 3: multiply the warped target (H, W, 3), in place, by the warped ratio where its region allows, with a
+    `strength` from 0 to 1.
 
     `landing` is the region's origin on the driver's neutral crop; `origin` (H, W, 2) the frame's inverse map, in
     pixels of the target enlarged by `scale`; `within`: points (V, 2) of the frame around which its face ends, if known.
     """
     x0, y0 = region.box[:2]
-    landed = cv2.remap(ratio, landing, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
-    factor = 1 + region.weight * (landed - 1)
+    change = cv2.remap(ratio, landing, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    change -= 1
+    change *= region.weight
     left, top, right, bottom = 0, 0, frame.shape[1], frame.shape[0]
     if within is not None:
         left, top = np.clip(np.floor(within.min(axis=0)).astype(int) - 1, 0, (right, bottom)).tolist()
         right, bottom = np.clip(np.ceil(within.max(axis=0)).astype(int) + 2, 0, (right, bottom)).tolist()
     there = (slice(top, bottom), slice(left, right))
-    _multiply(frame[there], factor, origin[there], np.float32(x0), np.float32(y0), np.float32(1 / scale))
+    place = np.float32(x0), np.float32(y0), np.float32(1 / scale)
+    _multiply(frame[there], change, np.float32(strength), origin[there], *place)
 
 
 @numba.njit(cache=True, fastmath=True, nogil=True)
-def _multiply(rgb, factor, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
-    """Bilinear samples of `factor`, which lies at (x0, y0) of the target, times the colours."""
-    rows, columns = factor.shape
+def _multiply(rgb, change, strength, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
+    """The colours changed by bilinear samples of `change`, which lies at (x0, y0) of the target."""
+    rows, columns = change.shape
     for y in range(rgb.shape[0]):
         for x in range(rgb.shape[1]):
             fx = (origin[y, x, 0] + np.float32(0.5)) * shrink - np.float32(0.5) - x0
@@ -288,12 +292,12 @@ def _multiply(rgb, factor, origin, x0, y0, shrink):  # type: ignore[no-untyped-d
                 continue
             ix, iy = int(fx), int(fy)
             tx, ty = fx - ix, fy - iy
-            top = factor[iy, ix] + tx * (factor[iy, ix + 1] - factor[iy, ix])
-            bottom = factor[iy + 1, ix] + tx * (factor[iy + 1, ix + 1] - factor[iy + 1, ix])
-            value = top + ty * (bottom - top)
-            if abs(value - 1) > 1e-3:
+            top = change[iy, ix] + tx * (change[iy, ix + 1] - change[iy, ix])
+            bottom = change[iy + 1, ix] + tx * (change[iy + 1, ix + 1] - change[iy + 1, ix])
+            value = strength * (top + ty * (bottom - top))
+            if abs(value) > 1e-3:
                 for k in range(3):
-                    rgb[y, x, k] = np.uint8(min(255.0, rgb[y, x, k] * value + 0.5))
+                    rgb[y, x, k] = np.uint8(min(255.0, rgb[y, x, k] * (1 + value) + 0.5))
 
 
 def _damped(ratio: NDArray[np.float32]) -> NDArray[np.float32]:

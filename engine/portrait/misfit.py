@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
-from engine.portrait.driver import CROP_EYES, crop_place
+from engine.portrait.driver import CROP_EYES
 from engine.portrait.lids_and_lips import LID_SKIN, LIDS, LIPS
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
@@ -35,18 +35,17 @@ class Misfit:
     faces: NDArray[np.float32]
     weights: NDArray[np.float32]
 
-    def correction(self, face: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.float32]:
-        """What corrects a frame's points: (478, 2) offsets, pixels of the target.
+    def corrections(self, faces: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.float32]:
+        """What corrects the points of some frames: (N, 478, 2) offsets, pixels of the target.
 
         Parameters
         ----------
-        face : (478, 2) the driver's face in its crop. placed : (478, 2) the target's points as they were carried.
+        faces : (N, 478, 2) the driver's face in its crop. placed : (N, 478, 2) the target's points as they were carried.
         """
-        amiss = (_likeness(flat(face[None]), self.faces) @ self.weights).reshape(MESH_SIZE, 2)
-        back = np.linalg.inv(crop_place(placed)[:, :2])
-        offsets = -SHARE * UNIT * amiss @ back.T
-        unit = UNIT * float(np.linalg.norm(back[:, 0]))
-        return np.asarray(_keep_closed(offsets, placed, unit), np.float32)
+        amiss = (_likeness(flat(faces), self.faces) @ self.weights).reshape(-1, MESH_SIZE, 2)
+        right = placed[:, None, [263, 362]].mean(axis=2) - placed[:, None, [33, 133]].mean(axis=2)  # one eye distance
+        down = right[..., ::-1] * (-1, 1)
+        return _keep_closed(-SHARE * (amiss[..., :1] * right + amiss[..., 1:] * down), placed)
 
 
 def fit_misfit(faces: NDArray[np.floating], amiss: NDArray[np.floating]) -> Misfit:
@@ -74,16 +73,17 @@ def _likeness(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.floa
     return np.asarray(np.exp(-apart / (2 * ALIKE**2)), np.float32)
 
 
-def _keep_closed(offsets: NDArray[np.floating], placed: NDArray[np.floating], unit: float) -> NDArray[np.floating]:
+def _keep_closed(offsets: NDArray[np.floating], placed: NDArray[np.floating]) -> NDArray[np.float32]:
     """Lips and lids that are closed stay so: both sides take the mean. Irises and the lids' skin go with their eye."""
-    down = placed[152] - placed[10]
+    down = placed[:, 152] - placed[:, 10]
+    unit = np.linalg.norm(placed[:, [263, 362]].mean(axis=1) - placed[:, [33, 133]].mean(axis=1), axis=1)
     top, bottom = np.array(LIPS + LIDS).T
-    gap = (placed[bottom] - placed[top]) @ (down / np.linalg.norm(down))
-    middle, apart = (offsets[top] + offsets[bottom]) / 2, (offsets[bottom] - offsets[top]) / 2
-    apart = apart * np.clip(gap / (PARTED * unit), 0, 1)[:, None]
-    offsets[top], offsets[bottom] = middle - apart, middle + apart
+    gap = np.einsum("nvi,ni->nv", placed[:, bottom] - placed[:, top], down / np.linalg.norm(down, axis=1)[:, None])
+    middle, apart = (offsets[:, top] + offsets[:, bottom]) / 2, (offsets[:, bottom] - offsets[:, top]) / 2
+    apart = apart * np.clip(gap / (PARTED * unit[:, None]), 0, 1)[..., None]
+    offsets[:, top], offsets[:, bottom] = middle - apart, middle + apart
     skin, edge = np.array(LID_SKIN).T
-    offsets[skin] = offsets[edge]
+    offsets[:, skin] = offsets[:, edge]
     for eye, iris in ((RIGHT_EYE, RIGHT_IRIS), (LEFT_EYE, LEFT_IRIS)):
-        offsets[list(iris)] = offsets[list(eye)].mean(axis=0)
-    return offsets
+        offsets[:, list(iris)] = offsets[:, list(eye)].mean(axis=1, keepdims=True)
+    return np.asarray(offsets, np.float32)

@@ -94,11 +94,13 @@ def carry_motion(
             frames = _in_plane(phi, motion, expression, around, target, control, head)
         else:
             frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
-        for k, (offsets, depth) in enumerate(frames):
-            if misfit is not None:
-                placed = control.points[:MESH_SIZE] + offsets[:MESH_SIZE]
-                offsets[:MESH_SIZE] += correct[:, None] * misfit.correction(track.in_crop(start + k), placed)
-            yield ControlMotion(start + k, offsets, depth, look[k].astype(np.float32))
+        offsets, depths = (np.stack(each) for each in zip(*frames, strict=True))
+        if misfit is not None:
+            faces = np.stack([track.in_crop(frame) for frame in range(some.start, some.stop)])
+            placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
+            offsets[:, :MESH_SIZE] += correct[:, None] * misfit.corrections(faces, placed)
+        for k in range(len(offsets)):
+            yield ControlMotion(start + k, offsets[k], depths[k], look[k].astype(np.float32))
 
 
 def _in_plane(

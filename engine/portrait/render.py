@@ -69,7 +69,7 @@ class Renderer:
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
         self._landing = rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
-        self._creases = np.float32(min(options.strength, 1.0) if parts.details and moves else 0.0)
+        self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
 
     def motions(self) -> Iterator[ControlMotion]:
         """Where the control points go, frame by frame (section 4)."""
@@ -93,8 +93,7 @@ class Renderer:
         smooth_folds(frame, origin, FOLD, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = self.face(motion)
         if self._creases > 0:
-            ratio = 1 + self._creases * (ratio - 1)
-            shade(frame, self._rig.details, self._landing, ratio, origin, scale=2, within=face)
+            shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
         for side, eye in enumerate(self._eyes):
             if eye is not None:
                 draw_eye(frame, eye, face, side, motion.look[side])

@@ -18,7 +18,7 @@ from engine.perception.faces import FaceTracker
 from engine.portrait.driver import CROP, crop_place, track_driver
 from engine.portrait.fine_details import keep_ratio_images
 from engine.portrait.lids_and_lips import LIDS, LIPS
-from engine.portrait.misfit import MOST, SCATTER, SHARE, UNIT, fit_misfit, no_misfit
+from engine.portrait.misfit import MOST, SCATTER, SHARE, UNIT, Misfit, fit_misfit, no_misfit
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import Renderer
@@ -37,35 +37,49 @@ def amiss(x: float, y: float) -> NDArray[np.float64]:
     return np.stack([np.zeros((478, 2)), np.tile((x * UNIT, y * UNIT), (478, 1))])
 
 
+def corrected(misfit: Misfit, face: NDArray, placed: NDArray) -> NDArray[np.float32]:
+    """The correction of one frame, (478, 2)."""
+    return misfit.corrections(face[None], placed[None, :, :2])[0]
+
+
 def test_a_frame_that_was_looked_at_loses_its_share_of_what_was_amiss() -> None:
     """The two faces are far apart, so that each weight is what was amiss over 1 + the ridge."""
     misfit = fit_misfit(FACES, amiss(0.02, -0.01))
-    found = misfit.correction(FACES[1], OPEN[:, :2])[CHIN]
+    found = corrected(misfit, FACES[1], OPEN)[CHIN]
     assert found == pytest.approx(-SHARE / (1 + SCATTER) * 60 * np.array([0.02, -0.01]), abs=0.02)
-    assert np.abs(misfit.correction(FACES[0], REST[:, :2])).max() < 0.02
+    assert np.abs(corrected(misfit, FACES[0], REST)).max() < 0.02
 
 
 def test_a_face_unlike_all_is_left_alone() -> None:
     other = smiling(placed(60, (150, 150), yaw=25), 0.4)
-    assert np.abs(fit_misfit(FACES, amiss(0.05, 0)).correction(in_crop(other)[:, :2], other[:, :2])).max() < 0.05
+    assert np.abs(corrected(fit_misfit(FACES, amiss(0.05, 0)), in_crop(other)[:, :2], other)).max() < 0.05
 
 
 def test_corrections_are_upright_and_as_large_as_the_face() -> None:
     """On a head that lies on its side and is twice as large, right is down, and twice as far."""
     misfit = fit_misfit(FACES, amiss(0.02, 0))
-    one = misfit.correction(FACES[1], OPEN[:, :2])
+    one = corrected(misfit, FACES[1], OPEN)
     lying = opened(placed(120, (150, 150)), 0.5)[:, :2] @ np.array([[0, 1], [-1, 0]])
-    two = misfit.correction(FACES[1], lying)
+    two = corrected(misfit, FACES[1], lying)
     np.testing.assert_allclose(two[CHIN], 2 * one[CHIN] @ np.array([[0, 1], [-1, 0]]), atol=1e-4)
 
 
 def test_no_more_is_believed_than_a_tracker_can_tell() -> None:
-    found = fit_misfit(FACES, amiss(10 * MOST, 0)).correction(FACES[1], OPEN[:, :2])[CHIN]
+    found = corrected(fit_misfit(FACES, amiss(10 * MOST, 0)), FACES[1], OPEN)[CHIN]
     assert found == pytest.approx((-SHARE / (1 + SCATTER) * 60 * MOST, 0), abs=0.02)
 
 
+def test_frames_are_corrected_together_as_each_by_itself() -> None:
+    rng = np.random.default_rng(3)
+    misfit = fit_misfit(FACES, rng.normal(0, 0.03 * UNIT, (2, 478, 2)))
+    placed = np.stack([REST[:, :2], OPEN[:, :2]])
+    together = misfit.corrections(FACES, placed)
+    for k in range(2):
+        np.testing.assert_allclose(together[k], corrected(misfit, FACES[k], placed[k]), atol=1e-5)
+
+
 def test_nothing_known_corrects_nothing() -> None:
-    assert not no_misfit().correction(FACES[1], OPEN[:, :2]).any()
+    assert not corrected(no_misfit(), FACES[1], OPEN).any()
 
 
 @pytest.mark.parametrize("pairs", [LIPS, LIDS], ids=["lips", "lids"])
@@ -77,9 +91,9 @@ def test_what_is_closed_stays_closed(pairs) -> None:
     misfit = fit_misfit(FACES, wrong)
     closed = REST.copy()
     closed[bottom] = closed[top]
-    still = misfit.correction(FACES[1], closed[:, :2])
+    still = corrected(misfit, FACES[1], closed)
     np.testing.assert_allclose(still[top], still[bottom], atol=1e-6)
-    moved = misfit.correction(FACES[1], OPEN[:, :2])
+    moved = corrected(misfit, FACES[1], OPEN)
     middle = len(top) // 2 if pairs is LIPS else 3
     assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * SHARE / (1 + SCATTER) * 1.2, abs=0.1)
 

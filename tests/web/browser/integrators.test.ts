@@ -105,7 +105,9 @@ describe('a link', () => {
     const other = await browser.newPage();
     await other.goto(link);
     await other.getByRole('heading', { name: 'A portrait came to life' }).waitFor();
-    await other.getByLabel('The portrait, acting out').click();
+    const shown = other.getByLabel('The portrait, acting out');
+    await expect.poll(() => shown.evaluate((video: HTMLVideoElement) => video.readyState)).toBeGreaterThan(0);
+    await shown.click();
     await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
     expect(await other.getByRole('navigation').count()).toBe(0);
     await page.getByRole('button', { name: 'Take back' }).click();
