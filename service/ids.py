@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import threading
 import time
 from uuid import UUID
 
@@ -23,10 +24,20 @@ class IdConvertor(StringConvertor):
 register_url_convertor("id", IdConvertor())
 
 
+_lock = threading.Lock()
+_last = 0
+
+
 def new_id() -> str:
-    """A fresh UUIDv7 in its usual 36 characters: 48 bits of milliseconds, 74 random bits."""
-    milliseconds = time.time_ns() // 1_000_000
-    value = milliseconds << 80 | 0x7 << 76 | secrets.randbits(12) << 64 | 0b10 << 62 | secrets.randbits(62)
+    """A fresh UUIDv7 in its usual 36 characters: 60 bits of time, 62 random bits.
+
+    The twelve bits after the milliseconds hold their fraction (RFC 9562, section 6.2, method 3), and no two ids of a
+    process share a time: they sort in the order in which they were made."""
+    global _last
+    with _lock:
+        _last = max(time.time_ns() * 4096 // 1_000_000, _last + 1)
+        milliseconds, fraction = divmod(_last, 4096)
+    value = milliseconds << 80 | 0x7 << 76 | fraction << 64 | 0b10 << 62 | secrets.randbits(62)
     return str(UUID(int=value))
 
 
