@@ -54,7 +54,7 @@ def bind(
     seen = camera.to_metres(mesh.vertices)
     eye = np.array([0.0, -seen[:, 1].min(), camera.distance])
     posed = seen + eye
-    bones, weights = mesh.bones.astype(np.intp), mesh.weights.copy()
+    bones = mesh.bones.astype(np.intp)
     fit = fitted.fit
     rest = rest_skeleton(fitted, space)
     own = np.where(fitted.kept[:, None, None], np.eye(3), fit.rotations.astype(np.float64))
@@ -63,11 +63,8 @@ def bind(
     transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
         np.float64
     )
+    vertices, weights = at_rest(posed, bones, mesh.weights, transforms)
     blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), transforms[bones])
-    crushed = np.linalg.det(blended[:, :3, :3]) < LEAST_VOLUME
-    weights[crushed] = [1, 0, 0, 0]
-    blended[crushed] = transforms[bones[crushed, 0]]
-    vertices = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
 
     def covered(which: NDArray[np.intp], places: NDArray[np.float64]) -> NDArray[np.bool_]:
         back = np.einsum("vij,vj->vi", blended[which, :3, :3], places) + blended[which, :3, 3]
@@ -83,6 +80,24 @@ def bind(
     )
     pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
     return Character(bound, pictured, eye, tile)
+
+
+def at_rest(
+    posed: NDArray[np.float64],
+    bones: NDArray[np.integer],
+    weights: NDArray[np.float32],
+    transforms: NDArray[np.floating],
+) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+    """The way back from a pose: vertices (V, 3) at rest which the joints' transforms (J, 4, 4) bring to `posed` (V, 3), and the
+    weights (V, 4) by which they do: some are changed where there is no way back (`LEAST_VOLUME`)."""
+    turned = transforms.astype(np.float64)
+    blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), turned[bones])
+    crushed = np.linalg.det(blended[:, :3, :3]) < LEAST_VOLUME
+    kept = weights.copy()
+    kept[crushed] = [1, 0, 0, 0]
+    blended[crushed] = turned[bones[crushed, 0]]
+    back = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
+    return np.asarray(back), kept
 
 
 def _feet(mesh: ClosedMesh, names: Sequence[str]) -> NDArray[np.intp]:

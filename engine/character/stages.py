@@ -20,6 +20,7 @@ from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
 from engine.character.measures import pose
 from engine.character.options import LabelStroke
+from engine.character.relaxing import relaxed
 from engine.character.rigging import Character, bind
 from engine.character.sheets import ClosedMesh, close
 from engine.character.silhouette import Silhouette
@@ -127,7 +128,7 @@ def make_character(
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv, tile)
-    return replace(character, mesh=fewer_triangles(character, triangles))
+    return relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
 
 
 def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
