@@ -52,7 +52,7 @@ checks.positive_data_acceptance.expected-statuses = ["2xx", "404", "409", "422"]
 # A key that was revoked is still shown, with the moment at which it was.
 [[operations]]
 include-operation-id = "get_key"
-checks.use_after_free.enabled = false
+phases.stateful.enabled = false
 
 # A version of the tus protocol that is not spoken is answered by 412: so the protocol says.
 [checks.negative_data_rejection]
