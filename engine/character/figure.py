@@ -104,6 +104,8 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, (rgb.shape[1], rgb.shape[0])), 0, 1)
     people = find_people(rgb)
     body, index = _chosen(rgb, people, choice, scale)
+    if body is not None and index == len(people):  # found in a box alone
+        people = [*people, body]
     if body is None and not set(WHOLE_SKELETON) <= set(joints):
         raise InputError(
             "no_person",
@@ -127,7 +129,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         alpha=alpha,
         points=points,
         confidence=confidence,
-        world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else body.world,
+        world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else _moved_along(body, points, tuple(joints)),
         spatial=body is not None,
         scale=scale,
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
@@ -139,6 +141,16 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     _check_whole(figure, partial, warn)
     check_posture(figure.points, figure.world if figure.spatial else None, warn)
     return figure
+
+
+def _moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str]) -> NDArray[np.float32]:
+    """A body's places in space (33, 3), those of joints that were moved by hand to points (33, 2) moved as far: otherwise what
+    was believed before would hold against them. Their depth stays."""
+    world = body.world.copy()
+    moved = [LANDMARKS.index(name) for name in joints]
+    metres = np.ptp(world[:, 1]) / max(float(np.ptp(body.points[:, 1])), 1.0)
+    world[moved, :2] += metres * (points[moved] - body.points[moved]) * np.array([1, -1], np.float32)
+    return np.asarray(world, np.float32)
 
 
 def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: float) -> tuple[Body | None, int]:
@@ -153,7 +165,7 @@ def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scal
                 ("person_box",),
             )
         body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
-        return body, next((k for k, one in enumerate(people) if _same(one, body)), 0)
+        return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
     boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
     if not people and choice.index == 0:
         return None, 0
