@@ -216,7 +216,7 @@ def _refine(colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDAr
     for _ in range(ROUNDS):
         shown = [pixels[current == label] for label in meeting]
         if min(len(own) for own in shown) < 10 * COLOURS:
-            return
+            break
         unary = np.stack([Colours.of(own).unlikely(pixels) for own in shown], 1)
         held = np.array([[label != one for one in meeting] for label in first]) * NOWHERE
         unary = np.where(inner[:, None], unary, held)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -46,12 +46,20 @@ EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character"
 """Those that come once for each person."""
 MOST = 6
 """People who are woken together."""
+LEAVE_OUT = ("not_full_body", "person_too_small", "person_lying")
+"""Of all, those who are refused for this stay in the picture."""
 
 
 def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, run: Run) -> None:
     """Make a character of the person in `inputs["photo"]`, or of each; leaves the artifacts of the contract in `out`."""
     photo, motion, mask, label_map = (_file(inputs, name) for name in ("photo", "motion", "mask", "labels"))
     assert photo is not None
+    if options.person_index == "all" and (mask is not None or label_map is not None):
+        raise InputError(
+            "one_outline_for_all",
+            "A mask and a label map are of one person: say whose they are by person_index.",
+            ("person_index", "mask", "labels"),
+        )
     run.plan(STAGES)
     figures = find_figures(photo, options, run)
     figure = figures[0]
@@ -59,9 +67,8 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         run.plan(STAGES, dict.fromkeys(EACH, len(figures)))
     write_still(out / "preview.jpg", figure.rgb, run.mark_synthetic)
     run.publish(out / "preview.jpg")
-    model = matting_model(os.environ)
-    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256)
-    silhouettes = tuple(run.stage("cut_out", cut_out, one, *cut) for one in figures)
+    figures, silhouettes = cut_all_out(figures, mask, options, run)
+    figure = figures[0]
     background = run.beside("fill_background", fill_background, figure, silhouettes)
     people = [
         reconstruct(one, silhouette, label_map, options, run)
@@ -121,14 +128,44 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
 
     if options.person_index != "all":
         return [find(options.person_index)]
-    first = find(0)
-    figures = [first]
-    for index in range(1, min(len(first.people), MOST)):
+    figures: list[Figure] = []
+    refused: list[InputError] = []
+    for index in range(MOST):
         try:
             figures.append(find(index))
         except InputError as error:
+            if error.code not in LEAVE_OUT:
+                if index and error.code == "person_index_out_of_range":
+                    break
+                raise
+            refused.append(error)
             run.warn("person_left_out", f"Person {index + 1} stays in the picture: {error.detail}")
+    if not figures:
+        raise refused[0]
+    if len(figures[0].people) > MOST:
+        run.warn("person_left_out", f"Of {len(figures[0].people)} people the {MOST} largest walk out together.")
     return figures
+
+
+def cut_all_out(
+    figures: Sequence[Figure], mask: Path | None, options: CharacterOptions, run: Run
+) -> tuple[list[Figure], tuple[Silhouette, ...]]:
+    """The figures whose outlines are found, and these. Of several, those whose are not stay in the picture."""
+    model = matting_model(os.environ)
+    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256)
+    found: list[tuple[Figure, Silhouette]] = []
+    refused: list[InputError] = []
+    for figure in figures:
+        try:
+            found.append((figure, run.stage("cut_out", cut_out, figure, *cut)))
+        except InputError as error:
+            if len(figures) == 1 or error.code != "no_person":
+                raise
+            refused.append(error)
+            run.warn("person_left_out", f"Person {figure.index + 1} stays in the picture: {error.detail}")
+    if not found:
+        raise refused[0]
+    return [figure for figure, _ in found], tuple(silhouette for _, silhouette in found)
 
 
 def reconstruct(

@@ -107,8 +107,8 @@ def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
 
 def _cut(figure: Figure, seed: NDArray[np.float32], model: MattingModel | None) -> NDArray[np.float32]:
     """What the networks find around a seed (H, W)."""
-    if len(figure.people) < 2:
-        return person_mask(figure.rgb, seed, figure.alpha, model, whole=True)
+    if len(figure.people) < 2 or not figure.spatial:
+        return person_mask(figure.rgb, seed, figure.alpha, model, figure.others, whole=True)
     x, y, wide, high = figure.people[figure.index]
     height, width = figure.rgb.shape[:2]
     rows = slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import cv2
@@ -64,10 +64,9 @@ def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, 
 
 def painted(
     strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: float
-) -> list[NDArray[np.float32]]:
-    """Where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale`: its pixels for each of
+) -> Iterator[NDArray[np.float32]]:
+    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale`: its pixels for each of
     those in which strokes are counted."""
-    covers = []
     for stroke in strokes:
         drawn = np.zeros(shape, np.uint8)
         radius = stroke.radius * scale
@@ -77,8 +76,7 @@ def painted(
         thickness = max(1, round(2 * radius))
         at = np.rint(path * 2**SUBPIXEL).astype(np.int32)
         cv2.polylines(drawn, [at], False, (255,), thickness, cv2.LINE_AA, SUBPIXEL)
-        covers.append(drawn.astype(np.float32) / np.float32(255))
-    return covers
+        yield drawn.astype(np.float32) / np.float32(255)
 
 
 def repaint_mask(alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scale: float) -> NDArray[np.float32]:

@@ -13,18 +13,21 @@ import pytest
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.labels import PARTS
 from engine.character.layers import Labels
-from engine.character.options import LabelStroke, MaskStroke
+from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
+from engine.character.pipeline import wake_up
 from engine.character.posture import check_posture
 from engine.character.sample import sample_picture
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import fit_template, label
 from engine.character.strokes import LABEL_COLOURS, read_labels, read_mask, repaint_mask
+from engine.character.template_fit import fit_figure, load_human, pose_template
 from engine.character.texture import paint_tiles
 from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
 from engine.perception.people import find_people, person_box
+from engine.run import Run
 
 LIMITS = Limits()
 
@@ -109,6 +112,35 @@ def test_in_a_crowd_a_box_is_asked_for(tmp_path: Path) -> None:
     assert found(tmp_path / "crowd.png", Choice(box=(x, y, wide, high))).spatial
 
 
+def test_somebody_found_in_a_box_alone_is_cut_out_there(couple: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As the thirteenth of twelve: who is not among the people is one of them once a box says so."""
+    large = found(couple, Choice(index=0))
+    x, y, wide, high = found(couple, Choice(index=1)).people[1]
+    box = (float(x), float(y), float(wide), float(high))
+    monkeypatch.setattr("engine.character.figure.find_people", lambda rgb: find_people(rgb)[:1])
+    figure = found(couple, Choice(box=box))
+    assert len(figure.people) == 2 and figure.index == 1
+    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+    columns = np.flatnonzero(mask.any(0))
+    assert x - 0.2 * wide < columns[0] and columns[-1] < x + 1.2 * wide
+    assert columns[0] > large.people[0][0] + large.people[0][2]
+
+
+def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> None:
+    """What perception believed of it in space does not hold against it."""
+    human = load_human()
+    shoulder, hip = figure.point("LeftShoulder"), figure.point("LeftHip")
+    arm = float(np.linalg.norm(hip - shoulder)) * 0.5
+    elbow, wrist = (np.add(shoulder, (share * arm, 0)) for share in (1, 2))
+    placed = (("LeftElbow", *map(float, elbow)), ("LeftWrist", *map(float, wrist)))
+    dragged = found(alone, Choice(placed=placed))
+    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+    fitted = fit_figure(dragged, mask)
+    posed = pose_template(fitted, fitted.camera(), human)
+    at = posed.joints[human.rig.index("LeftForeArm"), :2]
+    assert np.linalg.norm(at - elbow) < 0.35 * arm
+
+
 def test_one_person_is_one_person(media: Callable[[str], Path]) -> None:
     for name in ("biden_arms_crossed_3q.jpg", "woman_grey_skirt.jpg"):
         rgb = cv2.imread(str(media(f"fullbody/{name}")))[..., ::-1]
@@ -154,6 +186,14 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
     assert labels.labels[y, x] == PARTS.index("left_leg")
     assert painted.labels[y, x] == PARTS.index("right_leg")
+
+
+@pytest.mark.parametrize("kind", ["mask", "labels"])
+def test_one_file_cannot_be_the_outline_of_all(couple: Path, tmp_path: Path, kind: str) -> None:
+    write_image(tmp_path / "file.png", np.zeros((8, 8, 3), np.uint8))
+    with pytest.raises(InputError) as refused:
+        wake_up({"photo": couple, kind: tmp_path / "file.png"}, CharacterOptions(person_index="all"), tmp_path, Run())
+    assert refused.value.code == "one_outline_for_all"
 
 
 def test_files_of_the_wrong_size_are_refused(tmp_path: Path) -> None:

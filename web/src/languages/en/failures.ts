@@ -27,6 +27,7 @@ export const failures = {
     motion_joint_unknown: 'The motion has no such joint',
     motion_clip_unknown: 'The motion’s file has no such animation',
     mask_size: 'The mask is not as large as the picture',
+    one_outline_for_all: 'A mask is of one person, and all were to be woken',
     labels_size: 'The map of the parts is not as large as the picture',
     no_face_in_driver: 'No face was found in the performance',
     not_an_image: 'That is not a picture',
