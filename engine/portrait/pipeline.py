@@ -159,6 +159,7 @@ def _write_animation(
         sound_trim=options.trim,
         loop=options.loop,
         synthetic=run.mark_synthetic,
+        warn=run.warn,
     ) as writer:
         for index, frame in enumerate(frames):
             writer.write(frame[..., :3], frame[..., 3] / np.float32(255) if frame.shape[2] == 4 else None)

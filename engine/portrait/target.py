@@ -87,14 +87,15 @@ def find_target_face(
             )
     boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
     found = {"faces": in_pixels(boxes)}
-    if options.face_index >= len(meshes):
+    index = options.face_index if options.landmarks is None else 0
+    if index >= len(meshes):
         raise InputError(
             "face_index_out_of_range",
             f"The picture shows {len(meshes)} face(s): face_index counts from 0.",
             ("face_index",),
             found,
         )
-    mesh = meshes[options.face_index if options.landmarks is None else 0]
+    mesh = meshes[index]
     place, size = _placement(mesh, (width, height), options)
     _check_face(mesh, (width, height), options, warn, found)
     rgb = _warp(picture.rgb, place, size)
@@ -184,6 +185,11 @@ def _crop_box(mesh: NDArray[np.float32], size: tuple[int, int], options: Portrai
         if x1 - x0 < 16 or y1 - y0 < 16:
             raise InputError(
                 "crop_outside", "The crop lies outside the picture or is smaller than 16 pixels.", ("crop",)
+            )
+        (left, top), (right, bottom) = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
+        if min(x1, right) - max(x0, left) < (right - left) / 2 or min(y1, bottom) - max(y0, top) < (bottom - top) / 2:
+            raise InputError(
+                "crop_outside", "The crop leaves the face out: let it hold more than half of it.", ("crop",)
             )
         return x0, y0, x1 - x0, y1 - y0
     centre = mesh[:, :2].mean(axis=0)

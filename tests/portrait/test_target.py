@@ -209,6 +209,19 @@ def test_a_crop_outside_is_refused(woman: Path, crop: tuple[float, ...]) -> None
     assert refusal(woman, crop=crop).code == "crop_outside"
 
 
+@pytest.mark.parametrize("crop", [(0, 300, 320, 20), (0, 0, 40, 40)])
+def test_a_crop_without_the_face_is_refused(woman: Path, crop: tuple[float, ...]) -> None:
+    error = refusal(woman, crop=crop)
+    assert (error.code, error.correctable) == ("crop_outside", ("crop",))
+
+
+def test_landmarks_by_hand_say_whose_face_it_is(couple: Path) -> None:
+    """A revision of a job that chose the second face may place landmarks."""
+    second = fiducials(find(couple, face_index=1).mesh[:, :2])
+    placed = find(couple, face_index=1, landmarks=tuple(map(tuple, second.tolist())))
+    np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+
+
 def test_named_crops_hold_the_face_and_differ(woman: Path) -> None:
     face, bust = find(woman, crop="face"), find(woman, crop="bust")
     for target in (face, bust):
