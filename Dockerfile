@@ -6,7 +6,7 @@ WORKDIR /page
 COPY web/package.json web/package-lock.json web/.npmrc ./
 RUN npm ci --no-progress
 COPY web .
-RUN npm run build
+RUN npm run build && npm run build:reactive && cp reactive/dist/reactive-portrait.js dist/
 
 FROM python:3.11.11-slim-bookworm AS packages
 ENV PIP_NO_CACHE_DIR=1 PIP_DISABLE_PIP_VERSION_CHECK=1
@@ -28,6 +28,7 @@ COPY shell shell
 RUN /opt/galatea/bin/pip install --no-cache-dir --no-deps --no-build-isolation --editable . \
  && /opt/galatea/bin/python -m compileall -q engine service worker shell
 COPY --from=page /page/dist web/dist
+COPY --from=page /page/reactive/dist/reactive-portrait.js engine/portrait/reactive/player/
 # The root may be read-only: everything that is written lies under /data and /tmp.
 ENV PATH=/opt/galatea/bin:$PATH \
     PYTHONDONTWRITEBYTECODE=1 \

@@ -34,7 +34,7 @@ PACKAGES = {
     "mediapipe": "mediapipe",
     "av": "av",
     "pillow": "PIL",
-    "pillow-heif": "pillow_heif",
+    "pi-heif": "pi_heif",
     "fastapi": "fastapi",
     "uvicorn": "uvicorn",
     "sqlalchemy": "sqlalchemy",
