@@ -131,12 +131,14 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
     figures: list[Figure] = []
     refused: list[InputError] = []
     for index in range(MOST):
+        if figures and index >= len(figures[0].people):
+            break
         try:
             figures.append(find(index))
         except InputError as error:
+            if refused and error.code == "person_index_out_of_range":
+                break
             if error.code not in LEAVE_OUT:
-                if index and error.code == "person_index_out_of_range":
-                    break
                 raise
             refused.append(error)
             run.warn("person_left_out", f"Person {index + 1} stays in the picture: {error.detail}")

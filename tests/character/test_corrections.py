@@ -14,7 +14,7 @@ from engine.character.figure import Choice, Figure, find_figure
 from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
-from engine.character.pipeline import wake_up
+from engine.character.pipeline import find_figures, wake_up
 from engine.character.posture import check_posture
 from engine.character.sample import sample_picture
 from engine.character.silhouette import Silhouette, cut_out
@@ -23,7 +23,7 @@ from engine.character.strokes import LABEL_COLOURS, read_labels, read_mask, repa
 from engine.character.template_fit import fit_figure, load_human, pose_template
 from engine.character.texture import paint_tiles
 from engine.errors import InputError
-from engine.media.image import write_image
+from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
 from engine.perception.people import find_people, person_box
@@ -186,6 +186,19 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
     assert labels.labels[y, x] == PARTS.index("left_leg")
     assert painted.labels[y, x] == PARTS.index("right_leg")
+
+
+def test_of_all_the_largest_stays_if_too_little_of_them_is_seen(couple: Path, tmp_path: Path) -> None:
+    picture = read_image(couple).rgb.copy()
+    width = sample_picture().shape[1]
+    lowered = picture.shape[0] // 3
+    picture[lowered:, :width] = picture[:-lowered, :width].copy()
+    picture[:lowered, :width] = picture[2, 2]
+    write_image(tmp_path / "cut.png", picture)
+    run = Run()
+    figures = find_figures(tmp_path / "cut.png", CharacterOptions(person_index="all"), run)
+    assert [figure.index for figure in figures] == [1]
+    assert [notice.code for notice in run.notices] == ["person_left_out"]
 
 
 @pytest.mark.parametrize("kind", ["mask", "labels"])
