@@ -13,6 +13,8 @@ from engine.perception.solutions import solution
 
 SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
+SURE = 0.5
+"""Confidence of a detection by which a picture is said to show several faces."""
 
 
 class FaceTracker:
@@ -85,10 +87,15 @@ def _settled(rgb: NDArray[np.uint8], box: NDArray[np.float64], confidence: float
     return meshes[0] + np.array([x0, y0, 0], np.float32) if meshes else None
 
 
-def _detect(rgb: NDArray[np.uint8], confidence: float) -> list[NDArray[np.float64]]:
+def several_faces(rgb: NDArray[np.uint8]) -> bool:
+    """Whether a picture shows more than one face, by a quick look at those that are near."""
+    return len(_detect(rgb, SURE, far=False)) > 1
 
+
+def _detect(rgb: NDArray[np.uint8], confidence: float, far: bool = True) -> list[NDArray[np.float64]]:
     height, width = rgb.shape[:2]
-    with solution("face_detection").FaceDetection(model_selection=1, min_detection_confidence=confidence) as detector:
+    kind = solution("face_detection").FaceDetection
+    with kind(model_selection=int(far), min_detection_confidence=confidence) as detector:
         found = detector.process(np.ascontiguousarray(rgb)).detections or []
     boxes = []
     for face in found:
@@ -100,7 +107,6 @@ def _detect(rgb: NDArray[np.uint8], confidence: float) -> list[NDArray[np.float6
 
 
 def _face_mesh(faces: int, confidence: float, alone: bool) -> Any:
-
     return solution("face_mesh").FaceMesh(
         static_image_mode=alone,
         refine_landmarks=True,

@@ -25,6 +25,8 @@ GRAZING = 0.0
 """Cosine between the line of sight and a surface that is still seen."""
 CARRY_REACH = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
+HARDLY_ANY = 0.1
+"""With less than this share of the tracked points left, what they say fades."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,7 @@ def carry_periphery(
     phi: Similarity,
     places: NDArray[np.floating],
     offsets: NDArray[np.floating],
-    trusted: NDArray[np.bool_],
+    trust: NDArray[np.floating],
     points: NDArray[np.floating],
     unit: float,
 ) -> NDArray[np.float32]:
@@ -115,12 +117,12 @@ def carry_periphery(
 
     The paper puts the tracked points themselves into the target by phi. The two people differ there, and
     points come and go; so each peripheral point takes the mean of the tracked ones that phi carries near
-    it, the trusted ones alone.
+    it, as far as they are trusted. Where hardly any are, it eases to rest.
 
     Parameters
     ----------
     places (K, 2) : the driver's tracked points in its neutral frame. offsets (N, K, 2) : what they do.
-    trusted (N, K). points : (P, 2) of the target. unit : the target's eye distance, pixels.
+    trust (N, K) [0, 1]. points : (P, 2) of the target. unit : the target's eye distance, pixels.
 
     Returns
     -------
@@ -131,8 +133,9 @@ def carry_periphery(
     apart = ((points[:, None] - phi(places)[None]) ** 2).sum(axis=2)
     reach = 2 * (CARRY_REACH * unit) ** 2
     near = (np.exp(-apart / reach) + 1e-4 * np.exp(-apart / (25 * reach)) + 1e-12).astype(np.float32)
-    trust = trusted.astype(np.float32)
+    trust = trust.astype(np.float32)
     carried = phi.offsets(offsets).astype(np.float32)
     total = (trust[..., None] * carried).transpose(0, 2, 1) @ near.T
     weight = trust @ near.T
-    return np.asarray((total / np.maximum(weight, 1e-12)[:, None]).transpose(0, 2, 1), np.float32)
+    left = np.minimum(trust.mean(axis=1) / HARDLY_ANY, 1)[:, None, None]
+    return np.asarray(left * (total / np.maximum(weight, 1e-12)[:, None]).transpose(0, 2, 1), np.float32)

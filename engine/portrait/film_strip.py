@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import weakref
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
 
@@ -17,16 +17,20 @@ QUALITY = 92
 
 @dataclass(frozen=True)
 class FilmStrip:
-    """`file` holds the pictures, `ends` (N,) where in it each of them ends."""
+    """`file` holds the pictures, `ends` (N,) where in it each of them ends; those of `ending` (M, ...) stand in the
+    place of its last M."""
 
     file: Path
     ends: NDArray[np.int64]
+    ending: NDArray[np.uint8] = field(default_factory=lambda: np.zeros(0, np.uint8))
 
     def __len__(self) -> int:
         return len(self.ends)
 
     def picture(self, frame: int) -> NDArray[np.uint8]:
         """One of them: uint8, (h, w, 3) or (h, w)."""
+        if (late := frame - len(self) + len(self.ending)) >= 0:
+            return np.asarray(self.ending[late], np.uint8)
         start = int(self.ends[frame - 1]) if frame else 0
         with self.file.open("rb") as file:
             file.seek(start)

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import pairwise
 
 import cv2
 import numba
@@ -21,7 +22,8 @@ from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 from engine.portrait.alignment import fit_similarity
-from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.appearance import CROP, CROP_EYES
+from engine.portrait.driver import DriverTrack
 from engine.portrait.film_strip import FilmStrip, FilmStripWriter
 from engine.portrait.head_motion import turns
 from engine.portrait.outliers import Outliers, find_outliers
@@ -194,22 +196,23 @@ class RatioImages:
         """One (*CROP,) float32 for each frame: 1 changes nothing."""
         half = WINDOW // 2
         kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / (half / 3)) ** 2).astype(np.float32)
-        singles = self._singles()
-        last = next(singles)
-        window = deque([last] * (half + 1), maxlen=WINDOW)
-        for ahead in range(1, len(self._track) + half):
-            last = next(singles, last)
-            window.append(last)
-            if ahead >= half:
+        window: deque[NDArray[np.float32]] = deque(maxlen=WINDOW)
+        for ratio in self._singles(half):
+            window.append(ratio)
+            if len(window) == WINDOW:
                 yield _weighted_sum(tuple(window), kernel / kernel.sum())
 
-    def _singles(self) -> Iterator[NDArray[np.float32]]:
-        """All frames without the temporal filter, in order, made on all cores a little ahead."""
-        threads = os.cpu_count() or 1
+    def _singles(self, beyond: int) -> Iterator[NDArray[np.float32]]:
+        """All frames without the temporal filter, in order, with `beyond` more before and after; made on all cores a little
+        ahead. Beyond its ends a performance stands still, or repeats where it is closed."""
+        count, threads = len(self._track), os.cpu_count() or 1
+        asked = np.arange(-beyond, count + beyond)
+        frames = asked % count if self._track.closed else asked.clip(0, count - 1)
         waiting: deque[Future[NDArray[np.float32]]] = deque()
         with ThreadPoolExecutor(threads, thread_name_prefix="ratios") as pool:
-            for frame in range(len(self._track)):
-                waiting.append(pool.submit(self.single, frame))
+            for before, frame in pairwise([-1, *frames.tolist()]):
+                again = frame == before and bool(waiting)
+                waiting.append(waiting[-1] if again else pool.submit(self.single, frame))
                 if len(waiting) > 2 * threads:
                     yield waiting.popleft().result()
             while waiting:

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.faces import FaceTracker
 from engine.perception.head_pose import canonical_face, head_pose
 from engine.perception.landmarks import RIGID, eye_distance, eye_opening, mouth_opening
+from engine.perception.one_face import OneFace
 from engine.portrait.head_motion import fit_rigid
 
 EXPRESSION = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
@@ -75,11 +75,11 @@ def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = 
     InputError : `no_face_in_driver`, and what reading the video may raise.
     """
     rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]] = []
-    with FaceTracker() as tracker:
+    with OneFace() as follow:
         for index, frame in enumerate(read_video(path, fps=FPS, trim=(0.0, SECONDS), limits=limits, longest_side=640)):
             tick(min(index / (FPS * SECONDS), 1.0))
-            if faces := tracker(frame.rgb):
-                rows.append(_small(frame.rgb, faces[0]))
+            if (mesh := follow(frame.rgb)) is not None:
+                rows.append(_small(frame.rgb, mesh))
     if not rows:
         raise InputError(
             "no_face_in_driver",

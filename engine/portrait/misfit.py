@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
-from engine.portrait.driver import CROP_EYES
+from engine.portrait.appearance import CROP_EYES
 from engine.portrait.lids_and_lips import LID_SKIN, LIDS, LIPS
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]

@@ -80,9 +80,9 @@ def carry_motion(
         around = track.periphery[some] - track.periphery[neutral]
         if proxy is not None:
             around = around - predicted(motion, track.periphery[neutral])
-        trusted = track.tracked[some] & track.tracked[neutral]
+        trust = track.trust[some] * track.trust[neutral]
         around = head * carry_periphery(
-            phi, track.periphery[neutral], around, trusted, control.points[control.periphery], unit
+            phi, track.periphery[neutral], around, trust, control.points[control.periphery], unit
         )
         if proxy is not None:
             around = correction(around, proxy.share[control.periphery], rim, motion, unit)

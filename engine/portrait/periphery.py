@@ -22,6 +22,10 @@ ENOUGH = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
 """A match is found after so many steps, or when a step is shorter than so many working pixels."""
 
 
+FADE = 17
+"""Frames over which a point that is lost, or found again, loses or gains its say."""
+
+
 class PeripheryTracker:
     """Follows points from the first frame that shows a face: frame to frame, then anchored to the first."""
 
@@ -53,15 +57,15 @@ class PeripheryTracker:
             self._tracked.append(good)
         self._last = grey
 
-    def result(self) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-        """(N, K, 2) positions in pixels of the frame and (N, K) whether they are trusted."""
+    def result(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `fading`."""
         frames = max(len(self._points), 1)
         if not len(self._start):
             frames = max(frames, 1)
-            return np.zeros((self._before + frames, 0, 2), np.float32), np.zeros((self._before + frames, 0), bool)
+            return np.zeros((self._before + frames, 0, 2), np.float32), np.zeros((self._before + frames, 0), np.float32)
         points = np.array([self._points[0]] * self._before + self._points, np.float32)
         tracked = np.array([self._tracked[0]] * self._before + self._tracked)
-        return (points + 0.5) / self._scale - 0.5, tracked
+        return (points + 0.5) / self._scale - 0.5, fading(tracked)
 
     def _grey(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
@@ -82,6 +86,13 @@ class PeripheryTracker:
             good[loose] &= _comes_back(self._last, grey, last[loose], moved[loose], COARSE)
             moved[loose & ~good] = last[loose & ~good]
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
+
+
+def fading(tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """(N, K) in [0, 1]: whether each point is tracked, averaged over `FADE` frames around: what comes or goes, does so
+    without a jump."""
+    box = np.ones((FADE, 1), np.float32) / FADE
+    return np.asarray(cv2.filter2D(tracked.astype(np.float32), -1, box, borderType=cv2.BORDER_REPLICATE), np.float32)
 
 
 def _match(

@@ -49,7 +49,8 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
     image, driver = inputs["image"], inputs["driver"]
     assert isinstance(image, Path) and isinstance(driver, Path | Candidates)
     run.plan(STAGES)
-    tracking = follow(driver, options.fps, options.trim, run) if isinstance(driver, Path) else None
+    follows = options.fps, options.trim, options.driver_face_index, run
+    tracking = follow(driver, *follows) if isinstance(driver, Path) else None
     prepared = prepare_target(image, options, out, run)
     target = prepared.face
     choice: dict[str, object] = {}
@@ -57,7 +58,7 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
         chosen = choose_driver(target, driver, run)
         driver, choice = chosen.path, {"driver_chosen": chosen.name, "driver_scores": chosen.scores}
     performed = analyse_driver(
-        tracking or follow(driver, options.fps, options.trim, run),
+        tracking or follow(driver, *follows),
         lambda track: choose_neutral_frame(track, target.mesh, options.neutral_frame),
         run,
         loop=options.loop,
@@ -81,6 +82,7 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
             "faces": in_pixels(target.faces),
             "neutral_frame": neutral,
             "driver_size": list(track.size),
+            "driver_faces": in_pixels(track.faces),
             "animation": name,
             **choice,
         },
@@ -122,9 +124,12 @@ class Performed:
         return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting(), run.tick)
 
 
-def follow(driver: Path, fps: float | None, trim: tuple[float, float] | None, run: Run) -> Beside[DriverTrack]:
-    """Begin to follow the driver's face, which nothing else has to wait for."""
-    return run.beside("track_driver", track_driver, driver, fps, trim, run.limits, run.tick, run.warn, shared=True)
+def follow(
+    driver: Path, fps: float | None, trim: tuple[float, float] | None, face_index: int, run: Run
+) -> Beside[DriverTrack]:
+    """Begin to follow one of the driver's faces, which nothing else has to wait for."""
+    given = driver, fps, trim, run.limits, face_index
+    return run.beside("track_driver", track_driver, *given, run.tick, run.warn, shared=True)
 
 
 def analyse_driver(

@@ -29,7 +29,8 @@ from engine.perception.landmarks import (
     RIGHT_IRIS,
 )
 from engine.perception.temporal_filter import steady
-from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.appearance import CROP, CROP_EYES
+from engine.portrait.driver import DriverTrack
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
-from engine.portrait.driver import CROP, DriverTrack, crop_place
+from engine.portrait.appearance import CROP, crop_place
+from engine.portrait.driver import DriverTrack
 from engine.portrait.fine_details import RatioStrip
 from engine.portrait.misfit import Misfit, fit_misfit, flat, no_misfit
 from engine.portrait.options import PortraitOptions
@@ -71,7 +72,7 @@ def look_again(
     Nothing amiss anywhere if the tracker sees no face on the target itself.
     """
     frames = glances.frames.tolist()
-    some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], tracked=track.tracked[frames])
+    some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
     renderer = Renderer(track, neutral, target, layers, rig, options)
     motions = [replace(motion, frame=frames[motion.frame]) for motion in renderer.carry(some, frames.index(neutral))]
     placed = [renderer.face(motion) for motion in motions]

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS
 from engine.portrait.alignment import fit_similarity
-from engine.portrait.driver import CROP, CROP_EYES, DriverTrack
+from engine.portrait.appearance import CROP, CROP_EYES
+from engine.portrait.driver import DriverTrack
 from engine.portrait.film_strip import FilmStripWriter
 
 SKIN, LIP, DARK, WHITE, BROWN = (205, 165, 140), (170, 90, 85), (70, 20, 20), (235, 232, 228), (60, 40, 25)
@@ -138,7 +139,8 @@ def driver(
         meshes=stack,
         found=np.ones(len(meshes), bool),
         periphery=points,
-        tracked=np.ones(points.shape[:2], bool),
+        trust=np.ones(points.shape[:2], np.float32),
         crops=strip,
         crop_places=np.array(places),
+        faces=np.zeros((1, 4), np.float32),
     )

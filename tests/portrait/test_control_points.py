@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 from engine.portrait.alignment import Similarity
 from engine.portrait.control_points import ControlPoints, carry_periphery, place_control_points
+from engine.portrait.periphery import fading
 
 SHAPE = (240, 200)
 IDENTITY = Similarity(np.eye(2), np.zeros(2))
@@ -86,15 +87,15 @@ def test_tracks_that_all_do_the_same_carry_just_that(tracked: NDArray) -> None:
     phi = Similarity(2 * np.array([[0.0, -1.0], [1.0, 0.0]]), np.array([5.0, 5.0]))
     offsets = np.broadcast_to(np.array([1.0, 3.0]), (4, 60, 2))
     points = np.random.default_rng(1).uniform(-300, 500, (30, 2))
-    carried = carry_periphery(phi, tracked, offsets, np.ones((4, 60), bool), points, 40)
+    carried = carry_periphery(phi, tracked, offsets, np.ones((4, 60)), points, 40)
     np.testing.assert_allclose(carried, np.broadcast_to([-6.0, 2.0], (4, 30, 2)), atol=1e-4)
 
 
 def test_points_that_are_not_trusted_do_not_count(tracked: NDArray) -> None:
     offsets = np.ones((1, 60, 2))
-    trusted = np.ones((1, 60), bool)
+    trusted = np.ones((1, 60))
     wild = np.random.default_rng(2).permutation(60)[:25]
-    offsets[0, wild], trusted[0, wild] = 500.0, False
+    offsets[0, wild], trusted[0, wild] = 500.0, 0
     carried = carry_periphery(IDENTITY, tracked, offsets, trusted, tracked[:20], 40)
     np.testing.assert_allclose(carried, 1.0, atol=1e-3)
 
@@ -103,20 +104,38 @@ def test_near_tracks_count_for_more_than_far_ones() -> None:
     places = np.array([[0.0, 0.0], [100.0, 0.0]])
     offsets = np.array([[[0.0, 0.0], [10.0, 0.0]]])
     points = np.array([[0.0, 0.0], [25.0, 0.0], [50.0, 0.0], [75.0, 0.0], [100.0, 0.0]])
-    carried = carry_periphery(IDENTITY, places, offsets, np.ones((1, 2), bool), points, 30)[0, :, 0]
+    carried = carry_periphery(IDENTITY, places, offsets, np.ones((1, 2)), points, 30)[0, :, 0]
     assert (np.diff(carried) > 0).all()
     assert carried[0] < 0.1 and carried[4] > 9.9
     assert carried[2] == pytest.approx(5, abs=1e-3)
 
 
+def test_tracks_that_are_lost_fade_out_and_in(tracked: NDArray) -> None:
+    """All points go the same way and are lost for a while, held: shoulders come to rest, and no step is a jump."""
+    lost = np.ones((120, 60), bool)
+    lost[40:80] = False
+    trust = fading(lost)
+    assert trust.max() == 1 and trust[50:70].max() == 0
+    moved = np.broadcast_to([20.0, 0.0], (120, 60, 2))
+    carried = carry_periphery(IDENTITY, tracked, moved, trust, tracked[:5], 40)[..., 0]
+    np.testing.assert_allclose(carried[:30], 20, rtol=1e-4)
+    np.testing.assert_array_equal(carried[50:70], 0)
+    one = lost.copy()
+    one[:, 1:] = True  # the first alone is lost: it goes elsewhere, and the others outvote it little by little
+    elsewhere = moved.copy()
+    elsewhere[:, 0] = (-200.0, 0.0)
+    near = carry_periphery(IDENTITY, tracked, elsewhere, fading(one), tracked[:1], 40)[:, 0, 0]
+    assert np.abs(np.diff(near)).max() < 0.2 * np.ptp(near)
+
+
 @pytest.mark.parametrize(("tracks", "points"), [(0, 5), (5, 0), (0, 0)])
 def test_without_tracks_the_periphery_rests(tracks: int, points: int) -> None:
     carried = carry_periphery(
-        IDENTITY, np.zeros((tracks, 2)), np.ones((3, tracks, 2)), np.ones((3, tracks), bool), np.zeros((points, 2)), 40
+        IDENTITY, np.zeros((tracks, 2)), np.ones((3, tracks, 2)), np.ones((3, tracks)), np.zeros((points, 2)), 40
     )
     assert carried.shape == (3, points, 2) and not carried.any()
 
 
 def test_when_no_track_is_trusted_the_periphery_rests(tracked: NDArray) -> None:
-    carried = carry_periphery(IDENTITY, tracked, np.full((2, 60, 2), 9.0), np.zeros((2, 60), bool), tracked[:5], 40)
+    carried = carry_periphery(IDENTITY, tracked, np.full((2, 60, 2), 9.0), np.zeros((2, 60)), tracked[:5], 40)
     np.testing.assert_array_equal(carried, 0)

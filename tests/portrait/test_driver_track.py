@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.faces import FaceTracker
+from engine.perception.faces import FaceTracker, find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
-from engine.portrait.driver import CROP, CROP_EYES, EASE_BACK, DriverTrack, track_driver
+from engine.portrait.appearance import CROP, CROP_EYES
+from engine.portrait.driver import EASE_BACK, DriverTrack, track_driver
 from engine.portrait.fine_details import keep_ratio_images
 from engine.portrait.registration import register_track
 from engine.run import Run
@@ -79,11 +80,11 @@ def test_an_analysis_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
     stored = []
     for _ in range(2):
         run = Run(store=StageStore(tmp_path))
-        stored.append(run.stage("track_driver", track_driver, whole, None, None, LIMITS, run.tick, run.warn))
+        stored.append(run.stage("track_driver", track_driver, whole, None, None, LIMITS, 0, run.tick, run.warn))
     fresh = track_driver(whole, None, None, LIMITS)
     assert run.reused == ["track_driver"]
     kept = stored[1]
-    for name in ("meshes", "found", "periphery", "tracked", "crop_places"):
+    for name in ("meshes", "found", "periphery", "trust", "crop_places"):
         np.testing.assert_array_equal(getattr(kept, name), getattr(fresh, name), err_msg=name)
     np.testing.assert_array_equal(kept.crops.ends, fresh.crops.ends)
     assert (kept.size, kept.fps, kept.has_sound) == (fresh.size, fresh.fps, fresh.has_sound)
@@ -94,7 +95,7 @@ def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, 
     """The clip of the sharpest face: its track, its registration and its ratio images together."""
     run = Run(store=StageStore(tmp_path))
     clip = media("driving/woman_talk_aoc.mp4")
-    track = run.stage("track", track_driver, clip, None, (0.0, 1.5), LIMITS, run.tick, run.warn)
+    track = run.stage("track", track_driver, clip, None, (0.0, 1.5), LIMITS, 0, run.tick, run.warn)
     registration = run.stage("register", register_track, track, 0, run.tick)
     run.stage("ratios", keep_ratio_images, replace(track, meshes=registration.meshes), 0, run.tick)
     size = sum(p.stat().st_size for p in tmp_path.rglob("*") if p.is_file())
@@ -136,13 +137,48 @@ def test_when_it_comes_back_it_eases_back(vanished, track: DriverTrack) -> None:
     assert np.linalg.norm(found.meshes[after, :, :2] - expected, axis=-1).mean() < 0.04 * unit
 
 
+def test_its_looks_hold_and_ease_with_it(vanished) -> None:
+    """What is drawn from the driver's pictures, its creases and the inside of its mouth, is of a face, and that face is
+    where the mesh says, also where the video shows none or has it elsewhere."""
+    track, _, _ = vanished
+    last = track.crop(BLANK.start - 1)
+    for frame in range(BLANK.start, BLANK.stop):
+        np.testing.assert_array_equal(track.crop(frame), last)
+    for frame in range(BLANK.stop, BLANK.stop + EASE_BACK + 1):
+        seen = find_faces(track.crop(frame))
+        assert len(seen) == 1
+        assert np.linalg.norm(seen[0][:, :2] - track.in_crop(frame), axis=1).mean() < 2.5
+
+
+def test_a_driver_of_several_faces_is_told_and_lets_choose(frames, tmp_path: Path) -> None:
+    """The same man twice, half as large on the right, mirrored: who is followed is on that side."""
+    some = frames[:6]
+    height, side = some[0].shape[:2]
+    both = []
+    for frame in some:
+        other = cv2.resize(frame[:, ::-1], (side // 4 * 2, height // 2), interpolation=cv2.INTER_AREA)
+        below = np.full((height - len(other), other.shape[1], 3), 128, np.uint8)
+        both.append(np.hstack([frame, np.vstack([other, below])]))
+    path = write_frames(tmp_path / "both.mp4", both)
+    codes: list[str] = []
+    for index in (0, 1):
+        track = track_driver(path, None, None, LIMITS, index, warn=lambda code, message: codes.append(code))
+        assert ((track.meshes[..., 0].mean(axis=1) > side) == bool(index)).all()
+        assert len(track.faces) == 2
+    assert codes == ["several_faces_in_driver"] * 2
+    with pytest.raises(InputError) as caught:
+        track_driver(path, None, None, LIMITS, 2)
+    assert (caught.value.code, caught.value.correctable) == ("driver_face_out_of_range", ("driver_face_index",))
+
+
 def test_a_face_that_comes_later_holds_from_the_beginning(frames, tmp_path: Path) -> None:
     late = [np.full_like(frames[0], 128)] * 4 + frames[:8]
     track = track_driver(write_frames(tmp_path / "late.mp4", late), None, None, LIMITS)
     assert not track.found[:4].any() and track.found[4:].all()
     assert np.isfinite(track.meshes).all()
     assert np.abs(track.meshes[:4] - track.meshes[4]).max() < 2
-    assert track.periphery.shape[0] == track.tracked.shape[0] == len(track) == 12
+    assert all(np.array_equal(track.crop(frame), track.crop(4)) for frame in range(4))
+    assert track.periphery.shape[0] == track.trust.shape[0] == len(track) == 12
 
 
 def test_a_driver_without_a_face_is_refused(tmp_path: Path) -> None:
@@ -190,9 +226,9 @@ def test_points_around_the_head_follow_it(small, tmp_path: Path) -> None:
     ]  # fmt: skip
     track = track_driver(write_frames(tmp_path / "moved.mp4", moved), None, None, LIMITS)
     assert track.periphery.shape[1] > 20
-    assert track.tracked.mean() > 0.8
+    assert track.trust.mean() > 0.8
     away = track.periphery - track.periphery[0] - np.array(shifts)[:, None]
-    assert np.median(np.linalg.norm(away, axis=-1)[track.tracked]) < 0.2
-    assert np.quantile(np.linalg.norm(away, axis=-1)[track.tracked], 0.95) < 1.0
+    assert np.median(np.linalg.norm(away, axis=-1)[track.trust == 1]) < 0.2
+    assert np.quantile(np.linalg.norm(away, axis=-1)[track.trust == 1], 0.95) < 1.0
     mesh = track.meshes[..., :2].mean(axis=1) - track.meshes[0, :, :2].mean(axis=0) - np.array(shifts)
     assert np.abs(mesh).max() < 1.0

@@ -13,7 +13,8 @@ from made_face import SKIN, driver, in_crop, painted, placed, smiling
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
-from engine.portrait.driver import CROP, DriverTrack
+from engine.portrait.appearance import CROP
+from engine.portrait.driver import DriverTrack
 from engine.portrait.fine_details import (
     BRIGHTENING,
     DARKEST,

@@ -11,7 +11,7 @@ from made_face import DARK, SKIN, in_crop, opened, painted, placed
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
-from engine.portrait.driver import CROP
+from engine.portrait.appearance import CROP
 from engine.portrait.hidden_regions import (
     APPEARS,
     LEAST_AREA,

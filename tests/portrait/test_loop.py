@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_face import driver, placed
+from made_face import driver, in_crop, opened, painted, placed
 
+from engine.portrait.appearance import CROP
+from engine.portrait.fine_details import keep_ratio_images
 from engine.portrait.loop import close_loop
 
 
@@ -26,6 +28,26 @@ def test_the_end_leads_to_the_beginning(tmp_path: Path, count: int) -> None:
     kept = count - min(15, count // 2)
     np.testing.assert_array_equal(closed.meshes[:kept], track.meshes[:kept])
     np.testing.assert_array_equal(track.meshes[-1], np.array(meshes[-1], np.float32))  # the given one is not changed
+
+
+def test_looks_lead_to_the_beginning_with_the_face(tmp_path: Path) -> None:
+    """A mouth that opens and a cheek that darkens, from the first frame to the last: across the seam both are led back."""
+    count = 40
+    meshes = [opened(placed(60, (100, 100)), 0.4 * i / count) for i in range(count)]
+    pictures = [painted(in_crop(mesh), CROP[::-1]) for mesh in meshes]
+    cheek = (slice(150, 180), slice(70, 90))
+    for i, picture in enumerate(pictures):
+        picture[cheek] = picture[cheek] * (1 - 0.2 * i / count)
+    track = driver(tmp_path, meshes, pictures)
+    closed = close_loop(track)
+    ratios = np.stack([ratio[165, 80] for ratio in keep_ratio_images(closed, 0)])
+    for shown in (ratios, [closed.crop(frame)[165, 80].mean() for frame in range(count)]):
+        steps = np.abs(np.diff(np.append(shown, shown[0])))
+        assert steps[-1] <= steps[:-1].max() + 1e-2 and np.ptp(shown) > 0.05
+    for frame, mesh in enumerate(closed.meshes):
+        drawn = painted(in_crop(mesh), CROP[::-1])
+        shown, meant = ((crop[:, 144].astype(int).sum(axis=1) < 250).sum() for crop in (closed.crop(frame), drawn))
+        assert abs(shown - meant) <= 3  # the dark of the mouth is as high as the mesh has it
 
 
 def test_the_beginning_is_reached_just_after_the_last_frame(tmp_path: Path) -> None:

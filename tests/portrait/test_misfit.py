@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from engine.media.limits import Limits
 from engine.perception.faces import FaceTracker
-from engine.portrait.driver import CROP, crop_place, track_driver
+from engine.portrait.appearance import CROP, crop_place
+from engine.portrait.driver import track_driver
 from engine.portrait.fine_details import keep_ratio_images
 from engine.portrait.lids_and_lips import LIDS, LIPS
 from engine.portrait.misfit import MOST, SCATTER, SHARE, UNIT, Misfit, fit_misfit, no_misfit

@@ -10,7 +10,8 @@ import pytest
 from made_face import SKIN, driver, in_crop, placed, smiling
 from numpy.typing import NDArray
 
-from engine.portrait.driver import CROP, DriverTrack
+from engine.portrait.appearance import CROP, CROP_EYES
+from engine.portrait.driver import DriverTrack
 from engine.portrait.fine_details import DARKEST, RatioImages
 from engine.portrait.outliers import SEARCH, SIGNIFICANT, match_differences
 
@@ -156,7 +157,6 @@ def test_shadows_of_a_real_face_are_judged_alike_on_both_sides() -> None:
 
 def test_crops_of_made_faces_lie_where_the_track_says() -> None:
     """The test's own pictures are painted in the crop's frame: eyes at the crop's eye places."""
-    from engine.portrait.driver import CROP_EYES
 
     mesh = in_crop(placed(33, (61, 47), roll=25))
     eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])

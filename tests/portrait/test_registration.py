@@ -11,7 +11,8 @@ from made_face import SKIN, driver, placed
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, RIGHT_EYE
-from engine.portrait.driver import CROP, DriverTrack
+from engine.portrait.appearance import CROP
+from engine.portrait.driver import DriverTrack
 from engine.portrait.registration import register_track
 
 FACE = placed(70, (100, 100))

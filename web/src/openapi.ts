@@ -1605,6 +1605,11 @@ export interface components {
              */
             face_index?: number;
             /**
+             * @description Which face of the driver, counted from the largest in the first frame that shows any.
+             * @default 0
+             */
+            driver_face_index?: number;
+            /**
              * @description How strongly the motion is carried over; 1 is as the driver does it.
              * @default 1
              */

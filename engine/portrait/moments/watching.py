@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import FaceTracker
+from engine.perception.one_face import OneFace
 from engine.portrait.moments.measures import MEASURES, measure
 
 FPS = 12.0
@@ -60,13 +60,13 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             boxes.append(np.concatenate([meshes[:, :, :2].min(axis=1), meshes[:, :, :2].max(axis=1)], axis=1))
             block.clear()
 
-    with FaceTracker() as tracker:
+    with OneFace() as follow:
         for frame in read_video(path, fps=FPS, limits=limits, longest_side=LONGEST_SIDE):
             tick(min(len(found) / expected, 1.0))
-            faces = tracker(frame.rgb)
-            found.append(bool(faces))
-            if faces:
-                block.append(faces[0])
+            mesh = follow(frame.rgb)
+            found.append(mesh is not None)
+            if mesh is not None:
+                block.append(mesh)
             if len(block) == BLOCK:
                 measure_block()
     measure_block()

@@ -94,7 +94,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
 def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
     """A driver's analysis, the same that a portrait driven by it alone would make where the frame rates agree."""
     if not state.own:
-        tracking = follow(state.video, options.fps, None, run)
+        tracking = follow(state.video, options.fps, None, 0, run)
         return analyse_driver(tracking, lambda track: round(_frame(state, track.fps)), run)
     trim = options.trim
     if trim is None and probe_video(state.video, run.limits).seconds > MOST_SECONDS:
@@ -102,7 +102,7 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
         run.warn(
             "driver_shortened", f"The first {MOST_SECONDS:.0f} seconds of the driver are used: trim chooses others."
         )
-    tracking = follow(state.video, fps, trim, run)
+    tracking = follow(state.video, fps, trim, options.driver_face_index, run)
     return analyse_driver(tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run)
 
 
