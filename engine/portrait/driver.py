@@ -19,14 +19,13 @@ from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
 from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import steady
-from engine.portrait.appearance import Appearance, appearance, between
+from engine.portrait.appearance import Appearance
 from engine.portrait.film_strip import FilmStrip, FilmStripWriter
+from engine.portrait.held_face import HeldFace
 from engine.portrait.periphery import PeripheryTracker
 
 LONGEST_SIDE = 1280
 """Pixels; larger drivers are read at this size, which holds all that their analysis keeps."""
-EASE_BACK = 8
-"""Frames over which a face that had vanished eases from its held place back to where it was found again."""
 
 
 @dataclass(frozen=True)
@@ -158,34 +157,3 @@ def _warn(warn: Callable[[str, str], None], faces: NDArray[np.float32], found: l
             "driver_face_lost",
             f"The driver's face was not seen in {lost} of {len(found)} frames: it holds still there.",
         )
-
-
-class HeldFace:
-    """A face that is not always seen: where it is lost it stays as it was last seen, where it comes back it eases over
-    from there; before it is first seen it is as it will be."""
-
-    def __init__(self) -> None:
-        self._waiting = 0
-        self._last: Appearance | None = None
-        self._lost: Appearance | None = None
-        self._since = 0
-
-    def __call__(self, rgb: NDArray[np.uint8], mesh: NDArray[np.float32] | None) -> list[Appearance]:
-        """How it looks in this frame, (H, W, 3) with the mesh (478, 3) that is seen in it; the first that is seen comes as
-        often as there were frames up to here, and nothing before."""
-        if mesh is None:
-            self._lost = self._last
-            self._since = 0
-            self._waiting += self._last is None
-            return [self._last] if self._last else []
-        seen = appearance(rgb, mesh)
-        if self._lost is not None:
-            self._since += 1
-            t = self._since / (EASE_BACK + 1)
-            seen = between(self._lost, seen, t * t * (3 - 2 * t))
-            if self._since == EASE_BACK:
-                self._lost = None
-        self._last = seen
-        looks = [seen] * (self._waiting + 1)
-        self._waiting = 0
-        return looks

@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.person import selfie_mask
+from engine.portrait.alignment import Similarity, fit_similarity
+from engine.portrait.held_face import EASE_BACK, way_back
 
 MOST_POINTS = 100
 WORKING_HEIGHT = 360
@@ -14,7 +16,9 @@ WORKING_HEIGHT = 360
 FORWARD_BACKWARD = 1.0
 """A point that does not come back to within this many working pixels is not trusted in that frame."""
 ANCHOR = 3.0
-"""How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
+"""How far, in working pixels, the match against the first frame may be from the frame-to-frame track ..."""
+FOUND_AGAIN = 12.0
+"""... or, after frames without a face, from where the face would carry it."""
 WINDOW = (21, 21)
 COARSE, NEAR = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
@@ -34,6 +38,8 @@ class PeripheryTracker:
         self._first: NDArray[np.uint8] | None = None
         self._last: NDArray[np.uint8] | None = None
         self._start = np.zeros((0, 2), np.float32)
+        self._face = np.zeros((0, 2))
+        self._broken = np.zeros(0, bool)
         self._points: list[NDArray[np.float32]] = []
         self._tracked: list[NDArray[np.bool_]] = []
         self._before = 0
@@ -47,12 +53,15 @@ class PeripheryTracker:
             self._scale = min(1.0, WORKING_HEIGHT / rgb.shape[0])
             self._first = self._last = self._grey(rgb)
             self._start = _choose(rgb, mesh, self._scale)
+            self._face = self._small(mesh)
+            self._broken = np.zeros(len(self._start), bool)
             self._points = [self._start]
             self._tracked = [np.ones(len(self._start), bool)]
             return
         grey = self._grey(rgb)
         if len(self._start):
-            points, good = self._step(grey)
+            carry = None if mesh is None else fit_similarity(self._face, self._small(mesh))
+            points, good = self._step(grey, carry)
             self._points.append(points)
             self._tracked.append(good)
         self._last = grey
@@ -65,7 +74,7 @@ class PeripheryTracker:
             return np.zeros((self._before + frames, 0, 2), np.float32), np.zeros((self._before + frames, 0), np.float32)
         points = np.array([self._points[0]] * self._before + self._points, np.float32)
         tracked = np.array([self._tracked[0]] * self._before + self._tracked)
-        return (points + 0.5) / self._scale - 0.5, fading(tracked)
+        return (easing(points, tracked) + 0.5) / self._scale - 0.5, fading(tracked)
 
     def _grey(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
@@ -73,19 +82,43 @@ class PeripheryTracker:
             grey = cv2.resize(grey, None, fx=self._scale, fy=self._scale, interpolation=cv2.INTER_AREA)
         return np.asarray(grey, np.uint8)
 
-    def _step(self, grey: NDArray[np.uint8]) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+    def _small(self, mesh: NDArray[np.float32]) -> NDArray[np.float64]:
+        """The mesh's places in working pixels, (478, 2)."""
+        return np.asarray((mesh[:, :2] + 0.5) * self._scale - 0.5, float)
+
+    def _step(self, grey: NDArray[np.uint8], carry: Similarity | None) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
+        """Where the points are in the next frame, and whether they are found there. Nothing follows them through a frame
+        without a face: they stay where they were, until they are found where the face, moved by `carry` from the first
+        frame, takes them."""
         assert self._last is not None and self._first is not None
         last = self._points[-1]
+        if carry is None:
+            self._broken[:] = True
+            return last, np.zeros(len(last), bool)
         moved, good = _match(self._last, grey, last, last, COARSE)
+        good &= ~self._broken
+        moved[self._broken] = carry(self._start[self._broken])
         # against the first frame, from where the track is now: takes the drift out
         anchored, sound = _match(self._first, grey, self._start, moved, NEAR)
-        sound &= np.linalg.norm(anchored - moved, axis=1) < ANCHOR
+        sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(self._broken, FOUND_AGAIN, ANCHOR)
         sound &= _comes_back(self._first, grey, self._start, anchored, NEAR)
+        self._broken &= ~sound
         loose = ~sound
         if loose.any():
             good[loose] &= _comes_back(self._last, grey, last[loose], moved[loose], COARSE)
             moved[loose & ~good] = last[loose & ~good]
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
+
+
+def easing(points: NDArray[np.float32], tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """(N, K, 2): a point that is found again goes over from where it was lost, at the pace of a face that comes back."""
+    eased, lost = points.copy(), points[0]
+    since = np.full(points.shape[1], EASE_BACK + 1)
+    for i in range(1, len(points)):
+        lost = np.where((tracked[i] | ~tracked[i - 1])[:, None], lost, eased[i - 1])
+        since = np.where(tracked[i], since + 1, 0)
+        eased[i] = lost + way_back(since)[:, None] * (points[i] - lost)
+    return eased
 
 
 def fading(tracked: NDArray[np.bool_]) -> NDArray[np.float32]:

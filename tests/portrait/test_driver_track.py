@@ -12,13 +12,15 @@ from made_clip import write_frames
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.faces import FaceTracker, find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.portrait.appearance import CROP, CROP_EYES
-from engine.portrait.driver import EASE_BACK, DriverTrack, track_driver
+from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.fine_details import keep_ratio_images
+from engine.portrait.held_face import EASE_BACK
 from engine.portrait.registration import register_track
 from engine.run import Run
 from engine.store import StageStore
@@ -211,15 +213,17 @@ def test_lips_and_lids_keep_their_moments_and_their_depth(track: DriverTrack, wh
     assert abs(int(kept.argmin()) - low) <= 1
 
 
-def test_points_around_the_head_follow_it(small, tmp_path: Path) -> None:
-    """A still portrait carried across the picture: every tracked point does just that."""
-    from engine.media.image import read_image
+@pytest.fixture(scope="module")
+def still(small) -> NDArray[np.uint8]:
+    return read_image(small("photo_woman_outdoor.jpg", 320)).rgb
 
-    picture = read_image(small("photo_woman_outdoor.jpg", 320)).rgb
+
+def test_points_around_the_head_follow_it(still, tmp_path: Path) -> None:
+    """A still portrait carried across the picture: every tracked point does just that."""
     shifts = [np.array([1.5 * i, -0.75 * i]) for i in range(12)]
     moved = [
         cv2.warpAffine(
-            picture, np.column_stack([np.eye(2), s]), picture.shape[1::-1],
+            still, np.column_stack([np.eye(2), s]), still.shape[1::-1],
             flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE,
         )
         for s in shifts
@@ -232,3 +236,15 @@ def test_points_around_the_head_follow_it(small, tmp_path: Path) -> None:
     assert np.quantile(np.linalg.norm(away, axis=-1)[track.trust == 1], 0.95) < 1.0
     mesh = track.meshes[..., :2].mean(axis=1) - track.meshes[0, :, :2].mean(axis=0) - np.array(shifts)
     assert np.abs(mesh).max() < 1.0
+
+
+def test_points_around_are_found_again_where_the_face_comes_back(still, tmp_path: Path) -> None:
+    """The portrait is gone and comes back further to the right, where nothing has followed its points."""
+    gone = [np.full_like(still, 128)] * 4
+    seen = [still] * 6 + gone + [shifted(still, 40)] * 30
+    track = track_driver(write_frames(tmp_path / "again.mp4", seen), None, None, LIMITS)
+    moved = track.periphery - track.periphery[0]
+    assert np.abs(moved[:10]).max() < 1
+    assert track.trust[9].max() < 1 and track.trust[-1].mean() > 0.5
+    assert np.linalg.norm(moved[-1] - [40, 0], axis=-1)[track.trust[-1] == 1].max() < 1.5
+    assert np.abs(np.diff(moved[:, track.trust[-1] == 1], axis=0)).max() < 0.25 * 40
