@@ -1,60 +1,88 @@
-"""Lips beside the skin above and below them: they press it together, and do not go over it.
+"""Lips beside the skin around them: they press it together, and do not go over it.
 
-Where a mouth is torn open, a tracker has the lips further out than they are, beyond the vertices of the skin beside them;
-and what two lips' breadth of skin allow on the driver's face, a target with a shorter lip or chin has no room for.
+What the skin above the driver's upper lip has room for, or that of the chin, a target with a shorter lip or chin may not
+have: carried over as it is, a mouth that is torn open smears over the skin, or the skin over it. So the skin gives way up
+to the nose, and down to the jaw, and where it cannot any more, the lips stop.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import convolve1d
 
 UPPER = (
-    *((186, 185, 184, 183, 191), (92, 40, 74, 42, 80), (165, 39, 73, 41, 81), (167, 37, 72, 38, 82), (164, 0, 11, 12, 13)),
-    *((393, 267, 302, 268, 312), (391, 269, 303, 271, 311), (322, 270, 304, 272, 310), (410, 409, 408, 407, 415)),
-)  # fmt: skip
-"""Columns across the upper lip: a vertex of the skin above, then those of the lip from its border to the mouth."""
+    *((184, 183, 191), (74, 42, 80), (73, 41, 81), (72, 38, 82), (11, 12, 13)),
+    *((302, 268, 312), (303, 271, 311), (304, 272, 310), (408, 407, 415)),
+)
+"""Columns across the upper lip, without its border."""
+ABOVE = (
+    *((185, 186, 216), (40, 92, 64), (39, 165, 98), (37, 167, 97), (0, 164, 2)),
+    *((267, 393, 326), (269, 391, 327), (270, 322, 294), (409, 410, 436)),
+)
+"""What each of them goes on with, from the border of the lip over the skin to the nose, or the cheek beside it."""
 LOWER = (
-    *((43, 146, 77, 96, 95), (106, 91, 90, 89, 88), (182, 181, 180, 179, 178), (83, 84, 85, 86, 87), (18, 17, 16, 15, 14)),
-    *((313, 314, 315, 316, 317), (406, 405, 404, 403, 402), (335, 321, 320, 319, 318), (273, 375, 307, 325, 324)),
-)  # fmt: skip
-"""The same across the lower lip, from the skin below it."""
+    *((77, 96, 95), (90, 89, 88), (180, 179, 178), (85, 86, 87), (16, 15, 14)),
+    *((315, 316, 317), (404, 403, 402), (320, 319, 318), (307, 325, 324)),
+)
+"""Columns across the lower lip, without its border."""
+BELOW = (
+    *((146, 43, 202, 210, 169, 150), (91, 106, 204, 211, 170, 149), (181, 182, 194, 32, 140, 176)),
+    *((84, 83, 201, 208, 171, 148), (17, 18, 200, 199, 175, 152), (314, 313, 421, 428, 396, 377)),
+    *((405, 406, 418, 262, 369, 400), (321, 335, 424, 431, 395, 378), (375, 273, 422, 430, 394, 379)),
+)
+"""What each of them goes on with, down to the jaw's contour."""
 BROW, CHIN = 10, 152
 """Where the face's axis begins and ends."""
-LEAST, MOST = 0.1, 0.6
-"""Shares of its usual breadth: skin is not pressed together by more than the first, and given a say from the second on."""
-YIELDS = 0.5
-"""Share of the way by which skin that is pressed on gives way on a target, rather than the lips."""
-NARROW = 0.03
-"""Eye distances: skin as narrow as this on the driver says nothing about how far it is pressed together."""
+LEAST, MOST = 0.1, 0.3
+"""Shares of its usual breadth: skin is never pressed together by more than the first, nor under the nose by more than on
+the driver's face, where that is below the second."""
+NEIGHBOURS = np.array([1, 2, 3, 2, 1]) / 9
+"""How much columns of a lip draw their neighbours along."""
 
 
-def breadths(faces: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N, 18) pixels along the face from the lips' borders to the skin vertices beside them, of meshes (N, 478, 2 or 3);
-    negative where lips lie over them."""
-    down = _down(faces)[:, None]
-    above, below = (faces[:, np.array(columns)[:, :2], :2] for columns in (UPPER, LOWER))
-    return np.concatenate(
-        [((above[:, :, 1] - above[:, :, 0]) * down).sum(-1), ((below[:, :, 0] - below[:, :, 1]) * down).sum(-1)], axis=1
-    )
+def lips_room(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
+    the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `LEAST` to `MOST`."""
+    lip, _, nose = ABOVE[4]
+    now, usual = (((one[:, lip] - one[:, nose])[:, :2] * _down(one)).sum(1) for one in (faces, neutral[None]))
+    return np.asarray(np.clip(now / np.maximum(usual, 1e-6), LEAST, MOST), float)
 
 
-def pressed(faces: NDArray[np.floating], neutral: NDArray[np.floating], unit: float) -> NDArray[np.float64]:
-    """(N, 18) the share of its breadth on the `neutral` face that is left of the skin at least, from `LEAST` to `MOST`, on
-    faces (N, 478, 2 or 3) that are upright as the neutral one is; `unit` is their eye distance."""
-    usual = breadths(neutral[None])
-    share = breadths(faces) / np.maximum(usual, 1e-6)
-    return np.asarray(np.where(usual > NARROW * unit, np.clip(share, LEAST, MOST), LEAST), float)
+def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], room: NDArray[np.floating]) -> None:
+    """Lead lips of faces (N, 478, 2 or 3) that go over the skin beside them back to its edge, in place and along the face.
+
+    Parameters
+    ----------
+    rest : (478, 2 or 3) the same face at rest. room : (N,) share of its breadth that the skin under the nose keeps.
+    """
+    least = np.full_like(room, LEAST)
+    for lips, skin, share, way in ((UPPER, ABOVE, room, -1), (LOWER, BELOW, least, 1)):
+        columns = np.array(skin)
+        out = way * _down(faces)[:, None, None]
+        usual = np.diff((rest[columns, :2] * (way * _down(rest[None])[0])).sum(-1), axis=1)
+        along = (faces[:, columns, :2] * out).sum(-1)
+        moved = _in_order(along, np.minimum(usual, usual * share[:, None, None])) - along
+        moved[..., 0] = _with_neighbours(moved[..., 0])
+        faces[:, columns, :2] += moved[..., None] * out
+        faces[:, np.array(lips), :2] += moved[:, :, :1, None] * out
 
 
-def clear_of_skin(faces: NDArray[np.floating], least: NDArray[np.floating], yields: float = 0.0) -> None:
-    """Move the lips of faces (N, 478, 2 or 3), in place and along the face, so far that the skin beside them has a breadth
-    of `least` (N or 1, 18), pixels, or none where that is negative. Of the way, the skin `yields` a share."""
-    down = _down(faces)
-    push = np.maximum(np.maximum(least, 0) - breadths(faces), 0)
-    shares = np.array([-yields, *[1 - yields] * 4])[:, None]
-    for columns, pushes, way in ((UPPER, push[:, :9], 1), (LOWER, push[:, 9:], -1)):
-        faces[:, np.array(columns), :2] += way * pushes[:, :, None, None] * shares * down[:, None, None]
+def _in_order(along: NDArray[np.floating], least: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Places (..., K) along a way, moved as little as it takes to be `least` (..., K - 1) apart, the last one not at all:
+    each makes room for those before it, as long as there is any."""
+    kept = along.copy()
+    for k in range(1, along.shape[-1] - 1):
+        kept[..., k] = np.maximum(kept[..., k], kept[..., k - 1] + least[..., k - 1])
+    for k in range(along.shape[-1] - 2, -1, -1):
+        kept[..., k] = np.minimum(kept[..., k], kept[..., k + 1] - least[..., k])
+    return kept
+
+
+def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
+    """How far the columns (N, 9) of a lip move back where each draws those beside it along: no less than by themselves."""
+    drawn = convolve1d(moves, NEIGHBOURS, axis=1, mode="nearest")
+    return np.asarray(np.where(np.abs(drawn) > np.abs(moves), drawn, moves))
 
 
 def _down(faces: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from engine.portrait.eyes import gaze
 from engine.portrait.head_motion import HeadMotion, split_motion, turns
 from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
-from engine.portrait.lips_and_skin import YIELDS, breadths, clear_of_skin, pressed
+from engine.portrait.lips_and_skin import keep_lips_off_skin, lips_room
 from engine.portrait.misfit import Misfit
 from engine.portrait.options import Part, PortraitOptions
 
@@ -69,8 +69,7 @@ def carry_motion(
     rest = track.meshes[neutral]
     phi = align(rest, target)
     unit = float(eye_distance(target[:, :2]))
-    own_unit = float(eye_distance(rest[:, :2]))
-    maps = local_maps(phi, rest, target, own_unit)
+    maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
     follow = part_weights(options.follow)
     rim = rim_distance(target, control.points[control.periphery]) / unit
     head = options.strength if "head" in options.follow else 0.0
@@ -91,7 +90,7 @@ def carry_motion(
         expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
         ratio = 1 + eyes * (lid_ratio(rest + motion.expression, rest) - 1)
         acted = target + expression
-        clear_of_skin(acted, pressed(rest + motion.expression, rest, own_unit) * breadths(target[None]), YIELDS)
+        keep_lips_off_skin(acted, target, lips_room(rest + motion.expression, rest))
         expression = meet(acted, target, np.maximum(ratio, 0)) - target
         look = eyes * gaze(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         if proxy is None:

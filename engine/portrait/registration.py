@@ -31,7 +31,6 @@ from engine.perception.landmarks import (
 from engine.perception.temporal_filter import steady
 from engine.portrait.appearance import CROP, CROP_EYES
 from engine.portrait.driver import DriverTrack
-from engine.portrait.lips_and_skin import breadths, clear_of_skin
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
@@ -43,8 +42,6 @@ LIGHT = 20.0
 """Pixels over which the light of the two frames is made equal first."""
 RIM = 0.35
 """Within this distance of the face's contour, in eye distances, the flow fades out."""
-LIPS_CLEAR = 0.0
-"""Share of the skin beside the lips in the neutral frame that is left of it at least."""
 AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
 """Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
 
@@ -90,7 +87,6 @@ def register_track(
     moved = np.flatnonzero(weight)
     for some in np.array_split(moved, 8):  # a part at a time: long clips have many frames
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
-    clear_of_skin(meshes, LIPS_CLEAR * breadths(meshes[neutral][None]))
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
 
 
