@@ -13,6 +13,9 @@ from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 
+FEWEST_STEPS = 8
+"""Frames of a loop, at least: it plays slower then."""
+
 
 def resample(clip: Clip, fps: float) -> Clip:
     """The same motion at `fps` frames a second: turns by slerp, the root's way by straight lines.
@@ -50,11 +53,15 @@ def loop_step(clip: Clip) -> Array:
 
 
 def resample_source(motion: SourceMotion, fps: float) -> SourceMotion:
-    """The same source motion at `fps` frames a second, or as it is if that is its own rate."""
+    """The same source motion at `fps` frames a second, or as it is if that is its own rate; a loop's length is rounded
+    to whole frames."""
     frames = len(motion.rotations)
     if frames == 1 or abs(fps - motion.fps) < 1e-6 * fps:
         return motion
-    times = _times(frames, motion.fps, fps)
+    if motion.loops:
+        times = np.linspace(0, frames - 1, max(round((frames - 1) / motion.fps * fps), FEWEST_STEPS) + 1)
+    else:
+        times = _times(frames, motion.fps, fps)
     return replace(
         motion,
         fps=float(fps),
