@@ -1,7 +1,8 @@
 """Motions of other skeletons, carried over to ours.
 
 World turns are carried over, measured from where both skeletons stand in the same T-pose (`reference_pose`); the hips'
-way is scaled by the length of the legs. What leads into itself becomes a loop (`looping`). What differs in proportion is then mended where it shows: at the feet (`foot_contact`).
+way is scaled by the length of the legs. What leads into itself becomes a loop (`looping`), and what walks in place
+walks on (`treadmill`). What differs in proportion is then mended where it shows: at the feet (`foot_contact`).
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from engine.motion.resampling import resample_source
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import leg_length
 from engine.motion.source_motion import SourceMotion
+from engine.motion.treadmill import walked_on
 
 Array = NDArray[np.float64]
 
@@ -87,7 +89,7 @@ def retarget(
         root=root[:frames].astype(np.float32),
         loops=loops,
     )
-    clip, report = hold_feet(skeleton, clip, hold=feet)
+    clip, report = hold_feet(skeleton, walked_on(skeleton, clip), hold=feet)
     return Retargeted(clip, joints, report)
 
 
