@@ -17,30 +17,6 @@ FEWEST_STEPS = 8
 """Frames of a loop, at least: it plays slower then."""
 
 
-def resample(clip: Clip, fps: float) -> Clip:
-    """The same motion at `fps` frames a second: turns by slerp, the root's way by straight lines.
-
-    A loop stays a loop: its length is rounded to whole frames, so that it closes exactly.
-    """
-    if fps == clip.fps or len(clip.rotations) == 1:
-        return replace(clip, fps=fps)
-    frames = len(clip.rotations)
-    rotations, root = np.asarray(clip.rotations, np.float64), np.asarray(clip.root, np.float64)
-    if clip.loops:
-        count = max(round(frames / clip.fps * fps), 1)
-        times = np.arange(count, dtype=np.float64) * (frames / count)
-        rotations = np.concatenate([rotations, rotations[:1]])
-        root = np.concatenate([root, root[-1:] + loop_step(clip)])
-    else:
-        times = _times(frames, clip.fps, fps)
-    return replace(
-        clip,
-        fps=float(fps),
-        rotations=turns_at(rotations, times).astype(np.float32),
-        root=places_at(root, times).astype(np.float32),
-    )
-
-
 def loop_step(clip: Clip) -> Array:
     """(3,) from the last frame of a loop to the frame that would follow, as far as the ground plane goes: the mean of
     the steps beside it; upwards, exactly back to the first frame's height."""
