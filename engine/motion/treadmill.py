@@ -31,6 +31,8 @@ ROUNDS = 6
 """Of finding the ground's step by the points that go with it."""
 OFTEN, EACH = 0.5, 0.2
 """The share of the time in which something goes with the ground, and each foot's share of that, at least."""
+LEVEL = 0.03
+"""Metres, for legs of `LEG`: what goes with the ground at heights that differ by more, pedals, say."""
 IN_PLACE = 0.25
 """What the root may travel by itself, as a share of the ground's way."""
 SMOOTH = 0.06
@@ -55,7 +57,8 @@ def walked_on(skeleton: Skeleton, clip: Clip) -> Clip:
         ground = (steps * stands[..., None]).sum((0, 1)) / stands.sum()
     left = stands[:, :3].sum() / stands.sum()
     own = travel(clip) if clip.loops else (clip.root[-1] - clip.root[0]) * [1, 0, 1]
-    walks = stands.max(1).mean() > OFTEN and EACH < left < 1 - EACH
+    level = np.abs(heights - (heights * stands).sum() / stands.sum()) < LEVEL * scale
+    walks = (stands * level).max(1).mean() > OFTEN and EACH < left < 1 - EACH
     if not walks or np.linalg.norm(own) > IN_PLACE * speed * len(steps):
         return clip
     return replace(clip, root=(clip.root + _way(steps, stands, ground, clip)).astype(np.float32))

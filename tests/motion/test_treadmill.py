@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from humanoids import build_skeleton, treadmill_walk
+from humanoids import build_skeleton, on_feet, treadmill_walk
 
 from engine.motion import rotation
 from engine.motion.bvh import read_bvh
@@ -76,6 +76,14 @@ def test_who_pushes_with_one_foot_only_is_left_alone(skeleton: Skeleton) -> None
         rotations[:, skeleton.index(f"Right{part}")] = rotations[24, skeleton.index(f"Right{part}")]
     scooter = replace(clip, rotations=rotations)
     assert walked_on(skeleton, scooter) is scooter
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_cyclist_is_left_alone(skeleton: Skeleton, way: int) -> None:
+    """Pedals go round, the lower one back with the road."""
+    turn = 2 * np.pi * (np.arange(30)[:, None] / 30 + [0.0, 0.5])
+    cyclist = on_feet(skeleton, 0.1 + 0.17 * way * np.cos(turn), 0.17 * (1 + np.sin(turn)), 0.15)
+    assert walked_on(skeleton, cyclist) is cyclist
 
 
 def test_a_skater_is_left_alone(skeleton: Skeleton) -> None:
