@@ -67,11 +67,8 @@ def retarget(
     InputError : see `map_joints`.
     """
     joints = map_joints(motion, mapping)
-    motion = without_flips(motion)
-    places = motion.world()[1]
-    upright = world_upright(motion, joints, places)
-    heights = rotation.rotate(upright, places[:, motion.names.index(joints["Hips"])])[:, 1]
-    source = resample_source(as_loop(motion, heights / _leg_length(places, motion.names, joints)), fps)
+    motion, upright = cleaned(motion, joints)
+    source = resample_source(motion, fps)
     turns, places = source.world()
     turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
     world = _carry_turns(turns, t_pose_turns(source, joints, skeleton), source.names, joints, skeleton)
@@ -91,6 +88,15 @@ def retarget(
     )
     clip, report = hold_feet(skeleton, walked_on(skeleton, clip), hold=feet)
     return Retargeted(clip, joints, report)
+
+
+def cleaned(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[SourceMotion, Array]:
+    """The motion without joints that flip over, as a loop if it is one; and its `world_upright`."""
+    motion = without_flips(motion)
+    places = motion.world()[1]
+    upright = world_upright(motion, joints, places)
+    heights = rotation.rotate(upright, places[:, motion.names.index(joints["Hips"])])[:, 1]
+    return as_loop(motion, heights / _leg_length(places, motion.names, joints)), upright
 
 
 def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> Array:
