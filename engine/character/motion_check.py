@@ -47,6 +47,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     figures = {"fps": round(checked.fps, 4), "frames": checked.frames, "seconds": round(checked.seconds, 3)}
     document = {
         **figures,
+        "loops": checked.loops,
         "clips": list(motion_clips(path)),
         "joints": [
             {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)

@@ -15,7 +15,6 @@ from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep
 from engine.motion.library import built_in
 from engine.motion.reading import read_motion
-from engine.motion.resampling import resample
 from engine.motion.retarget import retarget
 from engine.motion.step_out import step_out
 
@@ -100,9 +99,11 @@ def _carried_over(
     clip = carried.clip
     if len(clip.rotations) < 1:
         raise InputError("motion_empty", "The motion has no frames: send one that has.")
-    return replace(_cut(resample(clip, fps), LONGEST), name="motion"), carried.mapping
+    return replace(_cut(clip, LONGEST), name="motion"), carried.mapping
 
 
 def _cut(clip: Clip, seconds: float) -> Clip:
     frames = max(1, round(seconds * clip.fps))
-    return replace(clip, rotations=clip.rotations[:frames], root=clip.root[:frames])
+    if len(clip.rotations) <= frames:
+        return clip
+    return replace(clip, rotations=clip.rotations[:frames], root=clip.root[:frames], loops=False)

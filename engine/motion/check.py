@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from engine.errors import InputError
 from engine.motion.joint_map import REQUIRED, map_joints
+from engine.motion.retarget import cleaned
 from engine.motion.source_motion import SourceMotion
 
 
@@ -16,7 +17,7 @@ class CheckedMotion:
 
     `joints` are the names of its joints and `parents` those of their parents, None for roots; `mapping` is
     `{our joint: its joint}`, and `missing` our joints that must have one and have none: `refused` says so then, and the
-    motion is of use only with overrides.
+    motion is of use only with overrides. `loops` whether it is played on and on; None where that is not known, either.
     """
 
     fps: float
@@ -25,6 +26,7 @@ class CheckedMotion:
     joints: tuple[str, ...]
     parents: tuple[str | None, ...]
     mapping: Mapping[str, str]
+    loops: bool | None = None
     missing: tuple[str, ...] = ()
     refused: InputError | None = None
 
@@ -36,9 +38,10 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
     ------
     InputError : `motion_joint_unknown`.
     """
-    refused = None
+    refused = loops = None
     try:
         mapping = map_joints(motion, overrides)
+        loops = bool(cleaned(motion, mapping)[0].loops)
     except InputError as error:
         if "mapping" not in error.found:
             raise
@@ -51,6 +54,7 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
         joints=motion.names,
         parents=tuple(motion.names[parent] if parent >= 0 else None for parent in motion.parents),
         mapping=mapping,
+        loops=loops,
         missing=tuple(name for name in REQUIRED if name not in mapping),
         refused=refused,
     )

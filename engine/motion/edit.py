@@ -1,4 +1,4 @@
-"""Clips cut, joined and changed: in place or travelling, parts kept as pictured, one after another."""
+"""Clips changed: in place, with parts kept as pictured, loops played for as long as wanted."""
 
 from __future__ import annotations
 
@@ -9,25 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import sole_places
-from engine.motion.foot_hold import hold_feet
-from engine.motion.resampling import loop_step, resample
+from engine.motion.resampling import loop_step
 from engine.motion.skeleton import Skeleton
-
-__all__ = [
-    "BODY_PARTS",
-    "closed",
-    "concatenate",
-    "in_place",
-    "keep",
-    "moved",
-    "repeated",
-    "resample",
-    "travel",
-    "travelling",
-]
 
 Array = NDArray[np.float64]
 
@@ -60,30 +44,6 @@ def in_place(clip: Clip) -> Clip:
 def travel(clip: Clip) -> Array:
     """(3,) how far a loop's root gets in one round, metres; level."""
     return np.asarray((clip.root[-1] - clip.root[0] + loop_step(clip)) * [1, 0, 1], np.float64)
-
-
-def closed(clip: Clip, degrees: float = 3.0) -> Clip:
-    """The clip as a loop, if its last frame shows the first frame's pose again: that frame is left out then."""
-    if clip.loops or len(clip.rotations) < 8:
-        return clip
-    apart = rotation.angle(rotation.multiply(rotation.inverse(clip.rotations[0]), clip.rotations[-1]))
-    if np.degrees(apart).max() > degrees or abs(clip.root[0, 1] - clip.root[-1, 1]) > 0.02:
-        return clip
-    return replace(clip, rotations=clip.rotations[:-1], root=clip.root[:-1], loops=True)
-
-
-def travelling(skeleton: Skeleton, clip: Clip) -> Clip:
-    """A clip that walks in place, walking: the root goes back the way that the lowest sole goes over the ground."""
-    points = sole_places(skeleton, clip)
-    if clip.loops:
-        points = np.concatenate([points, points[:1]])
-    steps = np.diff(points, axis=0).reshape(len(points) - 1, 6, 3)
-    heights = points[:-1, ..., 1].reshape(-1, 6)
-    weights = np.exp(-(heights - heights.min(1, keepdims=True)) / 0.01)
-    step = -(steps * weights[..., None]).sum(1) / weights.sum(1)[:, None] * [1, 0, 1]
-    step = gaussian_filter1d(step, 0.06 * clip.fps, axis=0, mode="wrap" if clip.loops else "nearest")
-    way = np.concatenate([np.zeros((1, 3)), np.cumsum(step, 0)])[: len(clip.root)]
-    return hold_feet(skeleton, replace(clip, root=(clip.root + way).astype(np.float32)))[0]
 
 
 def keep(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: Sequence[str]) -> Clip:
@@ -125,56 +85,3 @@ def repeated(clip: Clip, frames: int, start: int = 0) -> Clip:
     rounds, chosen = np.divmod(wanted, len(clip.rotations))
     root = clip.root[chosen] + rounds[:, None] * travel(clip)
     return replace(clip, rotations=clip.rotations[chosen], root=root.astype(np.float32), loops=False)
-
-
-def moved(clip: Clip, turn: float, start: Array) -> Clip:
-    """The clip turned by `turn` radians about the vertical and moved over the ground, so that its root begins above
-    `start` (3,)."""
-    about = rotation.about("y", turn)
-    rotations = clip.rotations.copy()
-    rotations[:, 0] = rotation.multiply(about, rotations[:, 0])
-    root = rotation.rotate(about, clip.root)
-    root += (np.asarray(start, np.float64) - root[0]) * [1, 0, 1]
-    return replace(clip, rotations=rotations, root=root.astype(np.float32))
-
-
-def concatenate(skeleton: Skeleton, clips: Sequence[Clip], seconds: float = 0.4) -> Clip:
-    """Clips one after another, each beginning where and whither the one before ends, faded over `seconds`, feet held.
-
-    Raises
-    ------
-    ValueError : no clips.
-    """
-    if not clips:
-        raise ValueError("there is no clip to play")
-    whole = replace(clips[0], loops=False)
-    for clip in clips[1:]:
-        whole = _crossfade(whole, resample(clip, whole.fps), seconds)
-    return whole if len(clips) == 1 else hold_feet(skeleton, whole, floor=0.0)[0]
-
-
-def _crossfade(first: Clip, second: Clip, seconds: float) -> Clip:
-    frames = int(np.clip(round(seconds * first.fps), 1, min(len(first.rotations), len(second.rotations)) - 1))
-    begin = len(first.rotations) - frames
-    turn = _heading(first.rotations[begin, 0]) - _heading(second.rotations[0, 0])
-    second = moved(second, turn, first.root[begin])
-    share = (np.arange(frames) + 0.5) / frames
-    share = share * share * (3 - 2 * share)
-    rotations = rotation.slerp(
-        first.rotations[begin:],
-        second.rotations[:frames],
-        np.broadcast_to(share[:, None], (frames, first.rotations.shape[1])),
-    )
-    root = first.root[begin:] * (1 - share[:, None]) + second.root[:frames] * share[:, None]
-    return replace(
-        first,
-        name=f"{first.name}, {second.name}",
-        rotations=np.concatenate([first.rotations[:begin], rotations, second.rotations[frames:]]).astype(np.float32),
-        root=np.concatenate([first.root[:begin], root, second.root[frames:]]).astype(np.float32),
-        loops=False,
-    )
-
-
-def _heading(hips: NDArray[np.floating]) -> float:
-    forward = rotation.rotate(hips, (0.0, 0.0, 1.0))
-    return float(np.arctan2(forward[0], forward[2]))

@@ -98,7 +98,14 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
         up=(0.0, 1.0, 0.0),
         unit="metre",
         unit_metres=1.0,
+        loops=_loops(animations[chosen]),
     )
+
+
+def _loops(animation: Any) -> bool | None:
+    """What the animation's extras say, as `engine.export.glb` writes them."""
+    said = animation.extras.get("loops") if isinstance(animation.extras, dict) else None
+    return said if isinstance(said, bool) else None
 
 
 def _clip_names(file: GltfFile) -> tuple[str, ...]:

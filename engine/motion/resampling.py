@@ -13,29 +13,8 @@ from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 
-
-def resample(clip: Clip, fps: float) -> Clip:
-    """The same motion at `fps` frames a second: turns by slerp, the root's way by straight lines.
-
-    A loop stays a loop: its length is rounded to whole frames, so that it closes exactly.
-    """
-    if fps == clip.fps or len(clip.rotations) == 1:
-        return replace(clip, fps=fps)
-    frames = len(clip.rotations)
-    rotations, root = np.asarray(clip.rotations, np.float64), np.asarray(clip.root, np.float64)
-    if clip.loops:
-        count = max(round(frames / clip.fps * fps), 1)
-        times = np.arange(count, dtype=np.float64) * (frames / count)
-        rotations = np.concatenate([rotations, rotations[:1]])
-        root = np.concatenate([root, root[-1:] + loop_step(clip)])
-    else:
-        times = _times(frames, clip.fps, fps)
-    return replace(
-        clip,
-        fps=float(fps),
-        rotations=turns_at(rotations, times).astype(np.float32),
-        root=places_at(root, times).astype(np.float32),
-    )
+FEWEST_STEPS = 8
+"""Frames of a loop, at least: it plays slower then."""
 
 
 def loop_step(clip: Clip) -> Array:
@@ -50,11 +29,15 @@ def loop_step(clip: Clip) -> Array:
 
 
 def resample_source(motion: SourceMotion, fps: float) -> SourceMotion:
-    """The same source motion at `fps` frames a second, or as it is if that is its own rate."""
+    """The same source motion at `fps` frames a second, or as it is if that is its own rate; a loop's length is rounded
+    to whole frames."""
     frames = len(motion.rotations)
     if frames == 1 or abs(fps - motion.fps) < 1e-6 * fps:
         return motion
-    times = _times(frames, motion.fps, fps)
+    if motion.loops:
+        times = np.linspace(0, frames - 1, max(round((frames - 1) / motion.fps * fps), FEWEST_STEPS) + 1)
+    else:
+        times = _times(frames, motion.fps, fps)
     return replace(
         motion,
         fps=float(fps),

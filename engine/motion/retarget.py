@@ -1,8 +1,8 @@
 """Motions of other skeletons, carried over to ours.
 
 World turns are carried over, measured from where both skeletons stand in the same T-pose (`reference_pose`); the hips'
-way is scaled by the length of the legs. What differs in proportion is then mended where it shows: at the feet
-(`foot_contact`).
+way is scaled by the length of the legs. What leads into itself becomes a loop (`looping`), and what walks in place
+walks on (`treadmill`). What differs in proportion is then mended where it shows: at the feet (`foot_contact`).
 """
 
 from __future__ import annotations
@@ -22,11 +22,13 @@ from engine.motion.foot_hold import hold_feet
 from engine.motion.glitches import without_flips
 from engine.motion.joint_map import map_joints
 from engine.motion.kinematics import local_rotations
+from engine.motion.looping import as_loop
 from engine.motion.reference_pose import t_pose_turns
 from engine.motion.resampling import resample_source
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import leg_length
 from engine.motion.source_motion import SourceMotion
+from engine.motion.treadmill import walked_on
 
 Array = NDArray[np.float64]
 
@@ -65,9 +67,9 @@ def retarget(
     InputError : see `map_joints`.
     """
     joints = map_joints(motion, mapping)
-    source = resample_source(without_flips(motion), fps)
+    motion, upright = cleaned(motion, joints)
+    source = resample_source(motion, fps)
     turns, places = source.world()
-    upright = world_upright(source, joints, places)
     turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
     world = _carry_turns(turns, t_pose_turns(source, joints, skeleton), source.names, joints, skeleton)
     root = _carry_root(places, source.names, joints, skeleton, world)
@@ -75,14 +77,26 @@ def retarget(
     world, root = rotation.multiply(turn, world), rotation.rotate(turn, root)
     start = skeleton.heads[skeleton.index("Hips")] - root[0]
     root = root + start * [1, 0, 1]
+    loops = bool(source.loops) and len(root) > 1
+    frames = len(root) - 1 if loops else len(root)
     clip = Clip(
         name=motion.name,
         fps=float(fps),
-        rotations=local_rotations(skeleton.parents, world).astype(np.float32),
-        root=root.astype(np.float32),
+        rotations=local_rotations(skeleton.parents, world[:frames]).astype(np.float32),
+        root=root[:frames].astype(np.float32),
+        loops=loops,
     )
-    clip, report = hold_feet(skeleton, clip, hold=feet)
+    clip, report = hold_feet(skeleton, walked_on(skeleton, clip), hold=feet)
     return Retargeted(clip, joints, report)
+
+
+def cleaned(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[SourceMotion, Array]:
+    """The motion without joints that flip over, as a loop if it is one; and its `world_upright`."""
+    motion = without_flips(motion)
+    places = motion.world()[1]
+    upright = world_upright(motion, joints, places)
+    heights = rotation.rotate(upright, places[:, motion.names.index(joints["Hips"])])[:, 1]
+    return as_loop(motion, heights / _leg_length(places, motion.names, joints)), upright
 
 
 def world_upright(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> Array:
@@ -127,17 +141,21 @@ def _carry_root(
     places: Array, names: tuple[str, ...], joints: Mapping[str, str], skeleton: Skeleton, world: Array
 ) -> Array:
     """(F, 3) the root's way: the middle between the hip joints goes the source's way, scaled by the legs' length."""
-    at = {name: places[:, names.index(source)] for name, source in joints.items()}
-    sides = ("Left", "Right")
-    thighs = [np.linalg.norm(at[f"{side}Leg"] - at[f"{side}UpLeg"], axis=1) for side in sides]
-    shins = [np.linalg.norm(at[f"{side}Foot"] - at[f"{side}Leg"], axis=1) for side in sides]
-    length = float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0)))
-    scale = leg_length(skeleton) / max(length, 1e-9)
-    middle = (at["LeftUpLeg"] + at["RightUpLeg"]) / 2 * scale
+    left, right = (places[:, names.index(joints[name])] for name in ("LeftUpLeg", "RightUpLeg"))
+    middle = (left + right) / 2 * (leg_length(skeleton) / _leg_length(places, names, joints))
     heads = np.asarray(skeleton.heads, np.float64)
     hips = skeleton.index("Hips")
     ours = (heads[skeleton.index("LeftUpLeg")] + heads[skeleton.index("RightUpLeg")]) / 2 - heads[hips]
     return np.asarray(middle - rotation.rotate(world[:, hips], ours))
+
+
+def _leg_length(places: Array, names: tuple[str, ...], joints: Mapping[str, str]) -> float:
+    """Thigh and shin of the source, in its own unit: the mean of both legs."""
+    at = {name: places[:, names.index(source)] for name, source in joints.items()}
+    sides = ("Left", "Right")
+    thighs = [np.linalg.norm(at[f"{side}Leg"] - at[f"{side}UpLeg"], axis=1) for side in sides]
+    shins = [np.linalg.norm(at[f"{side}Foot"] - at[f"{side}Leg"], axis=1) for side in sides]
+    return max(float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0))), 1e-9)
 
 
 def _facing_turn(hips: Array, facing: Facing, fps: float) -> Array:

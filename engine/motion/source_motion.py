@@ -31,6 +31,7 @@ class SourceMotion:
     `rotations` (F, J, 4) and `translations` (F, J, 3): the frames, in parents' axes; `fps` frames a second.
     `up`: the world's axis that points up, or None where the format leaves it open.
     `unit_metres`: the length of the file's unit, and `unit` its name; a guess for formats that do not tell.
+    `loops`: whether the last frame shows the first again, moved on by what the root travels; None where the file is silent.
     """
 
     name: str
@@ -45,6 +46,7 @@ class SourceMotion:
     up: tuple[float, float, float] | None = None
     unit: str = "unknown"
     unit_metres: float = float("nan")
+    loops: bool | None = None
 
     def rest(self) -> tuple[Array, Array]:
         """World turns (J, 4) and places (J, 3) of the rest pose."""

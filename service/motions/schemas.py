@@ -22,7 +22,7 @@ class MotionOut(BaseModel):
     title: str | None = None
     seconds: float | None = None
     loops: bool | None = None
-    """Whether the last frame leads into the first; null of one's own."""
+    """Whether the last frame leads into the first, so that it is played on and on; null where that is not known."""
     url: str | None = None
     """Where the file is; built-in motions have none: they are made for each character."""
     size: int | None = None

@@ -6,8 +6,10 @@ import numpy as np
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.kinematics import local_rotations, world_rotations
+from engine.motion.kinematics import local_rotations, place_joints, world_rotations
+from engine.motion.legs import HeldFoot, set_legs
 from engine.motion.skeleton import Skeleton
+from engine.motion.sole import soles
 from engine.motion.source_motion import SourceMotion
 
 TRUNK = {
@@ -81,3 +83,31 @@ def told_by(
         rotations=local_rotations(skeleton.parents, own),
         translations=translations,
     )
+
+
+def treadmill_walk(skeleton: Skeleton, speed: float, frames: int = 30, fps: float = 30.0) -> Clip:
+    """A loop in place by hand: each foot stands for six tenths of the round, and goes back with the ground at `speed`
+    metres a second, level and on y = 0; then it is lifted, and swings forward."""
+    share = (np.arange(frames)[:, None] / frames + [0.0, 0.5]) % 1.0
+    swing = np.clip((share - 0.6) / 0.4, 0, 1)
+    ahead = np.where(share < 0.6, 0.5 - share / 0.6, swing - 0.5) * (0.6 * speed * frames / fps)
+    return on_feet(skeleton, ahead, 0.12 * np.sin(np.pi * swing), 0.08, fps)
+
+
+def on_feet(skeleton: Skeleton, ahead: np.ndarray, up: np.ndarray, lower: float, fps: float = 30.0) -> Clip:
+    """A loop in place, the arms down, the hips `lower` than at rest, with level feet `ahead` and `up` (F, 2) of where
+    they rest, metres, left and right."""
+    frames = len(ahead)
+    world = rotation.identity(frames, len(skeleton.names))
+    for side, sign in (("Left", -1), ("Right", 1)):
+        for part in ("Arm", "ForeArm", "Hand"):
+            world[:, skeleton.index(side + part)] = rotation.about("z", sign * np.radians(75))
+    root = np.tile(skeleton.heads[0].astype(np.float64) - [0, lower, 0], (frames, 1))
+    places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
+    level, feet = rotation.identity(frames), []
+    for side, sole in enumerate(soles(skeleton)):
+        ankle = sole.ankle + np.stack([np.zeros(frames), up[:, side], ahead[:, side]], 1)
+        feet.append((sole, HeldFoot(level, level, ankle, np.ones(frames))))
+    set_legs(world, places, feet)
+    rotations = local_rotations(skeleton.parents, world).astype(np.float32)
+    return Clip("by hand", fps, rotations, root.astype(np.float32), loops=True)

@@ -37,6 +37,8 @@ def test_a_motion_with_our_names_moves_joint_by_joint(motion: SourceMotion) -> N
     assert checked.joints[:2] == ("Hips", "Spine") and checked.parents[:2] == (None, "Hips")
     assert checked.frames == len(motion.rotations)
     assert checked.seconds == pytest.approx((checked.frames - 1) / motion.fps)
+    assert checked.loops is False
+    assert check_motion(replace(motion, loops=True)).loops is True
 
 
 def test_overrides_say_otherwise(motion: SourceMotion) -> None:

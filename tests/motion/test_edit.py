@@ -1,4 +1,4 @@
-"""Clips changed and joined."""
+"""Clips changed."""
 
 from __future__ import annotations
 
@@ -7,22 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.edit import BODY_PARTS, closed, concatenate, in_place, keep, moved, repeated, travel, travelling
-from engine.motion.foot_contact import find_contacts, sinking, sliding, sole_places
+from engine.motion.edit import BODY_PARTS, in_place, keep, repeated, travel
 from engine.motion.kinematics import joint_places
-from engine.motion.library import CLIPS, built_in
-from engine.motion.resampling import resample
+from engine.motion.library import built_in
 from engine.motion.skeleton import Skeleton
 
 
 def first(clip: Clip) -> Clip:
     return replace(clip, rotations=clip.rotations[:1], root=clip.root[:1], loops=False)
-
-
-def apart(one: np.ndarray, other: np.ndarray) -> float:
-    return float(np.degrees(rotation.angle(rotation.multiply(rotation.inverse(one), other)).max()))
 
 
 def test_in_place_takes_the_way_and_leaves_the_sway(skeleton: Skeleton) -> None:
@@ -34,15 +27,6 @@ def test_in_place_takes_the_way_and_leaves_the_sway(skeleton: Skeleton) -> None:
     assert np.ptp(still.root[:, 0]) == pytest.approx(np.ptp(clip.root[:, 0]), abs=0.005)
     once = in_place(repeated(clip, 99))
     assert np.ptp(once.root[:, 2]) < 0.6  # of 3.7 m
-
-
-def test_a_walk_in_place_walks_again(skeleton: Skeleton) -> None:
-    clip = built_in("walk", skeleton)
-    again = travelling(skeleton, in_place(clip))
-    assert np.allclose(travel(again), travel(clip), rtol=0.05, atol=0.02)
-    whole = repeated(again, 66)
-    points = sole_places(skeleton, whole)
-    assert sliding(points, find_contacts(points, 30.0), 30.0) < 2
 
 
 def test_rounds_of_a_loop_follow_each_other_evenly(skeleton: Skeleton) -> None:
@@ -73,43 +57,3 @@ def test_what_is_kept_is_as_pictured_and_the_rest_is_not_touched(skeleton: Skele
         assert np.ptp(places, axis=0).max() < 1e-5
     with pytest.raises(ValueError, match="tail"):
         keep(skeleton, clip, pictured, ("tail",))
-
-
-def test_a_moved_clip_begins_where_it_is_told(skeleton: Skeleton) -> None:
-    clip = built_in("walk", skeleton)
-    turned = moved(clip, np.pi / 2, np.array([1.0, 0.0, 2.0]))
-    assert np.allclose(turned.root[0], [1, clip.root[0, 1], 2])
-    assert np.allclose(travel(turned), [travel(clip)[2], 0, -travel(clip)[0]], atol=1e-5)
-
-
-def test_clips_follow_one_another_where_they_end(skeleton: Skeleton) -> None:
-    walk = repeated(built_in("walk", skeleton), 70)
-    whole = concatenate(skeleton, [walk, built_in("wave", skeleton), built_in("bow", skeleton)])
-    assert whole.seconds == pytest.approx(walk.seconds + 3.2 + 3.0 - 0.8, abs=0.1)
-    assert np.linalg.norm(np.diff(whole.root, axis=0), axis=-1).max() * 30 < 2.5
-    assert whole.root[-1, 2] > walk.root[-1, 2] - 0.6
-    points = sole_places(skeleton, whole)
-    assert sliding(points, find_contacts(points, 30.0), 30.0) < 2
-    assert sinking(points) < 0.01
-    turns = rotation.angle(rotation.multiply(rotation.inverse(whole.rotations[:-1]), whole.rotations[1:]))
-    assert np.degrees(turns.max()) < 40
-    assert apart(whole.rotations[-1], built_in("bow", skeleton).rotations[-1]) < 5
-
-
-@pytest.mark.parametrize("name", CLIPS)
-def test_resampling_there_and_back_changes_little(skeleton: Skeleton, name: str) -> None:
-    clip = built_in(name, skeleton)
-    back = resample(resample(clip, 120.0), 30.0)
-    assert len(back.root) == len(clip.root)
-    assert back.loops == clip.loops
-    assert apart(back.rotations, clip.rotations) < 0.2
-    assert np.allclose(back.root, clip.root, atol=1e-4)
-
-
-def test_a_clip_that_ends_as_it_begins_is_a_loop(skeleton: Skeleton) -> None:
-    walk = built_in("walk", skeleton)
-    once = repeated(walk, len(walk.root) + 1)
-    loop = closed(once)
-    assert loop.loops
-    assert np.array_equal(loop.rotations, walk.rotations)
-    assert not closed(built_in("sit", skeleton)).loops

@@ -140,6 +140,20 @@ def test_a_clip_of_our_own_comes_back(skeleton: Skeleton, interpolation: str, sk
     assert np.allclose(back.root - back.root[0], clip.root - clip.root[0], atol=0.01)
 
 
+@pytest.mark.parametrize(
+    ("extras", "loops"), [({"loops": True}, True), ({"loops": False}, False), ({}, None), ({"loops": "yes"}, None)]
+)
+def test_a_loop_may_be_marked(skeleton: Skeleton, extras: dict[str, object], loops: bool | None) -> None:
+    """Of a clip that comes back to rest, which is not taken for a loop without a word."""
+    clip = built_in("wave", skeleton)
+    writer = character(skeleton, clip)
+    writer.file.animations[0].extras = extras
+    motion = read_gltf_motion(writer.bytes())
+    assert motion.loops is loops
+    back = retarget(motion, skeleton, facing="keep", feet=False).clip
+    assert (back.loops, len(back.root)) == (bool(loops), len(clip.root) - bool(loops))
+
+
 def test_short_integers_are_fractions(skeleton: Skeleton) -> None:
     clip = built_in("wave", skeleton)
     motion = read_gltf_motion(character(skeleton, clip, short=True).bytes())

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -96,11 +97,19 @@ def test_what_is_in_a_motion_is_told(service: Running, mine: dict[str, Any]) -> 
     assert (mine["frames"], mine["fps"], mine["seconds"]) == (20, pytest.approx(30, abs=0.01), pytest.approx(0.633))
     assert mine["joints"][:2] == [{"name": "Hips", "parent": None}, {"name": "Spine", "parent": "Hips"}]
     assert len(mine["joints"]) == 21
+    assert (mine["loops"], mine["clips"]) == (False, [])
     ours = {"LeftShoulder": "LeftCollar", "LeftArm": "LeftArm", "RightToeBase": "RightToe", "Spine2": "Chest"}
     assert ours.items() <= mine["mapping"].items()
     file = service.client.get(mine["url"])
     assert (file.content, file.headers["Content-Type"].split(";")[0]) == (bvh(), "text/x-bvh")
     assert service.client.get(mine["url"], headers={"Range": "bytes=0-8"}).content == b"HIERARCHY"
+
+
+def test_the_animations_of_a_glb_are_told(service: Running, media: Callable[[str], Path]) -> None:
+    create(service, "soldier", media("scans3d/body_soldier/soldier.glb").read_bytes())
+    soldier = checked(service, "soldier")
+    assert (soldier["clips"], soldier["loops"]) == (["Idle", "Run", "TPose", "Walk"], True)
+    service.client.delete("/v1/motions/soldier").raise_for_status()
 
 
 def test_an_uploaded_file_can_be_kept_by_its_id(service: Running, picture: bytes) -> None:
