@@ -6,6 +6,7 @@ export const failures = {
     no_face: 'No face was found',
     face_too_turned: 'The face is turned too far',
     face_too_small: 'The face is too small',
+    mouth_too_open: 'The mouth is open too wide',
     face_index_out_of_range: 'There are not so many faces',
     landmarks_invalid: 'The landmarks cannot be used',
     crop_outside: 'The crop does not fit the picture',
