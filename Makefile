@@ -29,12 +29,14 @@ types:  ## mypy strict on the engine, tsc strict on the page
 imports:  ## which package may import which
 	@$(BIN)/lint-imports
 
-unit:  ## pytest: engine, service, worker, shell
+unit:  ## pytest: engine, service, worker, shell; then the files that it covers least
 	@mkdir -p $(REPORTS)
-	@$(BIN)/pytest --numprocesses 2 --dist loadfile --disable-warnings --junitxml=$(REPORTS)/python.xml
+	@failed=0; $(BIN)/pytest --numprocesses 2 --dist loadfile --disable-warnings --junitxml=$(REPORTS)/python.xml \
+		--cov --cov-report= || failed=1; \
+	$(BIN)/coverage report | sed -n '1,12p;/^TOTAL/p'; exit $$failed
 
-coverage:  ## the same, and which lines no test runs
-	@$(BIN)/pytest --cov --cov-report=term:skip-covered
+coverage:  ## which lines the tests last run did not reach
+	@$(BIN)/coverage report --show-missing
 
 web-test: web-unit web-browser  ## the page: its parts, and the whole in a browser against a running service
 

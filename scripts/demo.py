@@ -39,11 +39,12 @@ def main() -> None:
     parser.add_argument("--image", type=Path, help="a portrait of your own")
     parser.add_argument("--driver", default="happy", help="a video of your own, or the name of a built-in performance")
     parser.add_argument("--once", action="store_true", help="end when the video is there, instead of serving on")
+    parser.add_argument("--folder", type=Path, default=FOLDER, help="where the video and the service's data go")
     arguments = parser.parse_args()
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: sys.exit(0))  # so that the service is stopped along with the demo
     try:
-        run(arguments.image or sample_portrait(), arguments.driver, arguments.once)
+        run(arguments.image or sample_portrait(), arguments.driver, arguments.once, arguments.folder)
     except DemoError as error:
         console.print(f"[red]demo: {error}[/red]")
         sys.exit(1)
@@ -51,24 +52,24 @@ def main() -> None:
         console.print()
 
 
-def run(image: Path, driver: str, once: bool) -> None:
+def run(image: Path, driver: str, once: bool, folder: Path) -> None:
     if not image.is_file():
         raise DemoError(f"there is no file {image}")
-    with service() as (process, address), httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
+    with service(folder) as (process, address), httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
         job = order(client, image, driver)
         page = f"{address}/#/jobs/{job['id']}"
         console.print(f"Follow it at {page}")
         job = follow(client, job)
         if job["status"] != "succeeded":
             raise DemoError((job["error"] or {}).get("detail") or f"the job was {job['status']}")
-        video = fetch(client, job, FOLDER / f"{image.stem}-{Path(driver).stem}.mp4")
+        video = fetch(client, job, folder / f"{image.stem}-{Path(driver).stem}.mp4")
         console.print(f"\nVideo  {video.relative_to(Path.cwd()) if video.is_relative_to(Path.cwd()) else video}")
         for warning in answer(client.get(job["artifacts"]["report.json"]["url"])).json()["warnings"]:
             console.print(f"Note   {warning['message']}")
         if not once:
             console.print(f"Page   {page}\n\nServing until Ctrl-C.")
             process.wait()
-            raise DemoError("the service ended; see demo/serve.log")
+            raise DemoError(f"the service ended; see {folder / 'serve.log'}")
 
 
 def sample_portrait() -> Path:
@@ -80,13 +81,13 @@ def sample_portrait() -> Path:
 
 
 @contextmanager
-def service() -> Iterator[tuple[subprocess.Popen[bytes], str]]:
+def service(folder: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
     """A running service with nothing in it, on a free port of the loopback interface, and its address."""
-    data = FOLDER / "data"
+    data = folder / "data"
     shutil.rmtree(data, ignore_errors=True)
     data.mkdir(parents=True)
     address = f"http://127.0.0.1:{(port := free_port())}"
-    log = FOLDER / "serve.log"
+    log = folder / "serve.log"
     with log.open("wb") as output:
         process = subprocess.Popen(  # noqa: S603 (our own program)
             [str(Path(sys.executable).with_name("galatea")), "serve", "--host", "127.0.0.1", "--port", str(port)],

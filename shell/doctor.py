@@ -25,6 +25,7 @@ from service.settings import MEGABYTE, ROOT, Settings
 from shell.settings import read_settings
 
 SETUP = "run `make setup` in the checkout"
+NODE = "Node 20.19 or later, or 22.12 or later"
 
 PACKAGES = {
     "numpy": "numpy",
@@ -250,7 +251,24 @@ def _page(settings: Settings) -> Iterator[Finding]:
     shown = (
         settings.web_dir.relative_to(Path.cwd()) if settings.web_dir.is_relative_to(Path.cwd()) else settings.web_dir
     )
-    mend = "" if built else f"{SETUP} (it needs Node 20), or set GALATEA_WEB_DIR; the API works without it"
+    mend = "" if built else f"{SETUP} (it needs {NODE}), or set GALATEA_WEB_DIR; the API works without it"
     yield Finding("ok" if built else "warning", f"the web page in {shown}", mend)
-    if not built and shutil.which("node") is None and (ROOT / "web").is_dir():
-        yield Finding("warning", "Node is not installed", "install Node 20 to build the page")
+    if not built and (ROOT / "web").is_dir():
+        yield from _node()
+
+
+def _node() -> Iterator[Finding]:
+    """What is wrong with Node, if anything is."""
+    node = shutil.which("node")
+    if node is None:
+        yield Finding("warning", "Node is not installed", f"install {NODE} to build the page")
+        return
+    version = subprocess.run([node, "--version"], capture_output=True, text=True, check=True).stdout.strip()  # noqa: S603
+    if not builds_the_page(version):
+        yield Finding("warning", f"Node {version} cannot build the page", f"install {NODE}")
+
+
+def builds_the_page(version: str) -> bool:
+    """Whether Node `version`, such as `v20.19.0`, is one that `engines` of web/package.json allows."""
+    major, minor = (int(part) for part in version.removeprefix("v").split(".")[:2])
+    return major > 22 or (major == 22 and minor >= 12) or (major == 20 and minor >= 19)

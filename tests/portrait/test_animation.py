@@ -13,7 +13,8 @@ from made_clip import OPENS, face, unpacked, write_frames
 from numpy.typing import NDArray
 
 from engine.media.image import read_image
-from engine.perception.landmarks import eye_distance, fiducials, mouth_opening
+from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
+from engine.performances import video
 
 
 def test_it_has_the_target_s_size_and_a_frame_for_each_of_the_driver_s(opens, woman: Path) -> None:
@@ -114,6 +115,29 @@ def test_only_the_mouth_follows(animation, woman, driver) -> None:
     assert change[where["brows"]].mean() < 2
     assert change[where["outside"]].max() <= 2
     assert mouth_opening(face(frames[-1])) > 0.4
+
+
+def test_only_the_eyes_follow(animation, woman) -> None:
+    """A wink shuts one eye, and neither mouth nor brows take part."""
+    made = animation(woman, video("wink"), trim=(0.0, 0.9), neutral_frame=0, format="png", follow=("eyes",))
+    frames = unpacked(made.out / "animation.zip")
+    opening = np.array([eye_opening(face(f)) for f in frames])
+    assert sorted(opening.min(axis=0) / opening[0] < 0.5) == [False, True]
+    change, where = changes(frames), parts(face(frames[0]), frames[0].shape)
+    assert change[where["mouth"]].mean() < 2 and change[where["brows"]].mean() < 2
+
+
+def test_only_the_brows_follow(animation, woman) -> None:
+    """Of a surprise, in which eyes and mouth open wide, the brows alone."""
+    made = animation(woman, video("surprise"), trim=(0.0, 1.2), neutral_frame=0, format="png", follow=("brows",))
+    frames = unpacked(made.out / "animation.zip")
+    before, after = face(frames[0]), face(frames[33])
+    unit = float(eye_distance(before[:, :2]))
+    up = (before - after)[[105, 334], 1] / unit
+    assert up.min() > 0.05
+    assert mouth_opening(after) < 0.08
+    assert eye_opening(after) == pytest.approx(eye_opening(before), rel=0.15)
+    assert changes(frames)[parts(before, frames[0].shape)["mouth"]].mean() < 2
 
 
 def test_only_the_head_follows(animation, woman, driver) -> None:

@@ -76,6 +76,14 @@ def test_a_driver_without_sound_is_said_so(animation, woman, media) -> None:
     assert "driver_has_no_sound" in {n.code for n in made.run.notices}
 
 
+@pytest.mark.parametrize("format", ["webp", "png"])
+def test_a_format_that_holds_no_sound_is_said_so(animation, woman, driver, format: str) -> None:
+    made = animation(woman, driver, trim=(1.9, 2.1), neutral_frame=0, sound=True, format=format)
+    assert [notice.code for notice in made.run.notices] == ["no_sound"]
+    report = json.loads((made.out / "report.json").read_text())
+    assert [warning["code"] for warning in report["warnings"]] == ["no_sound"]
+
+
 def test_a_loop_has_no_jump(animation, woman, driver) -> None:
     """From the last frame to the first is no larger a step than any within."""
     straight = animation(woman, driver, trim=OPENS, neutral_frame=0, format="png")

@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.landmarks import eye_distance, fiducials
+from engine.perception.faces import find_faces
+from engine.perception.landmarks import eye_distance, fiducials, mouth_opening
+from engine.portrait.looks import expression
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
     LEAST_EYE_DISTANCE,
@@ -112,10 +114,47 @@ def test_a_slightly_turned_face_is_taken_with_a_warning(scan, yaw: int, warned: 
     assert codes == (["target_not_neutral"] if warned else [])
 
 
-def test_a_smiling_target_is_taken_with_a_warning(small: Small) -> None:
+@pytest.mark.parametrize(
+    ("name", "smiles"),
+    [
+        ("photo_biden.jpg", True),
+        ("pair1_smile.png", True),
+        ("photo_man_suit.png", True),
+        ("pair1_neutral.png", False),
+        ("photo_woman_white.png", False),
+        ("photo_bw_dylan.jpg", False),
+        ("painting_man_cap.png", False),
+        ("drawing_young_man.png", False),
+        ("cartoon_boy_3d.jpg", False),
+    ],
+)
+def test_a_smile_is_told_with_open_or_closed_lips(small: Small, name: str, smiles: bool) -> None:
     codes: list[str] = []
-    find(small("photo_biden.jpg", 320), codes)
-    assert codes == ["target_not_neutral"]
+    find(small(name, 320), codes)
+    assert codes == (["target_not_neutral"] if smiles else [])
+
+
+def test_a_turn_does_not_change_the_measured_smile(small: Small) -> None:
+    (mesh,) = find_faces(read_image(small("pair1_smile.png", 320)).rgb)
+    straight, turned = expression(np.stack([mesh, mesh @ cv2.Rodrigues(np.array([0.3, -0.5, 0.2]))[0].astype("f4")]))
+    np.testing.assert_allclose(turned[1:5], straight[1:5], atol=1e-4)  # lengths, in eye distances
+
+
+def test_a_mouth_open_too_wide_is_refused_unless_placed_by_hand(clip, tmp_path: Path) -> None:
+    shout = clip("man_mouth_open_d18.mp4", 2.7, 2.8)[0]
+    write_image(tmp_path / "shout.png", shout)
+    error = refusal(tmp_path / "shout.png")
+    assert error.code == "mouth_too_open" and "landmarks" in error.correctable
+    (mesh,) = find_faces(shout)
+    assert mouth_opening(mesh) > 0.7
+    placed_by_hand = [tuple(map(float, point)) for point in fiducials(mesh)[:, :2]]
+    assert find(tmp_path / "shout.png", landmarks=placed_by_hand).rgb.shape == shout.shape
+
+
+def test_a_laugh_is_not_too_wide(small: Small) -> None:
+    codes: list[str] = []
+    laugh = find(small("photo_woman_smile_450.jpg", 320), codes)
+    assert mouth_opening(laugh.mesh) > 0.1 and codes == ["target_not_neutral"]
 
 
 def test_a_tiny_face_is_refused(woman: Path, tmp_path: Path) -> None:

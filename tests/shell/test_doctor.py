@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
+
+from shell.doctor import builds_the_page
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -31,3 +36,22 @@ def test_what_is_missing_is_named_with_a_remedy(tmp_path: Path) -> None:
     assert "No module named 'no_such_module'" in found.stdout
     assert "make setup" in found.stdout
     assert "needed things are missing" in found.stdout
+
+
+@pytest.mark.parametrize(("version", "builds"), [
+    ("v18.20.4", False), ("v20.18.3", False), ("v20.19.0", True), ("v20.20.2", True), ("v21.7.3", False),
+    ("v22.11.0", False), ("v22.12.0", True), ("v23.1.0", True), ("v24.0.0", True),
+])  # fmt: skip
+def test_node_builds_the_page_as_its_package_says(version: str, builds: bool) -> None:
+    assert json.loads((ROOT / "web" / "package.json").read_text())["engines"]["node"] == "^20.19.0 || >=22.12.0"
+    assert builds_the_page(version) == builds
+
+
+def test_a_node_that_cannot_build_it_is_named_where_there_is_no_page(tmp_path: Path) -> None:
+    node = tmp_path / "node"
+    node.write_text("#!/bin/sh\necho v20.18.3\n")
+    node.chmod(0o755)
+    found = doctor(GALATEA_DATA_DIR=str(tmp_path), GALATEA_WEB_DIR="/none", PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert found.returncode == 0, found.stdout
+    assert "warning  Node v20.18.3 cannot build the page" in found.stdout
+    assert "install Node 20.19 or later, or 22.12 or later" in found.stdout

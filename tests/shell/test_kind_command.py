@@ -10,8 +10,13 @@ import sys
 import time
 from pathlib import Path
 
+import av
+import numpy as np
 import pytest
 
+from engine.media.image import write_image
+from engine.perception.faces import find_faces
+from engine.perception.landmarks import mouth_opening
 from engine.performances import video
 
 ROOT = Path(__file__).parent.parent.parent
@@ -115,6 +120,37 @@ def test_settings_that_make_no_sense_are_named(environment: dict[str, str]) -> N
         assert ended.returncode == 2
         (line,) = ended.stderr.splitlines()
         assert line.startswith(f"Error: {name}: ")
+
+
+def test_a_portrait_acts_what_a_video_does(tmp_path: Path, environment: dict[str, str], media) -> None:
+    """A closed smile, and a driver whose mouth opens: the files, the warning, and a mouth that opens."""
+    driver, picture = media("driving/man_mouth_open_d18.mp4"), media("portraits/pair1_smile.png")
+    options = '{"trim": [1.9, 2.7], "neutral_frame": 0, "sound": true}'
+    ended = galatea(
+        environment | {"GALATEA_KINDS": "engine.kinds:KINDS"},
+        *("portrait", picture, "--driver", driver, "-o", tmp_path / "out", "--options", options),
+    )
+    assert ended.returncode == 0, ended.stderr
+    names = ["animation.mp4", "landmarks.json", "poster.jpg", "preview.jpg", "report.json"]
+    assert ended.stdout.split() == [str(tmp_path / "out" / name) for name in names]
+    (warning,) = ended.stderr.splitlines()
+    assert warning.startswith("target_not_neutral: ")
+    with av.open(str(tmp_path / "out" / "animation.mp4")) as container:
+        assert len(container.streams.audio) == 1
+        frames = [frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)]
+    assert [frame.shape for frame in frames] == [(256, 256, 3)] * 24
+    first, last = (float(mouth_opening(find_faces(frames[at])[0])) for at in (0, -1))
+    assert first < 0.05 and last > 0.3
+
+
+def test_a_picture_without_a_face_ends_with_one_line(tmp_path: Path, environment: dict[str, str]) -> None:
+    write_image(tmp_path / "grey.png", np.full((120, 160, 3), 128, np.uint8))
+    kinds = {"GALATEA_KINDS": "engine.kinds:KINDS"}
+    ended = galatea(environment | kinds, "portrait", tmp_path / "grey.png", "--driver", "wink", "-o", tmp_path / "out")
+    assert (ended.returncode, ended.stdout) == (2, "")
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("Error: no_face: ")
+    assert list((tmp_path / "out").iterdir()) == []
 
 
 def test_the_moments_of_a_video(tmp_path: Path, environment: dict[str, str]) -> None:
