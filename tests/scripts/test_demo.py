@@ -51,9 +51,8 @@ def test_the_sample_portrait_is_there() -> None:
     assert DEMO["sample_portrait"]().is_file()
 
 
-@pytest.mark.timeout(
-    1200
-)  # in a new checkout the engine is compiled first, on what the other tests leave of the machine
+# in a new checkout the engine is compiled first, on what the other tests leave of the machine
+@pytest.mark.timeout(1200)
 def test_once_it_leaves_a_video_and_no_service(tmp_path: Path) -> None:
     """What `make demo ONCE=1` runs: Grace Hopper laughs, and the service has ended."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
