@@ -8,6 +8,7 @@ export const failures = {
     face_too_small: 'The face is too small',
     mouth_too_open: 'The mouth is open too wide',
     face_index_out_of_range: 'There are not so many faces',
+    driver_face_out_of_range: 'The performance has not so many faces',
     landmarks_invalid: 'The landmarks cannot be used',
     crop_outside: 'The crop does not fit the picture',
     neutral_frame_out_of_range: 'There is no such frame in the performance',
