@@ -73,7 +73,9 @@ def lag(names: Sequence[str]) -> None:
             made = _looked_at(Acting(track, neutral, target, layers, rig, options).frames())
         raw = _looked_at(frame.rgb for frame in read_video(path, longest_side=1280))
         opening = mouth_opening(raw)
-        lips.append([path.stem, f"{probe_video(path).fps:.0f}", f"{np.nanargmax(opening)}"])
+        lips.append(
+            [path.stem, f"{probe_video(path).fps:.0f}", f"{np.nanargmax(opening)}", f"{np.nanmax(opening):.2f}"]
+        )
         lids.append([path.stem])
         for of, kept in (("track", track.meshes), ("result", made)):
             peak = int(np.nanargmax(mouth_opening(kept)))
@@ -84,11 +86,23 @@ def lag(names: Sequence[str]) -> None:
             lids[-1] += [f"{len(found)}"] if of == "track" else []
             for values in ([one.depth for one in found], [one.shut for one in found]):
                 lids[-1] += [f"{min(values):.3f}", f"{np.mean(values):.3f}"] if found else ["", ""]
-    head = ["clip", "fps", "driver's peak", "track's", "opening there", "lag", "result's", "opening there", "lag"]
+    head = [
+        "clip",
+        "fps",
+        "driver's peak",
+        "gap",
+        "track's",
+        "opening there",
+        "lag",
+        "result's",
+        "opening there",
+        "lag",
+    ]
     print(table("Lag: the frame of the widest mouth", head, lips))
     print(
-        "\nThe clip's first frame, driven by the clip. opening there: the unfiltered opening of the driver at that peak,"
-        "\nagainst its own peak (1: the same frame or as wide a one). lag: shift of best correlation, frames."
+        "\nThe clip's first frame, driven by the clip. gap: between the driver's lips at their peak, in widths of the mouth;"
+        "\nfrom 0.05 they are parted. opening there: the driver's gap at that peak, against its own peak (1: the same frame or"
+        "\nas wide a one). lag: shift of best correlation, frames."
     )
     head = [f"{of}: {what}" for of in every for what in ("least depth", "mean", "least shut", "mean")]
     print(table("Blinks: what is kept of the unfiltered landmarks'", ["clip", "blinks", *head], lids))
