@@ -44,6 +44,8 @@ MOMENTS = 6
 CELL, LINE = 220, 22
 """Pixels of a picture's sides, and of the line of text above it."""
 PAPER, INK = 235, 20
+Part = tuple[float, float] | None
+"""Seconds of a video; None is the whole."""
 
 
 class Row(NamedTuple):
@@ -72,29 +74,29 @@ def performances(out: Path, options: Mapping[str, Any]) -> None:
     (picture,) = media("portraits").glob(f"{ACTED_BY}.*")
     rows = []
     with TemporaryDirectory() as cache:
-        for name, clip, trim in BESIDE:
+        for name, clip, part in BESIDE:
             real = media(f"driving/{clip}.mp4")
             rows += [_driven(f"built in: {name}", video(name)), _acted(picture, video(name), options, Path(cache))]
-            rows.append(_driven(f"real: {clip}, {trim[0]} to {trim[1]} s", real, trim))
-            rows.append(_acted(picture, real, {**options, "trim": trim}, Path(cache)))
+            rows.append(_driven(f"real: {clip}, {part[0]} to {part[1]} s", real, part))
+            rows.append(_acted(picture, real, options, Path(cache), part))
     _write(out / "performances.png", rows)
 
 
-def _driven(label: str, driver: Path, trim: tuple[float, float] | None = None) -> Row:
-    return Row(label, [_cell(np.full((1, 1, 3), PAPER, np.uint8)), *_moments(driver, trim)])
+def _driven(label: str, driver: Path, part: Part = None) -> Row:
+    return Row(label, [_cell(np.full((1, 1, 3), PAPER, np.uint8)), *_moments(driver, part)])
 
 
-def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path) -> Row:
-    """The portrait at rest, and what it makes of the driver."""
+def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
+    """The portrait at rest, and what it makes of a part of the driver."""
     with TemporaryDirectory() as folder:
         made = animate(picture, driver, folder, cache=cache, **options)
         rest = read_image(Path(folder) / "preview.jpg").rgb
-        return Row(picture.stem, [_cell(rest), *_moments(made)])
+        return Row(picture.stem, [_cell(rest), *_moments(made, part)])
 
 
-def _moments(path: Path, trim: tuple[float, float] | None = None) -> list[NDArray[np.uint8]]:
-    """So many frames of a video, the middles of equal parts of it."""
-    cells = [_cell(frame.rgb) for frame in read_video(path, trim=trim)]
+def _moments(path: Path, part: Part) -> list[NDArray[np.uint8]]:
+    """`MOMENTS` frames of a part of a video, evenly spread."""
+    cells = [_cell(frame.rgb) for frame in read_video(path, trim=part)]
     return [cells[int((k + 0.5) * len(cells) / MOMENTS)] for k in range(MOMENTS)]
 
 
