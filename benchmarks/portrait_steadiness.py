@@ -65,51 +65,43 @@ def lag(names: Sequence[str]) -> None:
     lids: list[list[str]] = []
     every: dict[str, list[Blink]] = {"track": [], "result": []}
     for path in driving_clips(names):
-        with TemporaryDirectory() as folder:
-            rgb = next(iter(read_video(path))).rgb
-            options = PortraitOptions(neutral_frame=0)
-            target, layers, rig = read_target(Path(folder), rgb, options)
-            track, neutral = read_driver(path, target, 0)
-            made = _looked_at(Acting(track, neutral, target, layers, rig, options).frames())
-        raw = _looked_at(frame.rgb for frame in read_video(path, longest_side=1280))
+        raw, track, made = _followed(path)
         opening = mouth_opening(raw)
-        lips.append(
-            [path.stem, f"{probe_video(path).fps:.0f}", f"{np.nanargmax(opening)}", f"{np.nanmax(opening):.2f}"]
-        )
-        lids.append([path.stem])
-        for of, kept in (("track", track.meshes), ("result", made)):
+        lips.append([path.stem, f"{probe_video(path).fps:.0f}", f"{np.nanargmax(opening)}", f"{np.nanmax(opening):.2f}"])  # fmt: skip
+        lids.append([path.stem, f"{len(blinks(raw, track))}"])
+        for of, kept in (("track", track), ("result", made)):
             peak = int(np.nanargmax(mouth_opening(kept)))
             there = opening[peak] / np.nanmax(opening)
             lips[-1] += [f"{peak}", f"{there:.3f}", f"{_shift(opening, mouth_opening(kept)):+d}"]
             found = blinks(raw, kept)
-            every[of] += found
-            lids[-1] += [f"{len(found)}"] if of == "track" else []
             for values in ([one.depth for one in found], [one.shut for one in found]):
                 lids[-1] += [f"{min(values):.3f}", f"{np.mean(values):.3f}"] if found else ["", ""]
-    head = [
-        "clip",
-        "fps",
-        "driver's peak",
-        "gap",
-        "track's",
-        "opening there",
-        "lag",
-        "result's",
-        "opening there",
-        "lag",
-    ]
-    print(table("Lag: the frame of the widest mouth", head, lips))
+            every[of] += found
+    of_peaks = [head for of in every for head in (f"{of}'s", "opening there", "lag")]
+    print(table("Lag: the frame of the widest mouth", ["clip", "fps", "driver's", "gap", *of_peaks], lips))
     print(
         "\nThe clip's first frame, driven by the clip. gap: between the driver's lips at their peak, in widths of the mouth;"
         "\nfrom 0.05 they are parted. opening there: the driver's gap at that peak, against its own peak (1: the same frame or"
         "\nas wide a one). lag: shift of best correlation, frames."
     )
-    head = [f"{of}: {what}" for of in every for what in ("least depth", "mean", "least shut", "mean")]
-    print(table("Blinks: what is kept of the unfiltered landmarks'", ["clip", "blinks", *head], lids))
+    of_blinks = [f"{of}: {what}" for of in every for what in ("least depth", "mean", "least shut", "mean")]
+    print(table("Blinks: what is kept of the unfiltered landmarks'", ["clip", "blinks", *of_blinks], lids))
     print("\ndepth: from the eye's own opening before. shut: from the driver's opening before.")
     for of, found in every.items():
         deep, shut = sum(one.depth >= KEPT for one in found), sum(one.shut >= KEPT for one in found)
-        print(f"{of}: of {len(found)} blinks {deep} keep {100 * KEPT:.0f}% of their depth, {shut} shut so far")
+        print(
+            f"{of}: of {len(found)} blinks {deep} keep {100 * KEPT:.0f}% of their depth (goal: all), {shut} shut so far"
+        )
+
+
+def _followed(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Meshes (N, 478, 3) of a clip: unfiltered; as they drive; and as they are seen on its first frame driven by it."""
+    with TemporaryDirectory() as folder:
+        options = PortraitOptions(neutral_frame=0)
+        target, layers, rig = read_target(Path(folder), next(iter(read_video(path))).rgb, options)
+        track, neutral = read_driver(path, target, 0)
+        made = _looked_at(Acting(track, neutral, target, layers, rig, options).frames())
+    return _looked_at(frame.rgb for frame in read_video(path, longest_side=1280)), track.meshes, made
 
 
 class Blink(NamedTuple):
