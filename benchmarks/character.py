@@ -88,8 +88,10 @@ def _person(photo: Path, options: CharacterOptions, kept: StageStore) -> Person:
 
 
 def _revisions(options: CharacterOptions, skeleton: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    width, height = skeleton["size"]
     x, y = skeleton["joints"]["LeftElbow"]["place"]
-    radius = MOVED * skeleton["size"][1]
+    radius = MOVED * height
+    x, y = min(max(x, 0), width - 1), min(max(y, 0), height - 1 - radius)  # it may lie outside
     yield "joint", {"joints": {**options.joints, "LeftElbow": (x, y + radius)}}
     yield "label", {"label_strokes": ({"path": ((x, y),), "radius": radius, "part": "left_arm"},)}
     yield "motion", {"motion": "dance"}
