@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from engine.portrait.fine_details import RatioImages, keep_ratio_images
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
-from engine.portrait.render import ALL_PARTS, Parts, Renderer
+from engine.portrait.render import ALL_PARTS, Parts, Renderer, draw_in_order
 from engine.portrait.rig import Rig, rig_target
 from engine.portrait.second_look import glance_at_driver, look_again
 from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
@@ -47,10 +46,7 @@ class Acting:
         renderer = Renderer(*given, *setting, misfit=misfit, parts=parts)
         ratios = RatioImages(*given, outliers=refined, refined=refined)
         moments = zip(renderer.motions(), ratios, strict=True)
-        with ThreadPoolExecutor() as pool:
-            drawn = [pool.submit(renderer.draw, motion, ratio) for motion, ratio in moments if motion.frame % step == 0]
-            for frame in drawn:
-                yield frame.result()
+        yield from draw_in_order(renderer, (moment for moment in moments if moment[0].frame % step == 0))
 
 
 def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, Rig]:

@@ -79,7 +79,7 @@ def encode(frames: list[NDArray[np.uint8]], folder: Path) -> tuple[float, float,
 
 def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]], list[str]]:
     """The rows of both tables."""
-    woken = wake(photo, {"partial": True})
+    woken = wake(photo, {})
     background = fill_background(woken.figure, (woken.silhouette,))
     shadow = ground_shadow(background.shadow, woken.character, woken.fitted)
     clip = choose_motion(woken.character, woken.character.pictured, "walk", None, (), seconds, FPS).film

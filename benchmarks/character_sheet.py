@@ -72,7 +72,7 @@ def main() -> None:
     print(machine())
     for picture in asked.pictures:
         start = time.perf_counter()
-        woken = wake(picture, {"partial": True} | asked.options)
+        woken = wake(picture, asked.options)
         took = time.perf_counter() - start
         print(picture.stem, f"{took:.1f} s", measure(woken.figure, woken.silhouette, woken.fitted, woken.character))
         rows.append(row(woken))

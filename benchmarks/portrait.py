@@ -1,6 +1,6 @@
 """The figures of the portrait system, printed as tables for the README.
 
-python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|all
+python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|memory|all
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks import portrait_fidelity, portrait_speed, portrait_steadiness, portrait_turn
+from benchmarks import portrait_fidelity, portrait_memory, portrait_speed, portrait_steadiness, portrait_turn
 from benchmarks.tables import machine
 
-TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair")
+TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", "memory")
 
 
 def main() -> None:
@@ -44,8 +44,10 @@ def main() -> None:
             portrait_steadiness.lag(given.clips)
         elif name == "turn":
             portrait_turn.turn(given.pictures)
-        else:
+        elif name == "pair":
             portrait_fidelity.pair(given.pictures)
+        else:
+            portrait_memory.memory()
         sys.stdout.flush()
 
 

@@ -61,19 +61,19 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
             still, warp, ours = (_measures(kept, f) for f in ([kept[0]] * len(kept), bare, made))
             itself = _measures(kept, list(own.frames(step=STEP)))
             regions = _regional(kept, made)
-        values = [*still[:2], *warp[:2], *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
+        values = [*still, *warp, *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
         figures.append(values)
         rows.append([path.stem, *_shown(values, DIGITS)])
         _save(pictures, f"fidelity-{path.stem}", kept, bare, made)
     rows.append(mean_row("mean", figures, DIGITS))
-    head = ["clip", "still L1", "px", "warp L1", "px", "ours L1", "px", "SSIM", "face", "hair", "backgr.", "self L1", "px", "SSIM"]  # fmt: skip
+    head = ["clip", "still L1", "px", "SSIM", "warp L1", "px", "SSIM", "ours L1", "px", "SSIM", "face", "hair", "backgr.", "self L1", "px", "SSIM"]  # fmt: skip
     print(table("Fidelity: a clip's first frame driven by the disguised clip, against the clip", head, rows))
     print("\nL1 in [0, 1]; px: mean distance of 68 points at 256 px; face, hair, backgr.: ours' L1 split.")
-    ahead = [f[4] < f[2] and (f[5] or 9) < (f[3] or 0) for f in figures]
+    ahead = [f[6] < f[3] and (f[7] or 9) < (f[4] or 0) for f in figures]
     print(f"Ahead of the bare warp on both: {sum(ahead)} of {len(ahead)} clips.")
 
 
-DIGITS = (4, 2, 4, 2, 4, 3, 4, 4, 4, 4, 4, 3, 4)
+DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
 
 
 def ablations(names: Sequence[str], pictures: Path | None) -> None:

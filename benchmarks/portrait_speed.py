@@ -35,7 +35,7 @@ def speed(repeats: int, frames: int) -> None:
     """Print both tables; each figure is the median of `repeats`."""
     with TemporaryDirectory() as name:
         folder = Path(name)
-        image, clip = _portrait(folder), _clip(folder, frames)
+        image, clip = portrait(folder), _clip(folder, frames)
         _warm(image, clip, folder, repeats, frames)
         _processes(image, clip, folder, repeats, frames)
 
@@ -49,7 +49,7 @@ def floor(clip: Path, out: Path) -> None:
             writer.write(frame.rgb)
 
 
-def _portrait(folder: Path) -> Path:
+def portrait(folder: Path) -> Path:
     """A portrait of exactly `SIZE`."""
     rgb = read_image(media(PORTRAIT)).rgb
     height = round(rgb.shape[1] * SIZE[1] / SIZE[0])

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -16,7 +17,7 @@ from benchmarks.tables import table
 from engine.media.image import read_image
 from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import FACE_OVAL, eye_opening, mouth_opening
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_opening, mouth_opening
 from engine.portrait.options import PortraitOptions
 
 NOISE = 2.0
@@ -25,6 +26,8 @@ REPEATS = 60
 TARGET = "portraits/photo_woman_white.png"
 BLINK = 0.6
 """An eye that closes below this share of its usual opening blinks."""
+KEPT = 0.95
+"""The share of its depth that a blink is to keep."""
 
 
 def stillness(names: Sequence[str]) -> None:
@@ -56,48 +59,82 @@ def stillness(names: Sequence[str]) -> None:
 
 
 def lag(names: Sequence[str]) -> None:
-    """Print whether lips peak on time and blinks keep their depth, against the unfiltered landmarks."""
-    rows = []
+    """Print whether lips peak on time and blinks keep their depth, in the driver's track and in the result's face, against
+    the unfiltered landmarks of the driver."""
+    lips: list[list[str]] = []
+    lids: list[list[str]] = []
+    every: dict[str, list[Blink]] = {"track": [], "result": []}
     for path in driving_clips(names):
-        with TemporaryDirectory() as folder:
-            first = next(iter(read_video(path))).rgb
-            target = read_target(Path(folder), first, PortraitOptions())[0]
-            track, _ = read_driver(path, target, 0)
-        with FaceTracker() as tracker:
-            found = [tracker(frame.rgb) for frame in read_video(path, longest_side=1280)]
-        raw = np.array([meshes[0] if meshes else np.full((478, 3), np.nan) for meshes in found], np.float32)
-        lips, kept = mouth_opening(raw), mouth_opening(track.meshes)
-        before, after = int(np.nanargmax(lips)), int(kept.argmax())
-        depths = _blinks(raw, track.meshes)
-        rows.append(
-            [path.stem, f"{before}", f"{after}", f"{lips[after] / lips[before]:.3f}", f"{len(depths)}"]
-            + ([f"{min(depths):.3f}", f"{np.mean(depths):.3f}"] if depths else ["", ""])
-            + [f"{_shift(lips, kept):+d}", f"{probe_video(path).fps:.0f}"]
-        )
-    head = ["clip", "lips peak", "filtered", "opening there", "blinks", "least depth", "mean", "lag", "fps"]
-    print(table("Lag: frames of the widest mouth, and the depth that blinks keep", head, rows))
+        raw, track, made = _followed(path)
+        opening = mouth_opening(raw)
+        lips.append([path.stem, f"{probe_video(path).fps:.0f}", f"{np.nanargmax(opening)}", f"{np.nanmax(opening):.2f}"])  # fmt: skip
+        lids.append([path.stem, f"{len(blinks(raw, track))}"])
+        for of, kept in (("track", track), ("result", made)):
+            peak = int(np.nanargmax(mouth_opening(kept)))
+            there = opening[peak] / np.nanmax(opening)
+            lips[-1] += [f"{peak}", f"{there:.3f}", f"{_shift(opening, mouth_opening(kept)):+d}"]
+            found = blinks(raw, kept)
+            for values in ([one.depth for one in found], [one.shut for one in found]):
+                lids[-1] += [f"{min(values):.3f}", f"{np.mean(values):.3f}"] if found else ["", ""]
+            every[of] += found
+    of_peaks = [head for of in every for head in (f"{of}'s", "opening there", "lag")]
+    print(table("Lag: the frame of the widest mouth", ["clip", "fps", "driver's", "gap", *of_peaks], lips))
     print(
-        "\nopening there: the unfiltered opening at the filtered peak, against its own peak (1: the same frame or as"
-        "\nwide a one). depth: kept by the filter, goal >= 0.95. lag: shift of best correlation, frames."
+        "\nThe clip's first frame, driven by the clip. gap: between the driver's lips at their peak, in widths of the mouth;"
+        "\nfrom 0.05 they are parted. opening there: the driver's gap at that peak, against its own peak (1: the same frame or"
+        "\nas wide a one). lag: shift of best correlation, frames."
     )
+    of_blinks = [f"{of}: {what}" for of in every for what in ("least depth", "mean", "least shut", "mean")]
+    print(table("Blinks: what is kept of the unfiltered landmarks'", ["clip", "blinks", *of_blinks], lids))
+    print("\ndepth: from the eye's own opening before. shut: from the driver's opening before.")
+    for of, found in every.items():
+        deep, shut = sum(one.depth >= KEPT for one in found), sum(one.shut >= KEPT for one in found)
+        print(
+            f"{of}: of {len(found)} blinks {deep} keep {100 * KEPT:.0f}% of their depth (goal: all), {shut} shut so far"
+        )
 
 
-def _blinks(raw: NDArray[np.float32], kept: NDArray[np.float32]) -> list[float]:
-    """Of each blink of the raw track, the share of its depth that the kept one has on that frame or a neighbour."""
-    lids, steadied = eye_opening(raw).mean(axis=1), eye_opening(kept).mean(axis=1)
+def _followed(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Meshes (N, 478, 3) of a clip: unfiltered; as they drive; and as they are seen on its first frame driven by it."""
+    with TemporaryDirectory() as folder:
+        options = PortraitOptions(neutral_frame=0)
+        target, layers, rig = read_target(Path(folder), next(iter(read_video(path))).rgb, options)
+        track, neutral = read_driver(path, target, 0)
+        made = _looked_at(Acting(track, neutral, target, layers, rig, options).frames())
+    return _looked_at(frame.rgb for frame in read_video(path, longest_side=1280)), track.meshes, made
+
+
+class Blink(NamedTuple):
+    """The share of a blink's depth that is kept, and how far the eye shuts, as a share of the way from open to shut."""
+
+    depth: float
+    shut: float
+
+
+def _looked_at(frames: Iterable[NDArray[np.uint8]]) -> NDArray[np.float32]:
+    """(N, 478, 3) what the tracker sees, unfiltered; NaN where it sees no face."""
+    with FaceTracker() as tracker:
+        found = [tracker(frame) for frame in frames]
+    return np.array([meshes[0] if meshes else np.full((MESH_SIZE, 3), np.nan) for meshes in found], np.float32)
+
+
+def blinks(raw: NDArray[np.float32], kept: NDArray[np.float32]) -> list[Blink]:
+    """What the kept meshes (N, 478, 3) have of each blink of the raw ones, on its frame or one beside."""
+    lids, own = eye_opening(raw).mean(axis=1), eye_opening(kept).mean(axis=1)
     usual = float(np.nanmedian(lids))
-    depths = []
+    found = []
     for i in range(3, len(lids) - 3):
-        around = lids[i - 3 : i + 4]
-        if lids[i] == np.nanmin(around) and lids[i] < BLINK * usual:
-            before = float(np.nanmedian(lids[max(0, i - 12) : max(1, i - 3)]))
-            if before - lids[i] > 0.25 * usual:
-                depths.append(float((before - steadied[i - 1 : i + 2].min()) / (before - lids[i])))
-    return depths
+        if lids[i] == np.nanmin(lids[i - 3 : i + 4]) and lids[i] < BLINK * usual:
+            before = slice(max(0, i - 12), max(1, i - 3))
+            opened = float(np.nanmedian(lids[before]))
+            depth = opened - float(lids[i])
+            if depth > 0.25 * usual:
+                least = float(np.nanmin(own[i - 1 : i + 2]))
+                found.append(Blink((float(np.nanmedian(own[before])) - least) / depth, (opened - least) / depth))
+    return found
 
 
 def _shift(a: NDArray[np.floating], b: NDArray[np.floating]) -> int:
     """Frames by which `b` comes after `a`."""
-    a = np.nan_to_num(a - np.nanmean(a))
-    b = b - b.mean()
+    a, b = (np.nan_to_num(opened - np.nanmean(opened)) for opened in (a, b))
     return max(range(-3, 4), key=lambda s: float((a[3:-3] * b[3 + s : len(b) - 3 + s]).sum()))

@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.spatial.transform import Rotation
 from template_character import template_character
 
+from benchmarks.stretching import stretched
 from engine.body.skinning import pose_transforms, skin
 from engine.character.measures import pose
 from engine.character.relaxing import _evened, _Surface, relaxed
@@ -17,7 +18,6 @@ from engine.character.rigging import Character, at_rest
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
-from engine.motion.library import built_in
 
 
 def arms_down(mesh: SkinnedMesh) -> Clip:
@@ -39,22 +39,6 @@ def torn() -> Character:
     alone[:, 0] = 1
     vertices, weights = at_rest(shown, mesh.bones.astype(np.intp), alone, transforms)
     return Character(replace(mesh, vertices=vertices.astype(np.float32), weights=weights), pictured, np.zeros(3), 0.5)
-
-
-def stretched(character: Character, name: str, times: float = 3.0) -> float:
-    """The share of edges that a clip's worst frame makes so many times as long as pictured."""
-    mesh = character.mesh
-    edges = np.unique(np.sort(np.concatenate([mesh.triangles[:, [0, 1]], mesh.triangles[:, [1, 2]]]), 1), axis=0)
-    before, clip = pose(character, character.pictured), built_in(name, mesh.skeleton)
-
-    def lengths(vertices: np.ndarray) -> np.ndarray:
-        return np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-
-    shares = [
-        (lengths(pose(character, clip, frame)) > times * np.maximum(lengths(before), 1e-4)).mean()
-        for frame in range(0, len(clip.rotations), 5)
-    ]
-    return float(max(shares))
 
 
 def test_edges_that_tore_stretch_no_more(torn: Character) -> None:

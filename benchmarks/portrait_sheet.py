@@ -1,0 +1,138 @@
+"""Contact sheets of portraits to look at.
+
+    python -m benchmarks.portrait_sheet -o DIR [--clips NAME...] [--portraits NAME...] [--options JSON]
+
+One PNG for each driver: above what it does, under it every portrait of the test media, first at rest, then at the same six
+moments. And `performances.png`: built-in performances beside real people in the same state, each over what a portrait makes
+of it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.shared_media import driving_clips, media
+from benchmarks.tables import machine
+from engine.errors import InputError
+from engine.media.image import read_image
+from engine.media.video import read_video
+from engine.performances import video
+from engine.portrait import animate
+
+CLIPS = ("woman_funny_faces_d6", "woman_frown_surprise_d3", "man_talk_tps")
+OPTIONS: Mapping[str, Any] = {"crop": "bust", "size": (640, 640)}
+"""Near enough to see lids and lips, far enough to see shoulders and walls."""
+ACTED_BY = "photo_woman_white"
+BESIDE = (
+    ("happy", "man_grimace_d0", (0.0, 3.1)),
+    ("happy-strong", "man_smile_d9", (1.5, 4.5)),
+    ("surprise", "man_mouth_open_d18", (1.8, 3.5)),
+    ("surprise-strong", "woman_funny_faces_d6", (5.9, 7.0)),
+    ("idle", "woman_frown_surprise_d3", (2.0, 3.5)),
+)
+"""Performances, and the clips and seconds that `moments.json` marks as the same."""
+MOMENTS = 6
+CELL, LINE = 220, 22
+"""Pixels of a picture's sides, and of the line of text above it."""
+PAPER, INK = 235, 20
+Part = tuple[float, float] | None
+"""Seconds of a video; None is the whole."""
+
+
+class Row(NamedTuple):
+    """A label, and one picture for each column."""
+
+    label: str
+    pictures: list[NDArray[np.uint8]]
+
+
+def drivers(out: Path, clips: Sequence[str], portraits: Sequence[str], options: Mapping[str, Any]) -> None:
+    """A sheet for each driver."""
+    chosen = [path for path in sorted(media("portraits").iterdir()) if any(name in path.name for name in portraits)]
+    with TemporaryDirectory() as cache:
+        for clip in driving_clips(clips):
+            rows = [_driven(clip.stem, clip)]
+            for picture in chosen:
+                try:
+                    rows.append(_acted(picture, clip, options, Path(cache)))
+                except InputError as error:
+                    print(f"{picture.stem} by {clip.stem}: {error.code}")
+            _write(out / f"{clip.stem}.png", rows)
+
+
+def performances(out: Path, options: Mapping[str, Any]) -> None:
+    """The sheet of built-in performances beside real ones."""
+    (picture,) = media("portraits").glob(f"{ACTED_BY}.*")
+    rows = []
+    with TemporaryDirectory() as cache:
+        for name, clip, part in BESIDE:
+            real = media(f"driving/{clip}.mp4")
+            rows += [_driven(f"built in: {name}", video(name)), _acted(picture, video(name), options, Path(cache))]
+            rows.append(_driven(f"real: {clip}, {part[0]} to {part[1]} s", real, part))
+            rows.append(_acted(picture, real, options, Path(cache), part))
+    _write(out / "performances.png", rows)
+
+
+def _driven(label: str, driver: Path, part: Part = None) -> Row:
+    return Row(label, [_cell(np.full((1, 1, 3), PAPER, np.uint8)), *_moments(driver, part)])
+
+
+def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
+    """The portrait at rest, and what it makes of a part of the driver."""
+    with TemporaryDirectory() as folder:
+        made = animate(picture, driver, folder, cache=cache, **options)
+        rest = read_image(Path(folder) / "preview.jpg").rgb
+        return Row(picture.stem, [_cell(rest), *_moments(made, part)])
+
+
+def _moments(path: Path, part: Part) -> list[NDArray[np.uint8]]:
+    """`MOMENTS` frames of a part of a video, evenly spread."""
+    cells = [_cell(frame.rgb) for frame in read_video(path, trim=part)]
+    return [cells[int((k + 0.5) * len(cells) / MOMENTS)] for k in range(MOMENTS)]
+
+
+def _cell(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A picture in the middle of a square of `CELL` pixels."""
+    scale = CELL / max(rgb.shape[:2])
+    small = cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    cell = np.full((CELL, CELL, 3), PAPER, np.uint8)
+    y, x = ((CELL - side) // 2 for side in small.shape[:2])
+    cell[y : y + small.shape[0], x : x + small.shape[1]] = small
+    return cell
+
+
+def _write(path: Path, rows: Sequence[Row]) -> None:
+    lines = []
+    for label, pictures in rows:
+        line = np.full((LINE, CELL * len(pictures), 3), PAPER, np.uint8)
+        cv2.putText(line, label, (4, LINE - 7), cv2.FONT_HERSHEY_SIMPLEX, 0.5, (INK, INK, INK), 1, cv2.LINE_AA)
+        lines += [line, np.hstack(pictures)]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    cv2.imwrite(str(path), np.vstack(lines)[..., ::-1])
+    print(path)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--out", type=Path, required=True, metavar="DIR")
+    parser.add_argument("--clips", nargs="+", default=CLIPS, metavar="NAME", help="drivers by part of their name")
+    parser.add_argument("--portraits", nargs="+", default=[""], metavar="NAME", help="portraits by part of their name")
+    parser.add_argument("--options", type=json.loads, default={}, metavar="JSON")
+    asked = parser.parse_args()
+    print(machine())
+    options = {**OPTIONS, **asked.options}
+    drivers(asked.out, asked.clips, asked.portraits, options)
+    performances(asked.out, options)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,37 @@
+"""How far motion stretches a character."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.skinning import pose_transforms, skin
+from engine.character.measures import pose
+from engine.character.rigging import Character
+from engine.motion.library import built_in
+
+TIMES = 3.0
+EVERY = 5
+"""Frames of a clip that are looked at."""
+
+
+def stretched(character: Character, name: str) -> float:
+    """The share of edges that the worst frame of a built-in clip makes more than `TIMES` times as long as pictured."""
+    mesh = character.mesh
+    edges = all_edges(mesh.triangles)
+
+    def lengths(vertices: NDArray[np.float32]) -> NDArray[np.float32]:
+        return np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+
+    before = np.maximum(lengths(pose(character, character.pictured)), 1e-4)
+    clip = built_in(name, mesh.skeleton)
+    return max(
+        float((lengths(skin(mesh.vertices, mesh.bones, mesh.weights, transforms)) > TIMES * before).mean())
+        for transforms in pose_transforms(mesh.skeleton, clip.rotations[::EVERY], clip.root[::EVERY])
+    )
+
+
+def all_edges(triangles: NDArray[np.integer]) -> NDArray[np.integer]:
+    """(E, 2) each edge of the triangles (T, 3) once."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    return np.unique(np.sort(sides, 1), axis=0)
