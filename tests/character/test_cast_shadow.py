@@ -31,7 +31,8 @@ def in_the_sun(woken: Woken, light: tuple[float, float, float]) -> tuple[np.ndar
     camera = picture_camera(woken.character, woken.fitted, (rgb.shape[0], rgb.shape[1]))
     x, y, z = (np.array(light) / np.linalg.norm(light)).tolist()
     sun = GroundShadow(strength=0.5, softness=0.01, reach=float("inf"), light=(x, y, z))
-    cast_on_ground(ground, pose(woken.character, woken.character.pictured), woken.character.mesh.triangles, camera, sun)
+    posed = pose(woken.character, woken.character.pictured)
+    cast_on_ground(ground, plain, posed, woken.character.mesh.triangles, camera, sun)
     shown = (alpha[..., None] * rgb + (1 - alpha[..., None]) * ground).astype(np.uint8)
     return shown, (ground.sum(-1, dtype=int) < 0.8 * plain.sum(-1, dtype=int)) & (alpha < 0.5)
 
