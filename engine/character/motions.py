@@ -59,10 +59,10 @@ def choose_motion(
         clip = built_in(name, skeleton, fps)
     else:
         clip, mapping = _carried_over(character, file, fps, joints, file_clip)
-    if kept:
-        clip = keep(skeleton, clip, start, list(kept))
     length = seconds if clip.loops else None
     stepped = step_out(skeleton, start, clip, length=length)
+    if kept:
+        clip, stepped = (keep(skeleton, one, start, list(kept)) for one in (clip, stepped))
     arrived = np.flatnonzero(stepped.root[:, 2] > (1 - NEAREST) * character.eye[2])
     until = min(seconds, arrived[0] / fps) if len(arrived) else seconds
     film = replace(_cut(stepped, until), name="step_out")
