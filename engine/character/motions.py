@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
 from engine.motion.clip import Clip
@@ -74,7 +75,7 @@ def choose_motion(
 
 
 def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, float]]) -> Clip:
-    """The pictured pose with joints turned on: degrees about x, y and z.
+    """The pictured pose with joints turned on, degrees about x, y and z: its lowest point is as high as it was.
 
     Raises
     ------
@@ -90,7 +91,9 @@ def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, f
         joint = character.mesh.skeleton.index(name)
         turned = Rotation.from_quat(rotations[0, joint]) * Rotation.from_euler("xyz", degrees, degrees=True)
         rotations[0, joint] = turned.as_quat()
-    return replace(character.pictured, name="posed", rotations=rotations)
+    posed = replace(character.pictured, name="posed", rotations=rotations)
+    lowest = [posed_vertices(character, clip)[:, 1].min() for clip in (character.pictured, posed)]
+    return replace(posed, root=posed.root + np.array([0, lowest[0] - lowest[1], 0], np.float32))
 
 
 def _carried_over(
