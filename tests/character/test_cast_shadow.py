@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from benchmarks.character_steps import Woken, wake
 from engine.character.cast_shadow import find_cast_shadow, ground_shadow
 from engine.character.measures import picture_camera, pose
 from engine.character.sample import sample_picture
+from engine.character.stages import fill_background
 from engine.media.image import write_image
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 
@@ -47,6 +50,17 @@ def test_a_shadow_is_found_and_tells_of_the_light(woken: Woken, light: tuple[flo
     assert y > 0
     angle = np.degrees(np.arctan2(z, x) - np.arctan2(light[2], light[0]))
     assert abs(angle) < 15
+
+
+def test_the_shadow_goes_with_the_person_who_casts_it(woken: Woken) -> None:
+    """Where both were, the background is the ground and the wall that are known."""
+    rgb, truth = in_the_sun(woken, (0.6, 1, 0.2))
+    assert np.abs(rgb[truth].astype(int) - GROUND).max() > 40
+    filled = fill_background(replace(woken.figure, rgb=rgb), (woken.silhouette,))
+    assert filled.shadow.strength > 0
+    assert np.abs(filled.rgb[truth].astype(int) - GROUND).mean() < 6
+    above = woken.silhouette.alpha[: len(rgb) // 2 - 20] > 0.5
+    assert np.abs(filled.rgb[: len(above)][above].astype(int) - 150).max() < 12
 
 
 def test_without_a_shadow_none_is_found(woken: Woken) -> None:
