@@ -103,7 +103,7 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
     count = len(frames)
     for label, part in (("first", slice(0, ENDS)), ("last", slice(count - ENDS, count)), ("mean", slice(None))):
         stages = [sum(float(np.mean(spent[name][part])) for name in names) for names in STAGES.values()]
-        total = float(np.mean(spent["_draw_over"][part])) + stages[0]
+        total = stages[0] + stages[1] + float(np.mean(spent["_draw_over"][part]))
         encoded = worked / count if label == "mean" else float("nan")
         every = [*stages, total - sum(stages), total, encoded]
         rows.append([f"{photo.stem}, {label}", *("" if np.isnan(one) else f"{1000 * one:.1f}" for one in every)])

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure import Figure
 
+BROW = 0.3
+"""How far below the top of the head, hair included, a face begins, as a share of the head's height."""
 
-def face_ellipse(figure: Figure, to_grid: NDArray[np.float64]) -> NDArray[np.float32] | None:
+
+def face_ellipse(figure: Figure, to_grid: NDArray[np.float64], head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
     """An ellipse around eyes, nose and mouth on the grid: centre x and y, half its width and height, degrees by which it
-    is turned. None where no face was seen."""
+    is turned. Where nobody was found, as on drawings, it is where the `head` (h, w) of the grid has it. None where there
+    is neither."""
     if not figure.spatial:
-        return None
+        return face_within(head)
     named = ("LeftEye", "RightEye", "MouthLeft", "MouthRight", "LeftEar", "RightEar")
     place = {name: to_grid[:, :2] @ figure.point(name) + to_grid[:, 2] for name in named}
     eyes, mouth = (place["LeftEye"] + place["RightEye"]) / 2, (place["MouthLeft"] + place["MouthRight"]) / 2
@@ -23,3 +28,16 @@ def face_ellipse(figure: Figure, to_grid: NDArray[np.float64]) -> NDArray[np.flo
     x, y = (eyes + mouth) / 2 + 0.1 * up
     wide = max(1.25 * length, 0.5 * float(np.linalg.norm(place["LeftEar"] - place["RightEar"])))
     return np.array([x, y, wide, 1.9 * length, np.degrees(np.arctan2(up[0], -up[1]))], np.float32)
+
+
+def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
+    """Where a face would be on a head (h, w) seen from the front: as wide as the largest circle in it, and from the brow to
+    where the head ends below. None where that is no larger than a pixel."""
+    depth = np.asarray(cv2.distanceTransform(np.pad(head.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+    x = int(depth.argmax()) % head.shape[1]
+    wide = float(depth.max())
+    if wide <= 1:
+        return None
+    middle = np.flatnonzero(head[:, x])
+    brow, chin = middle[0] + BROW * (middle[-1] - middle[0]), middle[-1]
+    return np.array([x, (brow + chin) / 2, wide, (chin - brow) / 2, 0], np.float32)

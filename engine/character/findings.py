@@ -22,7 +22,7 @@ from engine.perception.body import LANDMARKS
 
 
 def write_findings(out: Path, people: Sequence[Person]) -> None:
-    """Write them: mask and labels of all who were woken, the skeleton of the first, and where each of them stands."""
+    """Write them: mask and labels of all who were woken, the skeleton of the first, and each of them as `woken`."""
     alpha = np.max([person.silhouette.alpha for person in people], axis=0)
     write_image(out / "mask.png", np.repeat(np.round(alpha * 255).astype(np.uint8)[..., None], 3, 2))
     first = people[0]
@@ -34,22 +34,46 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
         own = cv2.warpAffine(coloured, back, (width, height), flags=cv2.INTER_NEAREST)
         shown = np.asarray(np.where(own.any(-1, keepdims=True), own, shown), np.uint8)
     write_image(out / "labels.png", shown)
-    (out / "skeleton.json").write_text(json.dumps({**_skeleton(first), "woken": woken(people)}) + "\n")
+    scale = first.figure.scale
+    found = {
+        "size": [round(width / scale), round(height / scale)],
+        **_skeleton(first),
+        "camera": {
+            "eye": np.round(first.character.eye, 5).tolist(),
+            "focal": round(first.fitted.focal, 3),
+            "centre": list(first.fitted.centre),
+            "size": [width, height],
+            "wall": WALL,
+        },
+        "woken": woken(people),
+    }
+    (out / "skeleton.json").write_text(json.dumps(found) + "\n")
 
 
 def woken(people: Sequence[Person]) -> list[dict[str, Any]]:
-    """Who each character is, in the order of their files: which of the people found, and the place of its origin in the
-    world of the first, metres; one camera took them all. On level ground y is 0; it is not where somebody stands
-    on something, or is smaller than they seem."""
+    """Who each character is, in the order of their files: the file's name, which of the people found, and the place of its
+    origin in the world of the first, metres; one camera took them all. On level ground y is 0; it is not where
+    somebody stands on something, or is smaller than they seem. And the skeleton of each."""
     eye = people[0].character.eye
     return [
-        {"person": person.figure.index, "place": np.round(eye - person.character.eye, 5).tolist()} for person in people
+        {
+            "name": name,
+            "person": person.figure.index,
+            "place": np.round(eye - person.character.eye, 5).tolist(),
+            **_skeleton(person),
+        }
+        for name, person in zip(character_names(people), people, strict=True)
     ]
 
 
+def character_names(people: Sequence[Person]) -> list[str]:
+    """The names of their files, without the ending."""
+    return ["character", *(f"character-{number}" for number in range(2, len(people) + 1))]
+
+
 def _skeleton(person: Person) -> dict[str, Any]:
-    """Landmarks as they were seen and the character's joints as they were fitted, both in pixels of the original picture;
-    and the camera, in pixels of `background.png`."""
+    """Landmarks as they were seen and the character's joints as they were fitted, both in pixels of the original
+    picture."""
     figure, fitted, character = person.figure, person.fitted, person.character
     height, width = figure.rgb.shape[:2]
 
@@ -63,7 +87,6 @@ def _skeleton(person: Person) -> dict[str, Any]:
     fitted_at = original(camera.project(joint_places(skeleton, character.pictured)[0])[:, :2])
     above = [None if parent < 0 else skeleton.names[parent] for parent in skeleton.parents]
     return {
-        "size": [round(width / figure.scale), round(height / figure.scale)],
         "joints": {
             name: {
                 "place": seen[LANDMARKS.index(name)],
@@ -76,11 +99,4 @@ def _skeleton(person: Person) -> dict[str, Any]:
             for name, place, parent in zip(skeleton.names, fitted_at, above, strict=True)
         },
         "reprojection": round(fitted.fit.reprojection / figure.scale, 2),
-        "camera": {
-            "eye": np.round(character.eye, 5).tolist(),
-            "focal": round(fitted.focal, 3),
-            "centre": list(fitted.centre),
-            "size": [width, height],
-            "wall": WALL,
-        },
     }

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
 from engine.motion.clip import Clip
@@ -58,10 +59,10 @@ def choose_motion(
         clip = built_in(name, skeleton, fps)
     else:
         clip, mapping = _carried_over(character, file, fps, joints, file_clip)
-    if kept:
-        clip = keep(skeleton, clip, start, list(kept))
     length = seconds if clip.loops else None
     stepped = step_out(skeleton, start, clip, length=length)
+    if kept:
+        clip, stepped = (keep(skeleton, one, start, list(kept)) for one in (clip, stepped))
     arrived = np.flatnonzero(stepped.root[:, 2] > (1 - NEAREST) * character.eye[2])
     until = min(seconds, arrived[0] / fps) if len(arrived) else seconds
     film = replace(_cut(stepped, until), name="step_out")
@@ -73,7 +74,7 @@ def choose_motion(
 
 
 def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, float]]) -> Clip:
-    """The pictured pose with joints turned on: degrees about x, y and z.
+    """The pictured pose with joints turned on, degrees about x, y and z: its lowest point is as high as it was.
 
     Raises
     ------
@@ -89,7 +90,9 @@ def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, f
         joint = character.mesh.skeleton.index(name)
         turned = Rotation.from_quat(rotations[0, joint]) * Rotation.from_euler("xyz", degrees, degrees=True)
         rotations[0, joint] = turned.as_quat()
-    return replace(character.pictured, name="posed", rotations=rotations)
+    posed = replace(character.pictured, name="posed", rotations=rotations)
+    lowest = [posed_vertices(character, clip)[:, 1].min() for clip in (character.pictured, posed)]
+    return replace(posed, root=posed.root + np.array([0, lowest[0] - lowest[1], 0], np.float32))
 
 
 def _carried_over(

@@ -11,7 +11,7 @@ import numpy as np
 from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.film import cast_of, film, film_size
-from engine.character.findings import write_findings
+from engine.character.findings import character_names, write_findings
 from engine.character.measures import measure, picture_camera
 from engine.character.options import CharacterOptions
 from engine.character.person import Person
@@ -77,8 +77,8 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     with run.timed("write_character"):
         for person in people:
             person.act(options, motion)
-        for number, person in enumerate(people, 1):
-            write_character(out, "character" if number == 1 else f"character-{number}", person, options, run)
+        for name, person in zip(character_names(people), people, strict=True):
+            write_character(out, name, person, options, run)
         write_findings(out, people)
     plate, cast = background().rgb, background().shadow
     shadow = ground_shadow(cast, people[0].character, people[0].fitted)
@@ -89,18 +89,19 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     reposed = next(film_cast(cast_of(still), lambda second: camera, lambda camera: plate, shadow))
     write_still(out / "posed.png", reposed, run.mark_synthetic)
     size = film_size((width, height), options.size)
-    name = "animation." + {"png": "zip"}.get(options.format, options.format)
+    animation = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]
     frames = max(len(clip.rotations) for _, clip in acting)
     with (
         run.timed("animate"),
-        VideoWriter(out / name, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
+        VideoWriter(out / animation, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
     ):
         for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size)):
             writer.write(frame)
             if index == frames // 3:
                 write_still(out / "poster.jpg", frame, run.mark_synthetic)
             run.tick((index + 1) / frames)
+    quality = [measure(one.figure, one.silhouette, one.fitted, one.character) for one in people]
     write_report(
         out / "report.json",
         "character",
@@ -109,12 +110,18 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             "size": [width, height],
             "fps": options.fps,
             "frames": frames,
-            "animation": name,
+            "animation": animation,
             "people": np.round(figure.people / figure.scale, 1).tolist(),
             "person": options.person_index if options.person_index == "all" else figure.index,
         }
         | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {}),
-        quality=measure(people[0].figure, people[0].silhouette, people[0].fitted, people[0].character),
+        quality=quality[0],
+        more={
+            "woken": [
+                {"name": name, "person": person.figure.index, "quality": measured}
+                for name, person, measured in zip(character_names(people), people, quality, strict=True)
+            ]
+        },
     )
 
 

@@ -119,7 +119,7 @@ def make_character(
     back: BackTexture,
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
-    face = face_ellipse(figure, silhouette.to_grid)
+    face = face_ellipse(figure, silhouette.to_grid, labels.labels == PARTS.index("head"))
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)

@@ -10,8 +10,12 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.motion.clip import Clip
+from engine.motion.foot_contact import sole_places
+from engine.motion.kinematics import local_rotations, place_joints, world_rotations
+from engine.motion.legs import HeldFoot, set_legs
 from engine.motion.resampling import loop_step
 from engine.motion.skeleton import Skeleton
+from engine.motion.sole import soles
 
 Array = NDArray[np.float64]
 
@@ -48,7 +52,7 @@ def travel(clip: Clip) -> Array:
 
 def keep(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: Sequence[str]) -> Clip:
     """The clip with some parts of the body as in the pictured pose (the first frame of `pictured`), seen from the part
-    that carries them. With both legs kept, hips and root stay as pictured as well.
+    that carries them. With both legs kept, hips and root stay as pictured as well; with one, it is dragged along.
 
     Raises
     ------
@@ -64,7 +68,27 @@ def keep(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: Sequence[str]) -
         finger = any(name.startswith(f"{side}Hand") and f"{side}Hand" in joints for side in ("Left", "Right"))
         if name in joints or finger:
             rotations[:, index] = pictured.rotations[0, index]
-    return replace(clip, rotations=rotations, root=root)
+    kept = replace(clip, rotations=rotations, root=root)
+    legs = [leg in wanted for leg in ("left_leg", "right_leg")]
+    return _dragging(skeleton, clip, kept, legs.index(True)) if legs.count(True) == 1 else kept
+
+
+def _dragging(skeleton: Skeleton, clip: Clip, kept: Clip, side: int) -> Clip:
+    """`kept`, whose leg on one side (0 left, 1 right) is not the clip's, with its lowest sole as high as the clip's is. Where
+    that raises the body, the other foot stays where it is in the clip, as far as its leg reaches."""
+    lowest, wanted = (sole_places(skeleton, one)[..., 1].min((1, 2)) for one in (kept, clip))
+    up = np.array([0.0, 1.0, 0.0])
+    root = kept.root + (wanted - lowest)[:, None] * up
+    world = world_rotations(skeleton.parents, kept.rotations)
+    places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
+    sole = soles(skeleton)[1 - side]
+    ankle, toe = sole.joints[2:]
+    there = places[:, ankle] - np.maximum(wanted - lowest, 0)[:, None] * up
+    set_legs(world, places, [(sole, HeldFoot(world[:, ankle], world[:, toe], there, np.ones(len(root))))])
+    leg = [joint for joint in sole.joints if joint >= 0]
+    rotations = kept.rotations.copy()
+    rotations[:, leg] = local_rotations(skeleton.parents, world)[:, leg]
+    return replace(kept, rotations=rotations, root=root.astype(np.float32))
 
 
 def _parts(name: str) -> tuple[str, ...]:

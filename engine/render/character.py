@@ -107,8 +107,9 @@ def draw_character(
     rgb = np.zeros((height, width, 3), np.uint8) if background is None else background.copy()
     if rgb.shape != (height, width, 3):
         raise ValueError(f"a background of {rgb.shape[1]} x {rgb.shape[0]} for a camera of {width} x {height}")
-    alone = background is None
-    alpha = _draw_over(rgb, alone, subject, posed, camera, None if alone else shadow, Scratch(), samples, shading)
+    if background is not None and shadow is not None:
+        cast_on_ground(rgb, background, posed, subject.mesh.triangles, camera, shadow, subject.closed)
+    alpha = _draw_over(rgb, background is None, subject, posed, camera, Scratch(), samples, shading)
     return Drawn(rgb, alpha)
 
 
@@ -118,7 +119,6 @@ def _draw_over(
     subject: Subject,
     posed: NDArray[np.float32],
     camera: Camera,
-    shadow: GroundShadow | None,
     scratch: Scratch,
     samples: int = SAMPLES,
     shading: float = 0.0,
@@ -126,8 +126,6 @@ def _draw_over(
     """Draw into `rgb`, which holds the background or, where the character is drawn `alone`, nothing. The alpha that is
     returned is part of `scratch`."""
     faces = subject.mesh.triangles
-    if shadow is not None:
-        cast_on_ground(rgb, posed, faces, camera, shadow, subject.closed)
     points = camera.project(posed)
     alpha = scratch.filled("alpha", camera.size, 0, np.float32)
     left, top, right, bottom = _box(points, *camera.size)
@@ -165,8 +163,8 @@ def film_cast(
     background_at: Callable[[Camera], NDArray[np.uint8]],
     shadow: GroundShadow | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
-    """Characters acting, the later before the earlier: one frame (H, W, 3) of the film for each of the longest clip's; who
-    has done stands still.
+    """Characters acting, the later before the earlier, and all before the shadows of all: one frame (H, W, 3) of the film
+    for each of the longest clip's; who has done stands still.
 
     `camera_at(second)` and `background_at(camera)` are called for each frame, side by side on all cores; of the
     length, only the joints' transforms are held (3 kB a frame). Resample the clips first where the film has another rate.
@@ -177,14 +175,21 @@ def film_cast(
 
     def draw(frame: int) -> NDArray[np.uint8]:
         camera = camera_at(frame / cast[0].clip.fps)
-        picture = background_at(camera).copy()
+        background = background_at(camera)
+        picture = background.copy()
         if not hasattr(own, "scratch"):
             own.scratch = Scratch()
+        standing = []
         for actor, moves in zip(cast, transforms, strict=True):
-            mesh = actor.subject.mesh
+            subject, mesh = actor.subject, actor.subject.mesh
             posed = skin(mesh.vertices, mesh.bones, mesh.weights, moves[min(frame, len(moves) - 1)])
             x, y, z = (np.array(camera.eye) - actor.place).tolist()
-            _draw_over(picture, False, actor.subject, posed, replace(camera, eye=(x, y, z)), shadow, own.scratch)
+            standing.append((subject, posed, replace(camera, eye=(x, y, z))))
+        for subject, posed, seen_from in standing:
+            if shadow is not None:
+                cast_on_ground(picture, background, posed, subject.mesh.triangles, seen_from, shadow, subject.closed)
+        for subject, posed, seen_from in standing:
+            _draw_over(picture, False, subject, posed, seen_from, own.scratch)
         return picture
 
     threads = os.cpu_count() or 1

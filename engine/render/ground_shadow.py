@@ -42,14 +42,16 @@ class GroundShadow:
 
 def cast_on_ground(
     rgb: NDArray[np.uint8],
+    lit: NDArray[np.uint8],
     posed: NDArray[np.float32],
     triangles: NDArray[np.int32],
     camera: Camera,
     shadow: GroundShadow,
     closed: bool = False,
 ) -> None:
-    """Darken, in place, the pixels of `rgb` (H, W, 3) that show the ground y = 0 under the mesh `posed` (V, 3); see
-    `shadow_map` for `closed`."""
+    """Darken, in place, the pixels of `rgb` (H, W, 3) that show the ground y = 0 under the mesh `posed` (V, 3). `lit`
+    (H, W, 3) is the same picture without any shadow: where several fall, the darkest stays. See `shadow_map` for
+    `closed`."""
     points, corner, (rows, columns) = _laid(posed, shadow)
     ends = corner + np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]]) * CELL
     seen = camera.project(np.stack([ends[:, 0], np.zeros(4), ends[:, 1]], 1))
@@ -65,6 +67,7 @@ def cast_on_ground(
     across, down = (camera.rays(np.array([[left + dx, top + dy]]))[0] - start for dx, dy in ((1, 0), (0, 1)))
     _darken(
         rgb[top:bottom, left:right],
+        lit[top:bottom, left:right],
         _density(points, (rows, columns), triangles, shadow, closed) * np.float32(shadow.strength),
         corner,
         np.array(camera.eye),
@@ -126,6 +129,7 @@ def _density(
 @njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def _darken(
     rgb: np.ndarray,
+    lit: np.ndarray,
     density: np.ndarray,
     corner: np.ndarray,
     eye: np.ndarray,
@@ -149,4 +153,4 @@ def _darken(
             dark = (1 - fz) * ((1 - fx) * density[r, c] + fx * density[r, c + 1])
             dark += fz * ((1 - fx) * density[r + 1, c] + fx * density[r + 1, c + 1])
             for k in range(3):
-                rgb[i, j, k] = int(rgb[i, j, k] * (1 - dark) + 0.5)
+                rgb[i, j, k] = min(rgb[i, j, k], int(lit[i, j, k] * (1 - dark) + 0.5))

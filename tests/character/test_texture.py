@@ -5,6 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
+from engine.character.face_region import face_within
 from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.part_surface import Surface
@@ -32,17 +33,16 @@ def person() -> tuple[np.ndarray, np.ndarray]:
     return rgb, labels
 
 
-def painted(back: str = "mirror", shows: bool = True):  # type: ignore[no-untyped-def]
+def painted(back: str = "mirror", shows: bool = True, face: tuple[float, ...] = (80, 58, 22, 26, 0)):  # type: ignore[no-untyped-def]
     rgb, labels = person()
     none = np.zeros(labels.shape, np.bool_)
     apart = np.array([PARTS.index("right_arm")], np.int8)
-    face = np.array([80, 58, 22, 26, 0], np.float32)
     alpha = (labels >= 0).astype(np.float32)
     reach = np.zeros(labels.shape, np.bool_)
     reach[140:165, 40:115] = True  # behind the dress, too
     found = Labels(labels.astype(np.int8), none, apart, none)
     shown = (labels == apart[0]) & shows
-    return paint_tiles(rgb, alpha, SAME, found, reach, shown, face, back), labels  # type: ignore[arg-type]
+    return paint_tiles(rgb, alpha, SAME, found, reach, shown, np.float32(face), back), labels  # type: ignore[arg-type]
 
 
 def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
@@ -79,6 +79,18 @@ def test_a_face_is_not_on_the_back_and_hair_is() -> None:
     middle = slice(40, 66), slice(66, 94)
     assert np.abs(tiles.back[middle].astype(int) - BROWN).max() <= 12
     np.testing.assert_array_equal(tiles.body[middle], rgb[middle])
+
+
+def test_a_face_that_nobody_found_is_not_on_the_back_either() -> None:
+    """It begins below the crown of a head, ends with its chin, and is as wide as the head."""
+    head = person()[1] == PARTS.index("head")
+    x, y, wide, high, turned = face = face_within(head)
+    np.testing.assert_allclose((x, wide, y + high, y - high), (80, 38, 88, 12 + 0.3 * 76), atol=1.5)
+    assert turned == 0
+    tiles, _ = painted("inpaint", face=tuple(face))
+    middle = slice(40, 66), slice(66, 94)
+    assert np.abs(tiles.back[middle].astype(int) - BROWN).max() <= 12
+    assert face_within(np.zeros_like(head)) is None
 
 
 def test_front_and_back_are_one_at_the_outline_and_the_back_keeps_its_gradients() -> None:

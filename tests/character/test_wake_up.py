@@ -208,7 +208,11 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
     out = wake_up(tmp_path / "photo.png", tmp_path / "out", seconds=1, person_index="all")
     skeleton = json.loads((out / "skeleton.json").read_text())
     first, second = skeleton["woken"]
-    assert (first, second["person"]) == ({"person": 0, "place": [0, 0, 0]}, 1)
+    assert [(told["name"], told["person"]) for told in (first, second)] == [("character", 0), ("character-2", 1)]
+    assert first["place"] == [0, 0, 0]
+    assert {name: first[name] for name in ("joints", "fitted", "reprojection")} == {
+        name: skeleton[name] for name in ("joints", "fitted", "reprojection")
+    }
     body = Glb(out / "character-2.glb").posed("pictured", 0) + second["place"]
     camera = skeleton["camera"]
     away = camera["eye"][2] - body[:, 2]
@@ -217,3 +221,12 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
     rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0)) + one.shape[1]
     ends = [[columns[0], rows[0]], [columns[-1], rows[-1]]]
     assert np.abs([seen.min(0), seen.max(0)] - np.array(ends)).max() < 0.02 * one.shape[0]
+    for joint, mark in (("LeftHand", "LeftWrist"), ("RightFoot", "RightAnkle")):
+        place = np.array(second["fitted"][joint]["place"])
+        assert np.hypot(*(place - second["joints"][mark]["place"])) < 0.02 * one.shape[0]
+        there = np.subtract(first["fitted"][joint]["place"], (0, one.shape[0])) * 0.8 + (one.shape[1], one.shape[0])
+        assert np.hypot(*(place - there)) < 0.02 * one.shape[0], "as in the first, who is a larger copy"
+    report = json.loads((out / "report.json").read_text())
+    assert [told["name"] for told in report["woken"]] == ["character", "character-2"]
+    assert report["woken"][0]["quality"] == report["quality"] != report["woken"][1]["quality"]
+    assert all(told["quality"]["silhouette_iou"] > 0.98 for told in report["woken"])

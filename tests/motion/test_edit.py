@@ -9,9 +9,11 @@ import pytest
 
 from engine.motion.clip import Clip
 from engine.motion.edit import BODY_PARTS, in_place, keep, repeated, travel
+from engine.motion.foot_contact import sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import built_in
 from engine.motion.skeleton import Skeleton
+from engine.motion.sole import leg_length
 
 
 def first(clip: Clip) -> Clip:
@@ -57,3 +59,24 @@ def test_what_is_kept_is_as_pictured_and_the_rest_is_not_touched(skeleton: Skele
         assert np.ptp(places, axis=0).max() < 1e-5
     with pytest.raises(ValueError, match="tail"):
         keep(skeleton, clip, pictured, ("tail",))
+
+
+@pytest.mark.parametrize("name", ["walk", "jump"])
+@pytest.mark.parametrize("pose", [0, -1])
+def test_with_one_leg_kept_straight_or_bent_the_lowest_sole_is_as_high_as_before(
+    skeleton: Skeleton, name: str, pose: int
+) -> None:
+    """The other foot stays in its place where the body rises, unless its leg is stretched out."""
+    clip, sit = built_in(name, skeleton), built_in("sit", skeleton)
+    pictured = replace(sit, rotations=sit.rotations[pose][None], root=sit.root[pose][None])
+    kept = keep(skeleton, clip, pictured, ["left_leg"])
+    left = [skeleton.index(joint) for joint in BODY_PARTS["left_leg"]]
+    assert (kept.rotations[:, left] == pictured.rotations[:, left]).all()
+    before, after = (sole_places(skeleton, one)[..., 1].min((1, 2)) for one in (clip, kept))
+    assert np.allclose(after, before, atol=1e-5)
+    hip, foot = skeleton.index("RightUpLeg"), skeleton.index("RightFoot")
+    was, now = joint_places(skeleton, clip), joint_places(skeleton, kept)
+    rises = kept.root[:, 1] > clip.root[:, 1]
+    stretched = np.linalg.norm(now[:, foot] - now[:, hip], axis=1) > 0.999 * leg_length(skeleton)
+    assert (rises & ~stretched).any() if pose == 0 else (~rises).any()
+    assert np.allclose(was[rises & ~stretched, foot], now[rises & ~stretched, foot], atol=1e-4)

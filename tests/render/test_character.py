@@ -220,3 +220,26 @@ def test_who_is_nearer_stands_before_the_others() -> None:
     (drawn,) = film_cast(cast, lambda second: FLAT, lambda camera: empty)
     assert (drawn[32, 8] == 50).all()
     assert (drawn[32, 50] == 200).all()
+
+
+def test_no_shadow_falls_on_somebody_and_where_two_meet_the_darker_stays() -> None:
+    """A card hangs out of view, later in the cast: its shadow lies on the ground behind an upright one, and beside it."""
+    clip = Clip("still", 30, np.array([[[0, 0, 0, 1]]], np.float32), np.zeros((1, 3), np.float32))
+    upright = card(np.full((8, 8, 3), 200, np.uint8), (0, 1, 0))
+    hanging = replace(upright, vertices=np.ascontiguousarray(upright.vertices[:, [0, 2, 1]] + np.float32([4, 9, 3.5])))
+    camera = Camera((0, 0, 0), 120, (59.5, 79.5), (160, 120)).aimed((0, 2.5, 5.0), (0, 0.8, 0))
+    ground = np.full((160, 120, 3), 180, np.uint8)
+    sun = GroundShadow(reach=np.inf, light=(0.5, 1.0, 0.5))
+
+    def filmed(*cast: SkinnedMesh) -> np.ndarray:
+        actors = [Actor(prepare(mesh), clip) for mesh in cast]
+        return next(film_cast(actors, lambda second: camera, lambda camera: ground, sun))
+
+    first, second, both = filmed(upright), filmed(hanging), filmed(upright, hanging)
+    covered = draw_character(prepare(upright), upright.vertices, camera).alpha
+    behind = (covered == 1) & (second[..., 0] < 150)
+    assert behind.sum() > 100
+    assert (both[behind] == 200).all()
+    bare = covered == 0
+    np.testing.assert_array_equal(both[bare], np.minimum(first, second)[bare])
+    assert (bare & (first[..., 0] < 150) & (second[..., 0] < 150)).sum() > 20
