@@ -90,6 +90,39 @@ def test_a_box_says_who_is_meant(couple: Path) -> None:
     assert (alpha > 0.5).sum() > 0.2 * wide * high
 
 
+def cut_from_grey(path: Path) -> np.ndarray:
+    """A person rendered before plain grey, cut out: (h, w, 4) float32."""
+    rgb = read_image(path).rgb
+    differs = (np.abs(rgb.astype(int) - rgb[5, 5]).max(2) > 10).astype(np.uint8)
+    closed = cv2.morphologyEx(differs, cv2.MORPH_CLOSE, np.ones((7, 7), np.uint8))
+    outlines, _ = cv2.findContours(closed, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    largest = max(outlines, key=cv2.contourArea)
+    x, y, wide, high = cv2.boundingRect(largest)
+    alpha = cv2.GaussianBlur(cv2.drawContours(np.zeros(rgb.shape[:2], np.float32), [largest], -1, 1, -1), (0, 0), 0.8)
+    return np.dstack([rgb, alpha])[y : y + high, x : x + wide].astype(np.float32)
+
+
+@pytest.mark.parametrize("apart", [20, -40])
+def test_of_transparent_people_each_is_cut_out_alone(media: Callable[[str], Path], tmp_path: Path, apart: int) -> None:
+    """The second stands apart from the first, or before their arm; their outlines stay the picture's own."""
+    first, second = (cut_from_grey(media(f"fullbody/scan_render_{name}.jpg")) for name in ("lee_suit", "corey_wave"))
+    height, left = max(len(first), len(second)), first.shape[1] + apart
+    rgb, truth = np.full((height, left + second.shape[1], 3), 200, np.float32), []
+    for cut, x in ((first, 0), (second, left)):
+        there = np.zeros(rgb.shape[:2], np.float32)
+        part = np.s_[height - len(cut) :, x : x + cut.shape[1]]
+        there[part] = cut[..., 3]
+        rgb[part] += cut[..., 3:] * (cut[..., :3] - rgb[part])
+        truth = [*(before * (1 - there) for before in truth), there]
+    write_image(tmp_path / "photo.png", rgb.astype(np.uint8), np.clip(sum(truth), 0, 1))
+    for index in (0, 1):
+        figure = found(tmp_path / "photo.png", Choice(index=index))
+        mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+        true = truth[int(figure.point("Nose")[0] > left)] > 0.5
+        assert len(figure.people) == 2
+        assert (mask & true).sum() > 0.96 * (mask | true).sum()
+
+
 def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
     for choice, code in (
         (Choice(index=2), "person_index_out_of_range"),
