@@ -37,6 +37,9 @@ DOUBT = 0.35
 EDGE = np.ones((9, 9), np.uint8)
 """The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
 
+LEFT_OUT = 0.1
+"""Share of what is known to be the person's that a matting model may leave out: fingers are thin, outlines differ."""
+
 SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
 """Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
 pictures that show somebody whole, who are what the body pose's network knows best."""
@@ -60,7 +63,8 @@ def person_mask(
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
         out it is taken as the truth, less the others; a channel that is opaque throughout says nothing.
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
-        follows but the last step, the guided upsampling.
+        follows but the last step, the guided upsampling. Where it leaves out what the seed knows, what is found
+        without it is added.
     others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
         people, colours say whose it is.
     whole : the picture shows people whole, not portraits.
@@ -73,7 +77,12 @@ def person_mask(
             return _within(channel, person_mask(rgb, seed, None, model, others, whole), others)
     if model is not None:
         found = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
-        return found if others is None else np.where(others, 0, found).astype(np.float32)
+        if others is not None:
+            found = np.where(others, 0, found).astype(np.float32)
+        surely = None if seed is None else seed > SURE
+        if surely is None or (surely & (found < 0.5)).sum() <= LEFT_OUT * surely.sum():
+            return found
+        return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
     figure = figure_on_plain_ground(small, belief)
