@@ -57,7 +57,7 @@ def stretched(character: Character) -> float:
 def front_and_stretch(photo: Path, partial: bool) -> tuple[float, float]:
     """(decibels, share of stretched edges) of a picture's character."""
     figure = find_figure(photo, Choice(), partial, Limits(), lambda code, message: None)
-    silhouette = cut_out(figure, None, (), Limits(), None, None)
+    silhouette = cut_out(figure, None, (), Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, (), Limits())
     mesh = build_mesh(figure, silhouette, fitted, labels)

@@ -154,7 +154,7 @@ def cut_all_out(
 ) -> tuple[list[Figure], tuple[Silhouette, ...]]:
     """The figures whose outlines are found, and these. Of several, those whose are not stay in the picture."""
     model = matting_model(os.environ)
-    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256)
+    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256, run.warn)
     found: list[tuple[Figure, Silhouette]] = []
     refused: list[InputError] = []
     for figure in figures:

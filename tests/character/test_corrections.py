@@ -37,6 +37,11 @@ def found(path: Path, choice: Choice, warnings: list[str] | None = None, partial
     return find_figure(path, choice, partial, LIMITS, lambda code, message: told.append(code))
 
 
+def outlined(figure: Figure, mask: Path | None = None, warnings: list[str] | None = None) -> Silhouette:
+    told = [] if warnings is None else warnings
+    return cut_out(figure, mask, (), LIMITS, None, None, lambda code, message: told.append(code))
+
+
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("alone") / "photo.png"
@@ -63,7 +68,7 @@ def figure(alone: Path) -> Figure:
 
 @pytest.fixture(scope="module")
 def silhouette(figure: Figure) -> Silhouette:
-    return cut_out(figure, None, (), LIMITS, None, None)
+    return outlined(figure)
 
 
 @pytest.fixture(scope="module")
@@ -85,7 +90,7 @@ def test_a_box_says_who_is_meant(couple: Path) -> None:
     x, y, wide, high = (float(value) for value in found(couple, Choice()).people[1])
     figure = found(couple, Choice(box=(x, y, wide, high)))
     assert figure.index == 1
-    alpha = cut_out(figure, None, (), LIMITS, None, None).alpha
+    alpha = outlined(figure).alpha
     assert alpha[:, : int(x - 0.3 * wide)].max() < 0.5, "the other one is not in the mask"
     assert (alpha > 0.5).sum() > 0.2 * wide * high
 
@@ -117,7 +122,7 @@ def test_of_transparent_people_each_is_cut_out_alone(media: Callable[[str], Path
     write_image(tmp_path / "photo.png", rgb.astype(np.uint8), np.clip(sum(truth), 0, 1))
     for index in (0, 1):
         figure = found(tmp_path / "photo.png", Choice(index=index))
-        mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+        mask = outlined(figure).alpha > 0.5
         true = truth[int(figure.point("Nose")[0] > left)] > 0.5
         assert len(figure.people) == 2
         assert (mask & true).sum() > 0.96 * (mask | true).sum()
@@ -153,7 +158,7 @@ def test_somebody_found_in_a_box_alone_is_cut_out_there(couple: Path, monkeypatc
     monkeypatch.setattr("engine.character.figure.find_people", lambda rgb: find_people(rgb)[:1])
     figure = found(couple, Choice(box=box))
     assert len(figure.people) == 2 and figure.index == 1
-    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+    mask = outlined(figure).alpha > 0.5
     columns = np.flatnonzero(mask.any(0))
     assert x - 0.2 * wide < columns[0] and columns[-1] < x + 1.2 * wide
     assert columns[0] > large.people[0][0] + large.people[0][2]
@@ -167,7 +172,7 @@ def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> No
     elbow, wrist = (np.add(shoulder, (share * arm, 0)) for share in (1, 2))
     placed = (("LeftElbow", *map(float, elbow)), ("LeftWrist", *map(float, wrist)))
     dragged = found(alone, Choice(placed=placed))
-    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+    mask = outlined(figure).alpha > 0.5
     fitted = fit_figure(dragged, mask)
     posed = pose_template(fitted, fitted.camera(), human)
     at = posed.joints[human.rig.index("LeftForeArm"), :2]
@@ -198,9 +203,23 @@ def test_strokes_have_the_last_word_over_the_mask(figure: Figure, silhouette: Si
 
 def test_a_mask_that_is_given_back_is_the_mask(figure: Figure, silhouette: Silhouette, tmp_path: Path) -> None:
     write_image(tmp_path / "mask.png", np.repeat(np.round(silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2))
-    again = cut_out(figure, tmp_path / "mask.png", (), LIMITS, None, None)
+    again = outlined(figure, tmp_path / "mask.png")
     np.testing.assert_allclose(again.alpha, silhouette.alpha, atol=0.01)
     assert (again.mask != silhouette.mask).mean() < 1e-3
+
+
+def test_of_a_mask_in_pieces_the_one_with_the_joints_is_the_person(couple: Path, tmp_path: Path) -> None:
+    """The mask shows both people; it is meant to be the smaller one's."""
+    smaller, together = found(couple, Choice(index=1)), np.zeros(read_image(couple).rgb.shape, np.uint8)
+    quiet: list[str] = []
+    told: list[str] = []
+    alone = outlined(smaller, warnings=quiet)
+    for one in (alone, outlined(found(couple, Choice()))):
+        together[one.alpha > 0.5] = 255
+    write_image(tmp_path / "mask.png", together)
+    again = outlined(smaller, tmp_path / "mask.png", told)
+    np.testing.assert_array_equal(again.alpha > 0.5, alone.alpha > 0.5)
+    assert (quiet, told) == ([], ["mask_in_pieces"])
 
 
 def test_a_label_map_that_is_given_back_is_the_label_map(
