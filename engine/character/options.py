@@ -86,7 +86,7 @@ class CharacterOptions(BaseModel):
         "Galatea", description="Whose the character is, as its VRM file says: nobody else may use it without asking."
     )
     partial: bool = Field(
-        False, description="Accept a person whose legs are cut off or hidden, and animate what is there."
+        False, description="Accept a person who is cut off or hidden below the chest, and animate what is there."
     )
     pose: dict[str, tuple[Angle, Angle, Angle]] = Field(
         {},

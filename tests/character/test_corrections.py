@@ -302,9 +302,11 @@ def in_space(points: np.ndarray) -> np.ndarray:
     return np.stack([points[:, 0] / 170, -points[:, 1] / 170, np.zeros(len(points))], 1).astype(np.float32)
 
 
-def told(points: np.ndarray, world: np.ndarray | None = None) -> list[str]:
+def told(points: np.ndarray, world: np.ndarray | None = None, legs: bool = True) -> list[str]:
     warnings: list[str] = []
-    check_posture(points, in_space(points) if world is None else world, lambda code, message: warnings.append(code))
+    check_posture(
+        points, in_space(points) if world is None else world, legs, lambda code, message: warnings.append(code)
+    )
     return warnings
 
 
@@ -319,6 +321,7 @@ def test_postures_are_told() -> None:
         hip, knee = (LANDMARKS.index(f"{side}{joint}") for joint in ("Hip", "Knee"))
         seated[knee] = seated[hip] + [0, -0.1, 0.4]
     assert told(landmarks(), seated) == ["person_seated"]
+    assert told(landmarks(), seated, legs=False) == []
     for lying in (landmarks()[:, ::-1], landmarks() * [1, -1]):
         with pytest.raises(InputError) as raised:
             told(np.asarray(lying, np.float32))

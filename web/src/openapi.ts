@@ -1442,7 +1442,7 @@ export interface components {
              */
             vrm_author?: string;
             /**
-             * @description Accept a person whose legs are cut off or hidden, and animate what is there.
+             * @description Accept a person who is cut off or hidden below the chest, and animate what is there.
              * @default false
              */
             partial?: boolean;
