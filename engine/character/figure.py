@@ -51,10 +51,10 @@ LEAST_HEIGHT = 80
 @dataclass(frozen=True)
 class Choice:
     """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look, or which of those found, `index`, the largest first; and joints `placed` by hand: name, x, y."""
+    look, or which of those found, `index`, the largest first, who is meant where there is none, but not in a crowd; and joints `placed` by hand: name, x, y."""
 
     box: tuple[float, float, float, float] | None = None
-    index: int = 0
+    index: int | None = None
     placed: tuple[tuple[str, float, float], ...] = ()
 
 
@@ -169,23 +169,25 @@ def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scal
         body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
         return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
     boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
-    if not people and choice.index == 0:
+    index = choice.index or 0
+    if not people and index == 0:
         return None, 0
-    if choice.index >= len(people):
+    if index >= len(people):
         raise InputError(
             "person_index_out_of_range",
             f"{len(people)} people were found in the picture: person_index counts from 0.",
             ("person_index", "person_box"),
             {"people": boxes},
         )
-    if len(people) >= CROWD and choice.index == 0 and not choice.placed:
+    if len(people) >= CROWD and choice.index is None and not choice.placed:
         raise InputError(
             "crowd",
-            f"The picture shows a crowd ({len(people)} people and more): draw a box around the one who is meant.",
-            ("person_box",),
+            f"The picture shows a crowd ({len(people)} people and more): choose the one who is meant, or draw a "
+            "box around them.",
+            ("person_index", "person_box"),
             {"people": boxes},
         )
-    return people[choice.index], choice.index
+    return people[index], index
 
 
 def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.float32] | None:

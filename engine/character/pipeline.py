@@ -122,7 +122,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
     """The one who is meant, or all. Of all, those of whom too little is seen stay in the picture."""
     placed = tuple((name, x, y) for name, (x, y) in sorted(options.joints.items()))
 
-    def find(index: int) -> Figure:
+    def find(index: int | None) -> Figure:
         choice = Choice(options.person_box, index, placed)
         return run.stage("find_figure", find_figure, photo, choice, options.partial, run.limits, run.warn)
 

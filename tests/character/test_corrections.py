@@ -140,12 +140,14 @@ def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
         assert "person_box" in raised.value.correctable
 
 
-def test_in_a_crowd_a_box_is_asked_for(tmp_path: Path) -> None:
+def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     write_image(tmp_path / "crowd.png", np.concatenate([one] * 12, 1))
     with pytest.raises(InputError) as raised:
         found(tmp_path / "crowd.png", Choice())
-    assert raised.value.code == "crowd"
+    assert (raised.value.code, raised.value.correctable) == ("crowd", ("person_index", "person_box"))
+    largest = found(tmp_path / "crowd.png", Choice(index=0))
+    assert (largest.index, len(largest.people)) == (0, len(raised.value.found["people"]))
     x, y, wide, high = raised.value.found["people"][3]
     assert found(tmp_path / "crowd.png", Choice(box=(x, y, wide, high))).spatial
 

@@ -1478,10 +1478,10 @@ export interface components {
                 number
             ] | null;
             /**
-             * @description Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together.
-             * @default 0
+             * @description Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together. Default: the largest, unless there is a crowd.
+             * @default null
              */
-            person_index?: number | "all";
+            person_index?: number | "all" | null;
             /**
              * @description Strokes over the mask, in their order.
              * @default []
