@@ -14,7 +14,7 @@ from engine.character.figure import Choice, Figure, find_figure
 from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
-from engine.character.pipeline import find_figures, wake_up
+from engine.character.pipeline import cut_all_out, find_figures, wake_up
 from engine.character.posture import check_posture
 from engine.character.sample import sample_picture
 from engine.character.silhouette import Silhouette, cut_out
@@ -26,7 +26,7 @@ from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
-from engine.perception.people import find_people, person_box
+from engine.perception.people import MOST, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()
@@ -152,18 +152,20 @@ def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     assert found(tmp_path / "crowd.png", Choice(box=(x, y, wide, high))).spatial
 
 
-def test_somebody_found_in_a_box_alone_is_cut_out_there(couple: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As the thirteenth of twelve: who is not among the people is one of them once a box says so."""
-    large = found(couple, Choice(index=0))
-    x, y, wide, high = found(couple, Choice(index=1)).people[1]
-    box = (float(x), float(y), float(wide), float(high))
-    monkeypatch.setattr("engine.character.figure.find_people", lambda rgb: find_people(rgb)[:1])
-    figure = found(couple, Choice(box=box))
-    assert len(figure.people) == 2 and figure.index == 1
-    mask = outlined(figure).alpha > 0.5
-    columns = np.flatnonzero(mask.any(0))
-    assert x - 0.2 * wide < columns[0] and columns[-1] < x + 1.2 * wide
-    assert columns[0] > large.people[0][0] + large.people[0][2]
+def test_somebody_found_in_a_box_alone_is_cut_out_there(tmp_path: Path) -> None:
+    """Of more people than are looked for, one who is not among those found is one of them once a box says so."""
+    one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    wide, high = one.shape[1], one.shape[0]
+    write_image(tmp_path / "many.png", np.concatenate([one] * (MOST + 1), 1))
+    with pytest.raises(InputError) as raised:
+        found(tmp_path / "many.png", Choice())
+    people = raised.value.found["people"]
+    seen = {int((x + across / 2) // wide) for x, _, across, _ in people}
+    left = min(set(range(MOST + 1)) - seen) * wide
+    figure = found(tmp_path / "many.png", Choice(box=(left, 0, wide, high)))
+    assert len(figure.people) == len(people) + 1 and figure.index == len(people)
+    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale
+    assert left < columns[0] and columns[-1] < left + wide
 
 
 def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> None:
@@ -253,6 +255,21 @@ def test_of_all_the_largest_stays_if_too_little_of_them_is_seen(couple: Path, tm
     figures = find_figures(tmp_path / "cut.png", CharacterOptions(person_index="all"), run)
     assert [figure.index for figure in figures] == [1]
     assert [notice.code for notice in run.notices] == ["person_left_out"]
+
+
+def test_of_all_whoever_cannot_be_cut_out_stays(couple: Path) -> None:
+    """The second is nowhere to be seen in the picture's own alpha."""
+    first, second = found(couple, Choice(index=0)), found(couple, Choice(index=1))
+    hidden = replace(second, alpha=np.zeros(second.rgb.shape[:2], np.float32))
+    everybody, run = CharacterOptions(person_index="all"), Run()
+    figures, silhouettes = cut_all_out([first, hidden], None, everybody, run)
+    assert [figure.index for figure in figures] == [0] and len(silhouettes) == 1
+    assert [notice.code for notice in run.notices] == ["person_left_out"]
+    assert "Person 2" in run.notices[0].message
+    for none in ([hidden], [hidden, hidden]):
+        with pytest.raises(InputError) as refused:
+            cut_all_out(none, None, everybody, Run())
+        assert refused.value.code == "no_person"
 
 
 @pytest.mark.parametrize("kind", ["mask", "labels"])
