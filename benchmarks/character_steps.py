@@ -52,7 +52,7 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     placed = tuple((name, x, y) for name, (x, y) in sorted(asked.joints.items()))
     choice = Choice(asked.person_box, asked.person_index, placed)
     figure = find_figure(photo, choice, asked.partial, Limits(), lambda code, message: None)
-    silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None)
+    silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits())
     mesh = build_mesh(figure, silhouette, fitted, labels)

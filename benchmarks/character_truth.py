@@ -99,7 +99,7 @@ def examine(known: KnownPicture, place: str) -> Result:
         photo = Path(folder) / "photo.png"
         Image.fromarray(known.rgb).save(photo)
         figure = find_figure(photo, Choice(), False, Limits(), lambda code, message: None)
-    silhouette = cut_out(figure, None, (), Limits(), None, None)
+    silhouette = cut_out(figure, None, (), Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
     surfaces = build_surfaces(figure, silhouette, fitted)
     found, true = silhouette.alpha > 0.5, known.alpha > 0.5

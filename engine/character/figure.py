@@ -23,11 +23,13 @@ from engine.perception.people import covered_by, find_body_within, find_people, 
 
 LONGEST_SIDE = 1920
 """Pixels: larger pictures are made smaller first."""
-NEEDED = ("LeftShoulder", "RightShoulder", "LeftHip", "RightHip")
+SHOULDERS = ("LeftShoulder", "RightShoulder")
+"""Without them there is nothing to animate."""
 SIDES: tuple[Side, Side] = ("Left", "Right")
 ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"}
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
-LEGS = ("LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
+BELOW = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
+"""What `partial` does without: where it is cut off or hidden, the network of body poses guesses it well."""
 PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
 """The joints that can be placed by hand."""
 WHOLE_SKELETON = tuple(
@@ -35,7 +37,7 @@ WHOLE_SKELETON = tuple(
 )
 """What must be placed where nobody is found."""
 SEEN = 0.35
-"""Confidence below which a leg is not in the picture."""
+"""Confidence below which a joint is not in the picture."""
 MORE = 0.1
 """By how much more than a box drawn by hand is looked at, as a share of its sides: it may be drawn too tightly."""
 CROWD = 10
@@ -49,10 +51,10 @@ LEAST_HEIGHT = 80
 @dataclass(frozen=True)
 class Choice:
     """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look, or which of those found, `index`, the largest first; and joints `placed` by hand: name, x, y."""
+    look, or which of those found, `index`, the largest first, who is meant where there is none, but not in a crowd; and joints `placed` by hand: name, x, y."""
 
     box: tuple[float, float, float, float] | None = None
-    index: int = 0
+    index: int | None = None
     placed: tuple[tuple[str, float, float], ...] = ()
 
 
@@ -138,8 +140,8 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         face=None if body is None else _face(rgb, points),
         hands=hands,
     )
-    _check_whole(figure, partial, warn)
-    check_posture(figure.points, figure.world if figure.spatial else None, warn)
+    legs = _check_whole(figure, partial, warn)
+    check_posture(figure.points, figure.world if figure.spatial else None, legs, warn)
     return figure
 
 
@@ -167,23 +169,25 @@ def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scal
         body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
         return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
     boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
-    if not people and choice.index == 0:
+    index = choice.index or 0
+    if not people and index == 0:
         return None, 0
-    if choice.index >= len(people):
+    if index >= len(people):
         raise InputError(
             "person_index_out_of_range",
             f"{len(people)} people were found in the picture: person_index counts from 0.",
             ("person_index", "person_box"),
             {"people": boxes},
         )
-    if len(people) >= CROWD and choice.index == 0 and not choice.placed:
+    if len(people) >= CROWD and choice.index is None and not choice.placed:
         raise InputError(
             "crowd",
-            f"The picture shows a crowd ({len(people)} people and more): draw a box around the one who is meant.",
-            ("person_box",),
+            f"The picture shows a crowd ({len(people)} people and more): choose the one who is meant, or draw a "
+            "box around them.",
+            ("person_index", "person_box"),
             {"people": boxes},
         )
-    return people[choice.index], choice.index
+    return people[index], index
 
 
 def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.float32] | None:
@@ -239,18 +243,19 @@ def _check_joints(joints: Mapping[str, tuple[float, float]], shape: tuple[int, i
             )
 
 
-def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]) -> None:
+def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]) -> bool:
+    """Refuse who is not to be seen; whether the knees are."""
     height, width = figure.rgb.shape[:2]
     limit = np.array([width, height])
     off = np.abs(figure.points / limit - 0.5).max(axis=1)
     seen = {name for i, name in enumerate(LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
-    if missing := [name for name in NEEDED if name not in seen]:
+    if missing := [name for name in SHOULDERS if name not in seen]:
         raise InputError(
             "not_full_body",
-            f"The person's trunk is not to be seen ({', '.join(missing)}): choose a picture of the whole body.",
+            f"The person's shoulders are not to be seen ({', '.join(missing)}): choose a picture of the whole body.",
             ("joints",),
         )
-    if missing := [name for name in LEGS if name not in seen]:
+    if missing := [name for name in BELOW if name not in seen]:
         if not partial:
             raise InputError(
                 "not_full_body",
@@ -265,3 +270,4 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
             "person_too_small",
             f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {LEAST_HEIGHT} or more.",
         )
+    return seen >= {"LeftKnee", "RightKnee"}

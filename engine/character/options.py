@@ -86,7 +86,7 @@ class CharacterOptions(BaseModel):
         "Galatea", description="Whose the character is, as its VRM file says: nobody else may use it without asking."
     )
     partial: bool = Field(
-        False, description="Accept a person whose legs are cut off or hidden, and animate what is there."
+        False, description="Accept a person who is cut off or hidden below the chest, and animate what is there."
     )
     pose: dict[str, tuple[Angle, Angle, Angle]] = Field(
         {},
@@ -99,9 +99,9 @@ class CharacterOptions(BaseModel):
     person_box: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
         None, description="x, y, width and height in pixels of the picture: the person is looked for in there."
     )
-    person_index: Annotated[int, Field(ge=0, le=99)] | Literal["all"] = Field(
-        0,
-        description="Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together.",
+    person_index: Annotated[int, Field(ge=0, le=99)] | Literal["all"] | None = Field(
+        None,
+        description="Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together. Default: the largest, unless there is a crowd.",
     )
     mask_strokes: Annotated[tuple[MaskStroke, ...], Field(max_length=500)] = Field(
         (), description="Strokes over the mask, in their order."

@@ -129,7 +129,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
     """The one who is meant, or all. Of all, those of whom too little is seen stay in the picture."""
     placed = tuple((name, x, y) for name, (x, y) in sorted(options.joints.items()))
 
-    def find(index: int) -> Figure:
+    def find(index: int | None) -> Figure:
         choice = Choice(options.person_box, index, placed)
         return run.stage("find_figure", find_figure, photo, choice, options.partial, run.limits, run.warn)
 
@@ -161,7 +161,7 @@ def cut_all_out(
 ) -> tuple[list[Figure], tuple[Silhouette, ...]]:
     """The figures whose outlines are found, and these. Of several, those whose are not stay in the picture."""
     model = matting_model(os.environ)
-    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256)
+    cut = (mask, options.mask_strokes, run.limits, model, model and model.file.sha256, run.warn)
     found: list[tuple[Figure, Silhouette]] = []
     refused: list[InputError] = []
     for figure in figures:

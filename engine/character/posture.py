@@ -20,9 +20,10 @@ OVERHEAD = 0.5
 
 
 def check_posture(
-    points: NDArray[np.float32], world: NDArray[np.float32] | None, warn: Callable[[str, str], None]
+    points: NDArray[np.float32], world: NDArray[np.float32] | None, legs: bool, warn: Callable[[str, str], None]
 ) -> None:
-    """Look at landmarks, (33, 2) in pixels and (33, 3) in space, if known.
+    """Look at landmarks, (33, 2) in pixels and (33, 3) in space, if known; `legs`: whether those of the legs are seen, not
+    guessed.
 
     Raises
     ------
@@ -45,7 +46,7 @@ def check_posture(
         return
     if at("LeftShoulder")[0] < at("RightShoulder")[0]:
         warn("person_from_behind", "The person seems to be seen from behind: front and back are taken from the back.")
-    if min(_from_vertical(world, side) for side in ("Left", "Right")) > SEATED:
+    if legs and min(_from_vertical(world, side) for side in ("Left", "Right")) > SEATED:
         warn("person_seated", "The person seems to sit: legs that point at the viewer are reconstructed badly.")
     width = float(np.linalg.norm(at("LeftShoulder") - at("RightShoulder")))
     wrists = at("LeftWrist"), at("RightWrist")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +28,8 @@ MARGIN = 24
 """Pixels of the grid around the person."""
 LEAST = 400
 """Pixels of a person."""
+WORTH_A_WORD = 0.02
+"""Size from which another piece of the mask is told of, as a share of the person's."""
 AROUND = 0.15
 """How much of the picture around a person is looked at where others are in it, as a share of the box."""
 FOREARM, PALM, FINGER, JOINT = 0.02, 0.02, 0.006, 0.7
@@ -62,13 +65,15 @@ def cut_out(
     limits: Limits,
     model: MattingModel | None,
     model_key: str | None,
+    warn: Callable[[str, str], None],
 ) -> Silhouette:
     """Cut the person out. `mask` is a picture that takes the place of what is found, and `strokes` are painted over it;
     `model_key` says which model, for the stage's key.
 
     Raises
     ------
-    InputError : `no_person` where no mask was found around the joints, and what `read_mask` may raise.
+    InputError : `no_person` where no mask was found around the joints, and what `read_mask` may raise. Warns of
+    `mask_in_pieces`.
     """
     height, width = figure.rgb.shape[:2]
     if mask is None:
@@ -78,12 +83,18 @@ def cut_out(
         alpha = np.asarray(cv2.resize(read_mask(mask, [original, (width, height)], limits), (width, height),
                                       interpolation=cv2.INTER_AREA), np.float32)  # fmt: skip
     alpha = repaint_mask(alpha, strokes, figure.scale)
-    piece = largest(np.asarray(alpha > 0.5))
+    piece, rest = _own_piece(np.asarray(alpha > 0.5), _limbs(figure) > 0)
     if piece.sum() < LEAST:
         raise InputError(
             "no_person",
             "No person stands out in the picture: choose one in which somebody is clearly seen, or paint the mask by hand.",
             ("mask_strokes", "mask"),
+        )
+    if rest > WORTH_A_WORD * piece.sum():
+        warn(
+            "mask_in_pieces",
+            "The mask is in pieces, and the person was made of the one that holds most of the joints: if another "
+            f"({rest / piece.sum():.0%} of it in size) belongs to them, paint over what parts them.",
         )
     alpha = np.where(cv2.dilate(piece.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0, alpha, 0).astype(np.float32)
     rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
@@ -95,6 +106,17 @@ def cut_out(
     soft = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=flags), np.float32)
     rgb = cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
     return Silhouette(alpha, soft, largest(soft > 0.5), np.asarray(rgb, np.uint8), matrix)
+
+
+def _own_piece(mask: NDArray[np.bool_], limbs: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int]:
+    """The connected piece of a mask that holds most of the limbs, the largest where none does; and the pixels of the largest
+    of all others."""
+    count, pieces, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    if count == 1:
+        return mask, 0
+    sizes, held = stats[1:, cv2.CC_STAT_AREA], np.bincount(pieces[limbs], minlength=count)[1:]
+    own = int(np.argmax(held if held.any() else sizes))
+    return np.asarray(pieces == own + 1), int(np.delete(sizes, own).max(initial=0))
 
 
 def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:

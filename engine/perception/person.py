@@ -34,6 +34,12 @@ KEPT = 0.6
 DOUBT = 0.35
 """Belief of what the networks may have missed: colours decide."""
 
+EDGE = np.ones((9, 9), np.uint8)
+"""The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
+
+LEFT_OUT = 0.1
+"""Share of what is known to be the person's that a matting model may leave out: fingers are thin, outlines differ."""
+
 SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
 """Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
 pictures that show somebody whole, who are what the body pose's network knows best."""
@@ -55,9 +61,10 @@ def person_mask(
     seed : (H, W) float32, 1 where a person is known to be (a face's region): helps in drawings, where
         the networks see little. `DOUBT` where one may be, although the networks see nothing.
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
-        out it is taken as the truth; a channel that is opaque throughout says nothing.
+        out it is taken as the truth, less the others; a channel that is opaque throughout says nothing.
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
-        follows but the last step, the guided upsampling.
+        follows but the last step, the guided upsampling. Where it leaves out what the seed knows, what is found
+        without it is added.
     others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
         people, colours say whose it is.
     whole : the picture shows people whole, not portraits.
@@ -65,10 +72,17 @@ def person_mask(
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
         if np.mean(channel < 0.5) > 0.01:
-            return channel
+            if others is None or not others.any():
+                return channel
+            return _within(channel, person_mask(rgb, seed, None, model, others, whole), others)
     if model is not None:
         found = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
-        return found if others is None else np.where(others, 0, found).astype(np.float32)
+        if others is not None:
+            found = np.where(others, 0, found).astype(np.float32)
+        surely = None if seed is None else seed > SURE
+        if surely is None or (surely & (found < 0.5)).sum() <= LEFT_OUT * surely.sum():
+            return found
+        return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     belief = believed_person(small, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
     figure = figure_on_plain_ground(small, belief)
@@ -87,6 +101,17 @@ def person_mask(
     known = np.where(sure > SURE, 1, trimap.known).astype(np.float32)
     matte = alpha_matte(small, known, trimap.prior, trimap.weight)
     return matte if small.shape == rgb.shape else upsample_guided(matte, small, rgb)
+
+
+def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
+    """The part of a cut-out (H, W) that is the one person found in it: whole pieces of it where no others are; where
+    somebody is connected with others, what was found. That ends somewhere near the cut-out's own edge, which is the truth:
+    there it counts as it does a little further in."""
+    _, pieces = cv2.connectedComponents((channel > 0).astype(np.uint8))
+    shared = np.isin(pieces, np.unique(pieces[others]))
+    inside = cv2.erode((channel > SURE).astype(np.uint8), EDGE, borderValue=1)
+    own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE)))
+    return np.where(shared, np.minimum(channel, own), channel).astype(np.float32)
 
 
 def believed_person(rgb: NDArray[np.uint8], share: float = SELFIE_SHARE) -> Mask:

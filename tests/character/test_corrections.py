@@ -14,7 +14,7 @@ from engine.character.figure import Choice, Figure, find_figure
 from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
-from engine.character.pipeline import find_figures, wake_up
+from engine.character.pipeline import cut_all_out, find_figures, wake_up
 from engine.character.posture import check_posture
 from engine.character.sample import sample_picture
 from engine.character.silhouette import Silhouette, cut_out
@@ -26,7 +26,7 @@ from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
-from engine.perception.people import find_people, person_box
+from engine.perception.people import MOST, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()
@@ -35,6 +35,11 @@ LIMITS = Limits()
 def found(path: Path, choice: Choice, warnings: list[str] | None = None, partial: bool = False) -> Figure:
     told = [] if warnings is None else warnings
     return find_figure(path, choice, partial, LIMITS, lambda code, message: told.append(code))
+
+
+def outlined(figure: Figure, mask: Path | None = None, warnings: list[str] | None = None) -> Silhouette:
+    told = [] if warnings is None else warnings
+    return cut_out(figure, mask, (), LIMITS, None, None, lambda code, message: told.append(code))
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +68,7 @@ def figure(alone: Path) -> Figure:
 
 @pytest.fixture(scope="module")
 def silhouette(figure: Figure) -> Silhouette:
-    return cut_out(figure, None, (), LIMITS, None, None)
+    return outlined(figure)
 
 
 @pytest.fixture(scope="module")
@@ -85,9 +90,42 @@ def test_a_box_says_who_is_meant(couple: Path) -> None:
     x, y, wide, high = (float(value) for value in found(couple, Choice()).people[1])
     figure = found(couple, Choice(box=(x, y, wide, high)))
     assert figure.index == 1
-    alpha = cut_out(figure, None, (), LIMITS, None, None).alpha
+    alpha = outlined(figure).alpha
     assert alpha[:, : int(x - 0.3 * wide)].max() < 0.5, "the other one is not in the mask"
     assert (alpha > 0.5).sum() > 0.2 * wide * high
+
+
+def cut_from_grey(path: Path) -> np.ndarray:
+    """A person rendered before plain grey, cut out: (h, w, 4) float32."""
+    rgb = read_image(path).rgb
+    differs = (np.abs(rgb.astype(int) - rgb[5, 5]).max(2) > 10).astype(np.uint8)
+    closed = cv2.morphologyEx(differs, cv2.MORPH_CLOSE, np.ones((7, 7), np.uint8))
+    outlines, _ = cv2.findContours(closed, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    largest = max(outlines, key=cv2.contourArea)
+    x, y, wide, high = cv2.boundingRect(largest)
+    alpha = cv2.GaussianBlur(cv2.drawContours(np.zeros(rgb.shape[:2], np.float32), [largest], -1, 1, -1), (0, 0), 0.8)
+    return np.dstack([rgb, alpha])[y : y + high, x : x + wide].astype(np.float32)
+
+
+@pytest.mark.parametrize("apart", [20, -40])
+def test_of_transparent_people_each_is_cut_out_alone(media: Callable[[str], Path], tmp_path: Path, apart: int) -> None:
+    """The second stands apart from the first, or before their arm; their outlines stay the picture's own."""
+    first, second = (cut_from_grey(media(f"fullbody/scan_render_{name}.jpg")) for name in ("lee_suit", "corey_wave"))
+    height, left = max(len(first), len(second)), first.shape[1] + apart
+    rgb, truth = np.full((height, left + second.shape[1], 3), 200, np.float32), []
+    for cut, x in ((first, 0), (second, left)):
+        there = np.zeros(rgb.shape[:2], np.float32)
+        part = np.s_[height - len(cut) :, x : x + cut.shape[1]]
+        there[part] = cut[..., 3]
+        rgb[part] += cut[..., 3:] * (cut[..., :3] - rgb[part])
+        truth = [*(before * (1 - there) for before in truth), there]
+    write_image(tmp_path / "photo.png", rgb.astype(np.uint8), np.clip(sum(truth), 0, 1))
+    for index in (0, 1):
+        figure = found(tmp_path / "photo.png", Choice(index=index))
+        mask = outlined(figure).alpha > 0.5
+        true = truth[int(figure.point("Nose")[0] > left)] > 0.5
+        assert len(figure.people) == 2
+        assert (mask & true).sum() > 0.96 * (mask | true).sum()
 
 
 def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
@@ -102,28 +140,32 @@ def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
         assert "person_box" in raised.value.correctable
 
 
-def test_in_a_crowd_a_box_is_asked_for(tmp_path: Path) -> None:
+def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     write_image(tmp_path / "crowd.png", np.concatenate([one] * 12, 1))
     with pytest.raises(InputError) as raised:
         found(tmp_path / "crowd.png", Choice())
-    assert raised.value.code == "crowd"
+    assert (raised.value.code, raised.value.correctable) == ("crowd", ("person_index", "person_box"))
+    largest = found(tmp_path / "crowd.png", Choice(index=0))
+    assert (largest.index, len(largest.people)) == (0, len(raised.value.found["people"]))
     x, y, wide, high = raised.value.found["people"][3]
     assert found(tmp_path / "crowd.png", Choice(box=(x, y, wide, high))).spatial
 
 
-def test_somebody_found_in_a_box_alone_is_cut_out_there(couple: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As the thirteenth of twelve: who is not among the people is one of them once a box says so."""
-    large = found(couple, Choice(index=0))
-    x, y, wide, high = found(couple, Choice(index=1)).people[1]
-    box = (float(x), float(y), float(wide), float(high))
-    monkeypatch.setattr("engine.character.figure.find_people", lambda rgb: find_people(rgb)[:1])
-    figure = found(couple, Choice(box=box))
-    assert len(figure.people) == 2 and figure.index == 1
-    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
-    columns = np.flatnonzero(mask.any(0))
-    assert x - 0.2 * wide < columns[0] and columns[-1] < x + 1.2 * wide
-    assert columns[0] > large.people[0][0] + large.people[0][2]
+def test_somebody_found_in_a_box_alone_is_cut_out_there(tmp_path: Path) -> None:
+    """Of more people than are looked for, one who is not among those found is one of them once a box says so."""
+    one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    wide, high = one.shape[1], one.shape[0]
+    write_image(tmp_path / "many.png", np.concatenate([one] * (MOST + 1), 1))
+    with pytest.raises(InputError) as raised:
+        found(tmp_path / "many.png", Choice())
+    people = raised.value.found["people"]
+    seen = {int((x + across / 2) // wide) for x, _, across, _ in people}
+    left = min(set(range(MOST + 1)) - seen) * wide
+    figure = found(tmp_path / "many.png", Choice(box=(left, 0, wide, high)))
+    assert len(figure.people) == len(people) + 1 and figure.index == len(people)
+    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale
+    assert left < columns[0] and columns[-1] < left + wide
 
 
 def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> None:
@@ -134,7 +176,7 @@ def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> No
     elbow, wrist = (np.add(shoulder, (share * arm, 0)) for share in (1, 2))
     placed = (("LeftElbow", *map(float, elbow)), ("LeftWrist", *map(float, wrist)))
     dragged = found(alone, Choice(placed=placed))
-    mask = cut_out(figure, None, (), LIMITS, None, None).alpha > 0.5
+    mask = outlined(figure).alpha > 0.5
     fitted = fit_figure(dragged, mask)
     posed = pose_template(fitted, fitted.camera(), human)
     at = posed.joints[human.rig.index("LeftForeArm"), :2]
@@ -165,9 +207,23 @@ def test_strokes_have_the_last_word_over_the_mask(figure: Figure, silhouette: Si
 
 def test_a_mask_that_is_given_back_is_the_mask(figure: Figure, silhouette: Silhouette, tmp_path: Path) -> None:
     write_image(tmp_path / "mask.png", np.repeat(np.round(silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2))
-    again = cut_out(figure, tmp_path / "mask.png", (), LIMITS, None, None)
+    again = outlined(figure, tmp_path / "mask.png")
     np.testing.assert_allclose(again.alpha, silhouette.alpha, atol=0.01)
     assert (again.mask != silhouette.mask).mean() < 1e-3
+
+
+def test_of_a_mask_in_pieces_the_one_with_the_joints_is_the_person(couple: Path, tmp_path: Path) -> None:
+    """The mask shows both people; it is meant to be the smaller one's."""
+    smaller, together = found(couple, Choice(index=1)), np.zeros(read_image(couple).rgb.shape, np.uint8)
+    quiet: list[str] = []
+    told: list[str] = []
+    alone = outlined(smaller, warnings=quiet)
+    for one in (alone, outlined(found(couple, Choice()))):
+        together[one.alpha > 0.5] = 255
+    write_image(tmp_path / "mask.png", together)
+    again = outlined(smaller, tmp_path / "mask.png", told)
+    np.testing.assert_array_equal(again.alpha > 0.5, alone.alpha > 0.5)
+    assert (quiet, told) == ([], ["mask_in_pieces"])
 
 
 def test_a_label_map_that_is_given_back_is_the_label_map(
@@ -199,6 +255,21 @@ def test_of_all_the_largest_stays_if_too_little_of_them_is_seen(couple: Path, tm
     figures = find_figures(tmp_path / "cut.png", CharacterOptions(person_index="all"), run)
     assert [figure.index for figure in figures] == [1]
     assert [notice.code for notice in run.notices] == ["person_left_out"]
+
+
+def test_of_all_whoever_cannot_be_cut_out_stays(couple: Path) -> None:
+    """The second is nowhere to be seen in the picture's own alpha."""
+    first, second = found(couple, Choice(index=0)), found(couple, Choice(index=1))
+    hidden = replace(second, alpha=np.zeros(second.rgb.shape[:2], np.float32))
+    everybody, run = CharacterOptions(person_index="all"), Run()
+    figures, silhouettes = cut_all_out([first, hidden], None, everybody, run)
+    assert [figure.index for figure in figures] == [0] and len(silhouettes) == 1
+    assert [notice.code for notice in run.notices] == ["person_left_out"]
+    assert "Person 2" in run.notices[0].message
+    for none in ([hidden], [hidden, hidden]):
+        with pytest.raises(InputError) as refused:
+            cut_all_out(none, None, everybody, Run())
+        assert refused.value.code == "no_person"
 
 
 @pytest.mark.parametrize("kind", ["mask", "labels"])
@@ -250,9 +321,11 @@ def in_space(points: np.ndarray) -> np.ndarray:
     return np.stack([points[:, 0] / 170, -points[:, 1] / 170, np.zeros(len(points))], 1).astype(np.float32)
 
 
-def told(points: np.ndarray, world: np.ndarray | None = None) -> list[str]:
+def told(points: np.ndarray, world: np.ndarray | None = None, legs: bool = True) -> list[str]:
     warnings: list[str] = []
-    check_posture(points, in_space(points) if world is None else world, lambda code, message: warnings.append(code))
+    check_posture(
+        points, in_space(points) if world is None else world, legs, lambda code, message: warnings.append(code)
+    )
     return warnings
 
 
@@ -267,6 +340,7 @@ def test_postures_are_told() -> None:
         hip, knee = (LANDMARKS.index(f"{side}{joint}") for joint in ("Hip", "Knee"))
         seated[knee] = seated[hip] + [0, -0.1, 0.4]
     assert told(landmarks(), seated) == ["person_seated"]
+    assert told(landmarks(), seated, legs=False) == []
     for lying in (landmarks()[:, ::-1], landmarks() * [1, -1]):
         with pytest.raises(InputError) as raised:
             told(np.asarray(lying, np.float32))

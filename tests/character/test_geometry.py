@@ -248,6 +248,20 @@ def test_refined_labels_go_to_where_the_colours_change() -> None:
     assert (found[~occlusion] == rough[~occlusion]).all()
 
 
+def test_refined_labels_stay_where_too_little_is_left_to_refine_them_again() -> None:
+    """A red square among blue: it alone keeps its label, and has too few pixels for a second look at its colours."""
+    rng = np.random.default_rng(0)
+    red = np.zeros((80, 80), np.bool_)
+    red[38:44, 38:44] = True
+    rgb = np.where(red[..., None], (200, 50, 40), (60, 80, 160)) + rng.normal(0, 6, (80, 80, 3))
+    rough = np.full((80, 80), PARTS.index("torso"))
+    rough[28:54, 28:54] = PARTS.index("left_arm")
+    occlusion = np.zeros_like(red)
+    occlusion[15:-15, 15:-15] = True
+    found = refined_labels(np.clip(rgb, 0, 255).astype(np.uint8), rough, occlusion)
+    np.testing.assert_array_equal(found == PARTS.index("left_arm"), red)
+
+
 def test_the_body_is_completed_behind_an_arm() -> None:
     """A square whose lower right corner an arm hides: the template's corner comes back."""
     template = np.zeros((100, 100), np.bool_)

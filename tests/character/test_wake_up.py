@@ -156,6 +156,34 @@ def test_who_is_cut_off_is_refused_unless_that_is_wanted(tmp_path: Path, picture
     assert codes == ["not_full_body"]
 
 
+def test_who_is_cut_off_at_the_waist_is_refused_unless_that_is_wanted(
+    media: Callable[[str], Path], tmp_path: Path
+) -> None:
+    """Hips are below the picture's edge. Looked at: he comes out as in the whole picture, arms and head in their places."""
+    rgb = read_image(media("fullbody/man_sweater_boots.png")).rgb
+    write_image(tmp_path / "cut.png", np.ascontiguousarray(rgb[:430]))
+    error = refused(tmp_path, tmp_path / "cut.png")
+    assert (error.code, error.correctable) == ("not_full_body", ("partial", "joints"))
+    assert "LeftHip" in error.detail and "partial" in error.detail
+    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True)
+    report = json.loads((out / "report.json").read_text())
+    assert [one["code"] for one in report["warnings"]] == ["not_full_body"]
+    assert report["quality"]["silhouette_iou"] > 0.985
+    assert report["quality"]["landmark_reprojection"] < 0.03
+    assert report["quality"]["closed"] == 1
+    hips = json.loads((out / "skeleton.json").read_text())["fitted"]["Hips"]["place"]
+    assert 430 < hips[1] < 560, "in the whole picture the hips are at 500"
+
+
+def test_half_a_person_is_refused_even_so(media: Callable[[str], Path], tmp_path: Path) -> None:
+    """One side only: the other shoulder is beyond the picture's edge."""
+    rgb = read_image(media("fullbody/man_sweater_boots.png")).rgb
+    write_image(tmp_path / "side.png", np.ascontiguousarray(rgb[:, :360]))
+    error = refused(tmp_path, tmp_path / "side.png", partial=True)
+    assert (error.code, error.correctable) == ("not_full_body", ("joints",))
+    assert "shoulders" in error.detail
+
+
 def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path) -> None:
     assert refused(tmp_path, picture, joints={"Tail": (10, 10)}).code == "unknown_joint"
     assert refused(tmp_path, picture, joints={"LeftKnee": (10_000, 10)}).code == "joint_outside"

@@ -10,7 +10,7 @@ import pytest
 from tiny_onnx import brightness_model
 
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
-from engine.perception.person import person_mask
+from engine.perception.person import DOUBT, person_mask
 from engine.portrait.target import TargetFace, separate_layers
 
 
@@ -42,6 +42,24 @@ def test_model_takes_the_place_of_the_networks(tmp_path: Path) -> None:
     assert mask.dtype == np.float32
     wrong = (mask > 0.5) != disk
     assert wrong.mean() < 0.002  # half of the picture's resolution, and yet the edge is the picture's own
+
+
+def test_what_the_model_leaves_out_of_the_known_is_found_without_it(tmp_path: Path) -> None:
+    """A disk, and a dark arm that the model does not see: once the arm is known it is cut along its edge. What is known of
+    the disk alone changes nothing."""
+    model = matting_model(settings_for(brightness_model(tmp_path / "bright.onnx"), SIZE="128"))
+    ys, xs = np.mgrid[:200, :240]
+    disk = np.hypot(xs - 80, ys - 100) < 50
+    arm = (np.abs(ys - 100) < 12) & (xs >= 110) & (xs < 210) & ~disk
+    rgb = np.select([disk[..., None], arm[..., None]], [(255, 255, 255), (150, 40, 30)], (20, 22, 25)).astype(np.uint8)
+    alone = person_mask(rgb, model=model)
+    seed = ((xs - 80) ** 2 + (ys - 100) ** 2 < 20**2).astype(np.float32)
+    np.testing.assert_array_equal(person_mask(rgb, seed, model=model), alone)
+    seed[80:120, 90:225] = DOUBT
+    seed[94:107, 90:205] = 1
+    mask = person_mask(rgb, seed, model=model)
+    assert alone[arm].max() < 0.5
+    np.testing.assert_array_equal(mask > 0.5, disk | arm)
 
 
 def test_shape_of_the_model_counts_more_than_the_setting(tmp_path: Path) -> None:

@@ -1442,7 +1442,7 @@ export interface components {
              */
             vrm_author?: string;
             /**
-             * @description Accept a person whose legs are cut off or hidden, and animate what is there.
+             * @description Accept a person who is cut off or hidden below the chest, and animate what is there.
              * @default false
              */
             partial?: boolean;
@@ -1478,10 +1478,10 @@ export interface components {
                 number
             ] | null;
             /**
-             * @description Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together.
-             * @default 0
+             * @description Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together. Default: the largest, unless there is a crowd.
+             * @default null
              */
-            person_index?: number | "all";
+            person_index?: number | "all" | null;
             /**
              * @description Strokes over the mask, in their order.
              * @default []

@@ -90,6 +90,13 @@ describe('a revision', () => {
     expect(after(another({ person: 1 }), made).corrections).toEqual({ person_index: 1, mask: null, labels: null });
   });
 
+  it('says who is meant where that was asked, the largest too', () => {
+    const crowd = aJob({ kind: 'character', status: 'failed', error: { code: 'crowd', detail: 'Choose one.' } });
+    expect(after(another({ person: 0 }), wishesOf(crowd)).corrections).toEqual({ person_index: 0 });
+    expect(after(another({ person: 0 }), wishesOf(of({}))).corrections).toEqual({});
+    expect(after(another({ person: 0 }), wishesOf(of({ person_index: 1 }))).corrections).toEqual({ person_index: 0 });
+  });
+
   it('of somebody else forgets what was put right of the one before', () => {
     const made = wishesOf(of({ joints: { LeftElbow: [1, 2] }, person_box: [1, 2, 3, 4], pose: { LeftArm: [0, 0, 9] } }));
     expect(after(another({ person: 'all' }), made)).toEqual({

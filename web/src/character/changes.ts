@@ -14,8 +14,8 @@ import type { LabelStroke, MaskStroke } from './strokes';
 export type Held = { by: 'held'; input: string };
 
 export interface Wishes extends Choices {
-  /** Which of the people found, counted from the largest. */
-  person: number | 'all';
+  /** Which of the people found, counted from the largest; null where that is asked. */
+  person: number | 'all' | null;
   /** Where the person is looked for; null for the whole picture. */
   box: Frame | null;
   /** Joints that are placed by hand. */
@@ -53,7 +53,7 @@ export function wishesOf(job: Job): Wishes {
   };
   return {
     ...choicesOf(made),
-    person: made.person_index ?? 0,
+    person: made.person_index ?? (job.error?.code === 'crowd' ? null : 0),
     box: made.person_box ?? null,
     joints: made.joints ?? {},
     mask: made.mask_strokes ?? [],
@@ -81,7 +81,7 @@ export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterCha
   const { motion } = now;
   const renamed = motion.by === 'name' && !same(before.motion, motion);
   const corrections = {
-    ...(!same(before.person, now.person) && { person_index: now.person || null }),
+    ...(!same(before.person, now.person) && { person_index: now.person }),
     ...(!same(before.box, now.box) && { person_box: now.box }),
     ...(!same(before.joints, now.joints) && { joints: filled(now.joints) }),
     ...(before.maskFile && !now.maskFile && { mask: null }),

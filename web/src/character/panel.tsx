@@ -200,7 +200,7 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
         <FrameEditor
           url={picture.url}
           size={picture.size}
-          start={wishes.box ?? (wishes.person === 'all' ? undefined : people[wishes.person]) ?? middleOf(picture.size)}
+          start={wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : null) ?? middleOf(picture.size)}
           onDone={(box) => {
             setEditing(null);
             wish(another({ box }));

@@ -11,7 +11,7 @@ const words = strings.correct;
 interface Props {
   picture: Shown;
   people: readonly Frame[];
-  chosen: number | 'all';
+  chosen: number | 'all' | null;
   /** Drawn by hand; it stands for those that were found. */
   box: Frame | null;
   joints: Joints | null;

@@ -44,7 +44,7 @@ export const character = {
     seconds: 'Length of the video',
     back: 'The back',
     backs: { mirror: 'The front, mirrored', inpaint: 'Painted to match' },
-    partial: 'Accept a person whose legs are cut off or hidden',
+    partial: 'Accept a person who is cut off or hidden below the chest',
     vrm: 'Also as VRM, for avatars in games and chats',
     author: 'Whose the character is, as its VRM file says',
     usualAuthor: 'Galatea',
