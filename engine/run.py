@@ -12,6 +12,7 @@ import hashlib
 import json
 import threading
 import time
+import weakref
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
@@ -81,7 +82,7 @@ class Run:
         self._on_stage = on_stage or (lambda name, turn: None)
         self.limits = limits or Limits()
         self.mark_synthetic = mark_synthetic
-        self._keys: dict[int, tuple[Any, str]] = {}
+        self._keys: dict[int, tuple[Callable[[], Any], str]] = {}
         self._weights: dict[str, float] = {}
         self._done = 0.0
         self._current = ""
@@ -147,7 +148,7 @@ class Run:
                 store.save(key, output, heard[before:])
                 if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
                     _, output = kept
-        self._keys[id(output)] = (output, key)
+        self._keys[id(output)] = (_reference(output), key)
         return output
 
     @contextmanager
@@ -199,7 +200,7 @@ class Run:
         return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
 
     def _part(self, argument: Any) -> Any:
-        if id(argument) in self._keys and self._keys[id(argument)][0] is argument:
+        if id(argument) in self._keys and self._keys[id(argument)][0]() is argument:
             return self._keys[id(argument)][1]
         if isinstance(argument, Path):
             return content_hash(argument)
@@ -245,6 +246,20 @@ class Beside(Generic[T]):
             for notice in self.notices:
                 self._run.warn(notice.code, notice.message)
             return self.output.result()
+
+    def once(self) -> T:
+        """The output for its only user: it is not kept here any more."""
+        output = self()
+        self.output = Future()
+        return output
+
+
+def _reference(output: Any) -> Callable[[], Any]:
+    """What gives an output as long as somebody else holds it, where Python can tell."""
+    try:
+        return weakref.ref(output)
+    except TypeError:
+        return lambda: output
 
 
 class _Here(threading.local):

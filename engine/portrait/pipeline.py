@@ -136,10 +136,10 @@ def analyse_driver(
     tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], int], run: Run, loop: bool = False
 ) -> Performed:
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
-    track = tracking()
+    track = tracking.once()
     neutral = neutral_of(track)
-    registration = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
-    track = replace(track, meshes=registration.meshes)
+    registered = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
+    track = replace(track, meshes=registered.meshes)
     if loop:
         track = close_loop(track)
     glances = run.beside("glance_at_driver", glance_at_driver, track, neutral, shared=True)
