@@ -23,8 +23,10 @@ MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
 """Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT = 0.1
 """Share of the picture's opening under which an eye is shut."""
-LASHES = 0.045
-"""Width of the line of lashes on a shut eye, in eye widths: it covers the seam, which a picture of an open eye lacks."""
+CLOSING = (0.75, 0.3)
+"""Shares of the picture's opening at which a lid begins to take its own colours, and has."""
+LASHES = 0.05
+"""Width of the line of lashes on a lid that closes, in eye widths."""
 LEAST_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 
@@ -182,19 +184,27 @@ def draw_eye(
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     alpha = _departure(eye, opening, look) * cover[..., None].astype(np.float32) / 255
     drawn = below + alpha * (ball - below)
-    seam = _shut(eye, opening) * _seam(opening - low, shape)[..., None]
+    seam = closing(eye, mesh, side) * _lash_line(opening - low, shape)[..., None]
     drawn += seam * (eye.lashes - drawn)
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
 
 
-def _seam(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """The line on which the lids meet, as wide as lashes are, (h, w) in [0, 1]."""
-    line = np.concatenate([opening[:1], (opening[1:8] + opening[15:8:-1]) / 2, opening[8:9]])
+def closing(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
+    """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
+    by = _open_by(eye, mesh[list(SIDES[side][0]), :2].astype(np.float32))
+    return float(np.clip((CLOSING[0] - by) / (CLOSING[0] - CLOSING[1]), 0, 1))
+
+
+def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """The upper lid's edge, as wide as lashes are in its middle, (h, w) in [0, 1]."""
+    line = opening[:9]
     width = float(np.linalg.norm(opening[8] - opening[0]))
+    out = np.array([[0, -0.5]]) * LASHES * width * np.sin(np.linspace(0, np.pi, 9))[:, None] ** 0.5
+    band = np.concatenate([line + out, (line - out)[::-1]])
     mask = np.zeros(shape, np.uint8)
-    thick = max(1, round(LASHES * width))
-    cv2.polylines(mask, [np.round(line * 16).astype(np.int32)], False, 255, thick, cv2.LINE_AA, 4)
-    return np.asarray(mask, np.float32) / np.float32(255)
+    cv2.fillPoly(mask, [np.round(band * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
+    cv2.polylines(mask, [np.round(line * 16).astype(np.int32)], False, 255, 1, cv2.LINE_AA, 4)
+    return np.asarray(cv2.GaussianBlur(mask, (0, 0), max(LASHES * width / 4, 0.4)), np.float32) / np.float32(255)
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:
@@ -209,11 +219,6 @@ def _open_by(eye: Eyeball, opening: NDArray[np.float32]) -> float:
     """Area of the opening against the picture's."""
     width = float(np.linalg.norm(opening[8] - opening[0]))
     return float(cv2.contourArea(opening)) / max(width, 1.0) ** 2 / eye.opening
-
-
-def _shut(eye: Eyeball, opening: NDArray[np.float32]) -> float:
-    """1 where the lids have met, 0 where they have not."""
-    return min(max((2 * SHUT - _open_by(eye, opening)) / SHUT, 0.0), 1.0)
 
 
 def _place(eye: Eyeball, ends: NDArray[np.floating], low: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -34,7 +34,7 @@ BELOW = (
 """What each of them goes on with, down to the jaw's contour."""
 BROW, CHIN = 10, 152
 """Where the face's axis begins and ends."""
-LEAST, MOST = 0.1, 0.3
+LEAST, MOST = 0.2, 0.3
 """Shares of its usual breadth: skin is never pressed together by more than the first, nor under the nose by more than on
 the driver's face, where that is below the second."""
 NEIGHBOURS = np.array([1, 2, 3, 2, 1]) / 9
@@ -45,12 +45,13 @@ def lips_room(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDA
     """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
     the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `LEAST` to `MOST`."""
     lip, _, nose = ABOVE[4]
-    now, usual = (((one[:, lip] - one[:, nose])[:, :2] * _down(one)).sum(1) for one in (faces, neutral[None]))
+    now, usual = ((one[..., lip, :2] - one[..., nose, :2]) @ _down(neutral) for one in (faces, neutral))
     return np.asarray(np.clip(now / np.maximum(usual, 1e-6), LEAST, MOST), float)
 
 
 def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], room: NDArray[np.floating]) -> None:
-    """Lead lips of faces (N, 478, 2 or 3) that go over the skin beside them back to its edge, in place and along the face.
+    """Lead lips of faces (N, 478, 2 or 3), upright as at rest, that go over the skin beside them back to its edge, in place
+    and along the face.
 
     Parameters
     ----------
@@ -59,9 +60,9 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
     least = np.full_like(room, LEAST)
     for lips, skin, share, way in ((UPPER, ABOVE, room, -1), (LOWER, BELOW, least, 1)):
         columns = np.array(skin)
-        out = way * _down(faces)[:, None, None]
-        usual = np.diff((rest[columns, :2] * (way * _down(rest[None])[0])).sum(-1), axis=1)
-        along = (faces[:, columns, :2] * out).sum(-1)
+        out = way * _down(rest)
+        usual = np.diff(rest[columns, :2] @ out, axis=1)
+        along = faces[:, columns, :2] @ out
         moved = _in_order(along, np.minimum(usual, usual * share[:, None, None])) - along
         moved[..., 0] = _with_neighbours(moved[..., 0])
         faces[:, columns, :2] += moved[..., None] * out
@@ -85,7 +86,7 @@ def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
     return np.asarray(np.where(np.abs(drawn) > np.abs(moves), drawn, moves))
 
 
-def _down(faces: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N, 2) the way down the face."""
-    axis = faces[:, CHIN, :2].astype(float) - faces[:, BROW, :2]
-    return np.asarray(axis / np.linalg.norm(axis, axis=1, keepdims=True), float)
+def _down(face: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2,) the way down a face (478, 2 or 3)."""
+    axis = face[CHIN, :2].astype(float) - face[BROW, :2]
+    return np.asarray(axis / np.linalg.norm(axis), float)

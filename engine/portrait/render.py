@@ -15,10 +15,11 @@ from engine.imaging.composite import doubled, over, warp_layer
 from engine.imaging.fold_edges import smooth_folds
 from engine.perception.landmarks import MESH_SIZE
 from engine.portrait.driver import DriverTrack
-from engine.portrait.eyes import draw_eye, prepare_eyes
+from engine.portrait.eyes import closing, draw_eye, prepare_eyes
 from engine.portrait.fine_details import shade
 from engine.portrait.head_proxy import build_head_proxy
 from engine.portrait.hidden_regions import match_palette, transfer_mouth
+from engine.portrait.lid_skin import draw_lid, lid_colours
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import ControlMotion, carry_motion
 from engine.portrait.options import PortraitOptions
@@ -66,6 +67,7 @@ class Renderer:
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and options.format != "mp4"
         self._eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
+        self._lids = lid_colours(target.rgb, target.mesh)
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
         self._landing = rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
@@ -96,6 +98,7 @@ class Renderer:
             shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
         for side, eye in enumerate(self._eyes):
             if eye is not None:
+                draw_lid(frame, self._lids[side], face, side, closing(eye, face, side))
                 draw_eye(frame, eye, face, side, motion.look[side])
         if self._parts.hidden:
             transfer_mouth(

@@ -35,7 +35,7 @@ def led_back(face: NDArray[np.float32], room: float = LEAST, rest: NDArray[np.fl
 
 
 def test_faces_whose_lips_are_where_they_belong_stay_as_they_are() -> None:
-    for face in (REST, opened(REST, 0.03), placed(UNIT, (150, 120), roll=30)):
+    for face in (REST, opened(REST, 0.03)):
         np.testing.assert_array_equal(led_back(face), face.astype(float))
 
 
@@ -82,8 +82,8 @@ def test_a_head_that_is_inclined_is_led_back_along_itself(roll: float) -> None:
 def test_the_driver_says_how_far_the_skin_under_the_nose_is_pressed() -> None:
     nose, lip = (float(REST[v, 1]) for v in (ABOVE[4][2], ABOVE[4][0]))
     usual = (lip - nose) / UNIT
-    rooms = lips_room(np.stack([REST, torn(REST, 0.8 * usual), torn(REST, 2.0)]), REST)
-    np.testing.assert_allclose(rooms, [MOST, 0.2, LEAST], atol=1e-3)
+    rooms = lips_room(np.stack([REST, torn(REST, 0.75 * usual), torn(REST, 2.0)]), REST)
+    np.testing.assert_allclose(rooms, [MOST, 0.25, LEAST], atol=1e-3)
     tight, wide = (led_back(torn(REST, 0.5), room) for room in (LEAST, MOST))
     for back, share in ((tight, LEAST), (wide, MOST)):
         assert back[ABOVE[4][0], 1] - back[ABOVE[4][2], 1] == pytest.approx(share * usual * UNIT, abs=0.01)

@@ -1,0 +1,73 @@
+"""Upper lids that close take the colour of the skin above them."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from made_face import SKIN, painted, placed, shut
+from numpy.typing import NDArray
+
+from engine.portrait.eyes import closing, prepare_eyes
+from engine.portrait.lid_skin import STRIPS, draw_lid, lid_colours
+
+FACE = placed(160, (250, 200))
+SIZE = (500, 600)
+BLACK = (10, 10, 10)
+
+
+def made_up(face: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """A drawing whose lids are black from the skin above to the lashes."""
+    picture = painted(face, SIZE)
+    for above, edge in STRIPS:
+        inner = 0.25 * face[list(above), :2] + 0.75 * face[list(edge), :2]
+        band = np.concatenate([inner, face[list(edge)[::-1], :2]])
+        cv2.fillPoly(picture, [band.round().astype(np.int32)], BLACK)
+    return picture
+
+
+def lid(face: NDArray[np.float32], side: int, way: float = 0.75) -> tuple[int, int]:
+    """A pixel of the lid's middle, so far on the way from the skin above to the edge."""
+    above, edge = (face[row[3], :2] for row in STRIPS[side])
+    x, y = (1 - way) * above + way * edge
+    return round(float(x)), round(float(y))
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_lid_that_closes_is_skin_and_no_drawn_out_lashes(side: int) -> None:
+    colours = lid_colours(made_up(FACE), FACE)[side]
+    np.testing.assert_allclose(colours, np.tile(SKIN, (9, 1)), atol=6)
+    closed = shut(FACE)
+    frame = made_up(closed)
+    x, y = lid(closed, side)
+    assert frame[y, x].max() < 30
+    before = frame.copy()
+    draw_lid(frame, colours, closed[:, :2], side, 0.0)
+    np.testing.assert_array_equal(frame, before)
+    draw_lid(frame, colours, closed[:, :2], side, 1.0)
+    assert np.abs(frame[y, x] - 0.9 * np.array(SKIN)).max() < 12
+    other = lid(closed, 1 - side)
+    np.testing.assert_array_equal(frame[other[1], other[0]], before[other[1], other[0]])
+    changed = (frame != before).any(axis=2)
+    strip = closed[[v for row in STRIPS[side] for v in row], :2]
+    left, top = strip.min(axis=0) - 25
+    right, bottom = strip.max(axis=0) + 25
+    ys, xs = np.nonzero(changed)
+    assert xs.min() >= left and xs.max() <= right and ys.min() >= top and ys.max() <= bottom
+
+
+def test_it_begins_where_the_lid_begins_to_close() -> None:
+    eyes = prepare_eyes(painted(FACE, SIZE), FACE)
+    for side, eye in enumerate(eyes):
+        assert eye is not None
+        shares = [closing(eye, shut(FACE, share)[:, :2], side) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)]
+        assert shares[0] == 0 and shares[-2:] == [1, 1]
+        assert (np.diff(shares) >= 0).all() and 0 < shares[2] < 1
+
+
+def test_a_face_at_the_picture_s_edge_is_drawn_as_far_as_it_goes() -> None:
+    face = FACE - np.float32([250, 170, 0])
+    frame = np.full((100, 120, 3), 200, np.uint8)
+    for side in (0, 1):
+        draw_lid(frame, np.full((9, 3), 50, np.float32), face[:, :2], side, 1.0)
+    assert frame.min() < 100
