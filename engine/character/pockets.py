@@ -22,8 +22,9 @@ LOW, BESIDE, REACH = 0.7, 1.5, 0.5
 how far from that joint, at most, in lengths of the trunk."""
 DOUBTFUL = 0.85
 """Confidence of a finger below which the hand may be hidden."""
-AROUND, NEAR = 1.2, 2.5
-"""Lengths of the hand from its middle within which pixels are parted, and within which cloth tells of its colours."""
+AROUND, NEAR, BY = 1.2, 2.5, 0.3
+"""Lengths of the hand from its middle within which pixels are parted, and within which cloth tells of its colours; and how far
+that is from the template's hand, at least: the hand may be beside it."""
 CUFF = 0.3
 """Lengths of the hand by which a sleeve reaches beyond the wrist."""
 CERTAIN = 3.0
@@ -111,9 +112,10 @@ def parted(
     beyond = (np.stack([x, y], -1) - hand.wrist) @ along
     length = float(beyond[template].max())
     distance = np.linalg.norm(away, axis=-1)
+    aside = cv2.distanceTransform((~template).astype(np.uint8), cv2.DIST_L2, 5)
     arm, worn = labels == hand.arm, np.isin(labels, [PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
     around = (distance < AROUND * length) & (arm | worn)
-    sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & ~template
+    sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
     if min(int(one.sum()) for one in (sleeve, cloth, around)) < 10 * COLOURS or len(hand.skin) < 10 * COLOURS:
         return None
     if _alike(hand.skin, rgb[cloth]):
