@@ -105,7 +105,8 @@ def parted(
     cloth's, and beyond the cuff all that is not surely the sleeve's.
     """
     y, x = np.mgrid[: labels.shape[0], : labels.shape[1]]
-    if not template.any():
+    seen = template & (labels >= 0)
+    if not seen.any():
         return None
     away = np.stack([x, y], -1) - [x[template].mean(), y[template].mean()]
     along = _unit(hand.knuckles - hand.wrist)
@@ -134,7 +135,6 @@ def parted(
         return np.asarray(cv2.GaussianBlur(on_grid, (0, 0), EVEN))
 
     like_skin = evened(np.minimum(of_cloth, of_sleeve) - of_skin)
-    seen = template & (labels >= 0)
     if not hand.doubtful or (like_skin < -CERTAIN)[seen].mean() < HIDDEN:
         bare = _around_what_is_sure(around & (like_skin > 0), like_skin > CERTAIN)
         nothing = np.zeros_like(arm)
