@@ -30,6 +30,7 @@ from engine.character.labels import (
 from engine.character.legs import LEGS_APART, cut_along, each_by_its_own
 from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
 from engine.character.part_surface import Surface, part_surface, warp_part
+from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
 from engine.character.sheets import THINNEST, Layer
 from engine.character.skirt_weights import moved_by_both
 from engine.character.template_maps import SideMaps, side_maps, weights_at
@@ -49,6 +50,9 @@ GENTLY = 6
 """Pixels over which an arm bends to where it passes before the body."""
 BENEATH = 1.5
 """Pixels by which what overlaps lies beneath the body's surface."""
+MOSTLY, FOREARM = 90.0, 50.0
+"""Percent of a hidden hand that lies beneath the body's surface without being flattened, and pixels over which the arm
+bends to it."""
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
 LEAST = 50
@@ -75,12 +79,13 @@ class PosedTemplate:
 class Labels:
     """`labels` (h, w) int8: indices of `engine.character.labels.PARTS`, -1 outside the person; `occlusion` (h, w): where
     arms pass before others; `apart`: the arms that do; `parting` (h, w): where one leg touches the other and is not
-    joined to it."""
+    joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere."""
 
     labels: NDArray[np.int8]
     occlusion: NDArray[np.bool_]
     apart: NDArray[np.int8]
     parting: NDArray[np.bool_]
+    hidden: NDArray[np.int8]
 
 
 def label_parts(
@@ -91,14 +96,16 @@ def label_parts(
     given: NDArray[np.int8] | None = None,
     corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
     sure: NDArray[np.int8] | None = None,
+    at_hips: Sequence[HandAtHip] = (),
 ) -> Labels:
     """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
-    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's;
-    `corrected` has the last word."""
+    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands `at_hips`
+    that were not found are looked for there; `corrected` has the last word."""
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
     projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
     rest = interpolate(template.rest, template.triangles, seen.raster)
+    hidden = np.full(mask.shape, -1, np.int8)
     if given is not None:
         rough = complete_labels(mask, given)
     else:
@@ -106,13 +113,23 @@ def label_parts(
         rough = rough_labels(mask, np.where(known >= 0, known, projected))
         rough = np.where(known >= 0, known, rough)
         rough = hair_beside_arms(rgb, rough, projected, known)
-        around = _occluded(rough, projected, rest).occlusion
+        around = _occluded(rough, projected, rest, hidden).occlusion
         rough = without_specks(refined_labels(rgb, rough, around), known)
-    return _occluded(corrected(rough.astype(np.int8)), projected, rest)
+        for hand in at_hips:
+            own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
+            if (found := parted(rgb, rough, own, hand)) is not None:
+                rough = without_specks(with_hand_parted(rough, found, hand.arm), known)
+                hidden[found.hidden] = hand.arm
+    return _occluded(corrected(rough.astype(np.int8)), projected, rest, hidden)
 
 
-def _occluded(labels: NDArray[np.integer], projected: NDArray[np.integer], rest: NDArray[np.float32]) -> Labels:
-    """Labels with what they say of limbs before others."""
+def _occluded(
+    labels: NDArray[np.integer],
+    projected: NDArray[np.integer],
+    rest: NDArray[np.float32],
+    hidden: NDArray[np.int8],
+) -> Labels:
+    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w)."""
     places = [rest_places(labels, part, projected, rest) for part in range(len(PARTS))]
     pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
     left, right = (PARTS.index(f"{side}_leg") for side in ("left", "right"))
@@ -123,8 +140,9 @@ def _occluded(labels: NDArray[np.integer], projected: NDArray[np.integer], rest:
     return Labels(
         labels.astype(np.int8),
         occlusion_mask(pixels[ARMS[0]] | pixels[ARMS[1]]),
-        np.array([arm for arm in ARMS if pixels[arm].any()], np.int8),
+        np.array([arm for arm in ARMS if pixels[arm].any() or (hidden == arm).any()], np.int8),
         parting,
+        hidden,
     )
 
 
@@ -162,7 +180,7 @@ def build_layers(
     layers = [trunk]
     for arm, reached in limbs.items():
         both = _sides(template, np.asarray((part == arm).any(1) | near[arm][0]), mask.shape)
-        limb = _layer(reached, both, rig)
+        limb = _put_in(_layer(reached, both, rig), layers[0], found.hidden == arm)
         own = found.labels == arm
         layers[0] = _behind(layers[0], limb, own)
         layers.append(_sunk(_before(limb, layers[0], own), layers[0], own))
@@ -179,7 +197,7 @@ def _limb(
     part: NDArray[np.intp],
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) of an arm in one piece: what is seen of it, what it shares with the body around the shoulder, and,
-    where the other arm passes before it or it does not reach the shoulder, what the template has there."""
+    where the other arm passes before it or it does not reach the shoulder, what the template has there; and its hidden hand."""
     own = found.labels == arm
     reach = np.ones((3, 3), np.uint8)
     beside = cv2.dilate(own.astype(np.uint8), reach, iterations=round(SHOULDER / 2 * template.pixels_per_metre)) > 0
@@ -192,7 +210,7 @@ def _limb(
         )
         between = cv2.dilate(hidden.mask.astype(np.uint8), reach, iterations=UNDER) > 0
         seen = seen | (between & (mask if lost else arms))
-    return largest(seen)
+    return largest(seen | (found.hidden == arm))
 
 
 def _near_shoulder(
@@ -248,6 +266,18 @@ def _sunk(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
     front[over] = np.minimum(front, _drawn(body) - BENEATH)[over]
     back[over] = np.minimum(np.maximum(back, body.back.depth + BENEATH), front - 2 * THINNEST)[over]
     return replace(limb, front=Surface(front, limb.front.weights), back=Surface(back, limb.back.weights))
+
+
+def _put_in(limb: Layer, body: Layer, hidden: NDArray[np.bool_]) -> Layer:
+    """A limb with its `hidden` hand (h, w) beneath the body's surface; the forearm bends to where it is."""
+    hand = hidden & limb.mask & body.mask
+    if not hand.any():
+        return limb
+    further = max(float(np.percentile((limb.front.depth - _drawn(body) + BENEATH)[hand], MOSTLY)), 0.0)
+    away = np.asarray(cv2.distanceTransform((~hand).astype(np.uint8), cv2.DIST_L2, 5))
+    bent = further * (0.5 + 0.5 * np.cos(np.pi * np.minimum(away / FOREARM, 1)))
+    front, back = (Surface((side.depth - bent).astype(np.float32), side.weights) for side in (limb.front, limb.back))
+    return replace(limb, front=front, back=back)
 
 
 def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:

@@ -183,6 +183,10 @@ def reconstruct(
     """From the mask to the character."""
     fitted = run.stage("fit_template", fit_template, figure, silhouette)
     labels = run.stage("label_parts", label, figure, silhouette, fitted, label_map, options.label_strokes, run.limits)
+    if (labels.hidden >= 0).any():
+        run.warn(
+            "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."
+        )
     mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
     character = run.stage(
         "make_character",

@@ -20,6 +20,7 @@ from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
 from engine.character.measures import pose
 from engine.character.options import LabelStroke
+from engine.character.pockets import hands_at_hips
 from engine.character.relaxing import relaxed
 from engine.character.rigging import Character, bind
 from engine.character.sheets import ClosedMesh, close
@@ -74,6 +75,7 @@ def label(
         given,
         lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
         hand_labels(figure.hands, silhouette.to_grid, silhouette.mask.shape),
+        hands_at_hips(figure, silhouette.rgb, silhouette.to_grid),
     )
 
 

@@ -11,7 +11,19 @@ import numpy as np
 
 from engine.character.figure import Choice, find_figure
 from engine.character.labels import PARTS
-from engine.character.layers import BENEATH, THIN, Labels, PosedTemplate, _before, _behind, _limb, _sunk, build_layers
+from engine.character.layers import (
+    BENEATH,
+    FOREARM,
+    THIN,
+    Labels,
+    PosedTemplate,
+    _before,
+    _behind,
+    _limb,
+    _put_in,
+    _sunk,
+    build_layers,
+)
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
 from engine.character.silhouette import cut_out
@@ -46,7 +58,7 @@ def bar(rows: tuple[int, int], columns: tuple[int, int]) -> PosedTemplate:
 
 def found(labels: np.ndarray) -> Labels:
     none = np.zeros(SHAPE, np.bool_)
-    return Labels(labels.astype(np.int8), none, np.array([LEFT, RIGHT], np.int8), none)
+    return Labels(labels.astype(np.int8), none, np.array([LEFT, RIGHT], np.int8), none, np.full(SHAPE, -1, np.int8))
 
 
 def limb(labels: np.ndarray, shoulder: np.ndarray) -> np.ndarray:
@@ -98,6 +110,18 @@ def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
     assert (sunk.front.depth[shared] > sunk.back.depth[shared]).all()
     np.testing.assert_array_equal(sunk.front.depth[own], arm.front.depth[own])
     np.testing.assert_array_equal(sunk.back.depth[own], arm.back.depth[own])
+
+
+def test_an_arm_bends_to_the_pocket_that_its_hand_is_in() -> None:
+    body, hidden = slab(rectangle((5, 55), (5, 115)), 10.0, -10.0), rectangle((20, 30), (15, 30))
+    arm = slab(rectangle((20, 30), (15, 110)), 16.0, 12.0)
+    bent = _put_in(arm, body, hidden)
+    assert np.allclose(bent.front.depth[hidden], 10 - BENEATH)
+    assert np.allclose((bent.front.depth - bent.back.depth)[arm.mask], 4), "as thick as it was"
+    along = bent.front.depth[25, 29 : 30 + int(FOREARM)]
+    assert (np.diff(along) >= 0).all() and np.diff(along).max() < 0.25
+    np.testing.assert_array_equal(bent.front.depth[25, 30 + int(FOREARM) : 110], 16)
+    assert _put_in(arm, body, np.zeros_like(hidden)) is arm
 
 
 def test_a_limb_behind_the_body_stays_there() -> None:

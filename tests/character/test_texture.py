@@ -33,14 +33,22 @@ def person() -> tuple[np.ndarray, np.ndarray]:
     return rgb, labels
 
 
-def painted(back: str = "mirror", shows: bool = True, face: tuple[float, ...] = (80, 58, 22, 26, 0)):  # type: ignore[no-untyped-def]
+FACE = (80, 58, 22, 26, 0)
+
+
+def painted(  # type: ignore[no-untyped-def]
+    back: str = "mirror", shows: bool = True, face: tuple[float, ...] = FACE, hand: tuple[int, int] | None = None
+):
     rgb, labels = person()
     none = np.zeros(labels.shape, np.bool_)
     apart = np.array([PARTS.index("right_arm")], np.int8)
     alpha = (labels >= 0).astype(np.float32)
     reach = np.zeros(labels.shape, np.bool_)
     reach[140:165, 40:115] = True  # behind the dress, too
-    found = Labels(labels.astype(np.int8), none, apart, none)
+    hidden = np.full(labels.shape, -1, np.int8)
+    if hand is not None:
+        hidden[140:165, slice(*hand)] = apart[0]
+    found = Labels(labels.astype(np.int8), none, apart, none, hidden)
     shown = (labels == apart[0]) & shows
     return paint_tiles(rgb, alpha, SAME, found, reach, shown, np.float32(face), back), labels  # type: ignore[arg-type]
 
@@ -55,6 +63,14 @@ def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     )
 
 
+def test_a_hand_in_a_pocket_is_of_the_faces_colour() -> None:
+    tiles, labels = painted(hand=(100, 114))
+    assert (tiles.arms[140:165, 101:114] == SKIN).all()
+    arm = labels == PARTS.index("right_arm")
+    np.testing.assert_array_equal(tiles.arms[arm], person()[0][arm])
+    np.testing.assert_array_equal(tiles.body[140:165, 101:114], person()[0][140:165, 101:114])
+
+
 def test_what_is_called_an_arm_and_shown_by_the_body_has_the_pictures_colours_there() -> None:
     tiles, labels = painted(shows=False)
     np.testing.assert_array_equal(tiles.body[labels >= 0], person()[0][labels >= 0])
@@ -65,7 +81,7 @@ def test_pixels_of_the_texture_are_those_of_the_picture() -> None:
     labels = np.full((120, 80), PARTS.index("torso"), np.int8)
     none = np.zeros(labels.shape, np.bool_)
     half = np.array([[0.5, 0, -0.13], [0, 0.5, -0.31]])  # a grid of half the size, somewhere between the pixels
-    found = Labels(labels, none, np.zeros(0, np.int8), none)
+    found = Labels(labels, none, np.zeros(0, np.int8), none, np.full(labels.shape, -1, np.int8))
     tiles = paint_tiles(rgb, np.ones((240, 160), np.float32), half, found, none, none, None, "mirror")
     further = tiles.shift + (tiles.scale - 1) / 2 + tiles.scale * half[:, 2]
     np.testing.assert_allclose(further, np.rint(further), atol=1e-9)

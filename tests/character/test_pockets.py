@@ -1,0 +1,162 @@
+"""Hands at the hips that were not found: whether they are hidden, what is theirs, and what happens as they come out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
+
+from benchmarks.character_steps import wake
+from engine.character.figure import Figure
+from engine.character.labels import ARMS, PARTS
+from engine.character.measures import pose
+from engine.character.pockets import HandAtHip, hands_at_hips, parted, with_hand_parted
+from engine.geometry.welding import weld
+from engine.motion.edit import in_place
+from engine.motion.library import built_in
+from engine.perception.body import LANDMARKS
+
+SHAPE = (160, 120)
+LEFT, TORSO, LEG = (PARTS.index(name) for name in ("left_arm", "torso", "left_leg"))
+SKIN, SLEEVE, CLOTH = (205, 150, 130), (60, 70, 160), (60, 120, 60)
+
+STANDING = {
+    **{"LeftShoulder": (75, 30), "RightShoulder": (45, 30), "LeftHip": (68, 90), "RightHip": (52, 90)},
+    **{"LeftWrist": (85, 88), "LeftIndex": (84, 100), "LeftPinky": (86, 100)},
+    **{"RightWrist": (35, 88), "RightIndex": (34, 100), "RightPinky": (36, 100)},
+}
+FACE = np.array([[50, 5, 0], [70, 5, 0], [70, 25, 0], [50, 25, 0]], np.float32)
+ON_GRID = np.array([[1.0, 0, 0], [0, 1, 0]])
+
+
+def figure(places: dict[str, tuple[float, float]], face: bool = True, left_hand: bool = False) -> Figure:
+    points, none = np.zeros((len(LANDMARKS), 2), np.float32), np.zeros(SHAPE, np.bool_)
+    for name, place in (STANDING | places).items():
+        points[LANDMARKS.index(name)] = place
+    sure = np.full(len(LANDMARKS), 0.6, np.float32)
+    hands = (np.zeros((21, 3), np.float32) if left_hand else None, None)
+    return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, sure, np.zeros((len(LANDMARKS), 3), np.float32), True,
+                  1.0, np.zeros((1, 4), np.float32), 0, none, FACE if face else None, hands)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("seen", "expected"),
+    [
+        (figure({}), ARMS),
+        (figure({}, left_hand=True), ARMS[1:]),
+        (figure({}, face=False), ()),
+        (figure({"LeftWrist": (90, 50)}), ARMS[1:]),
+        (figure({"LeftWrist": (62, 88)}), ARMS[1:]),
+        (figure({"LeftWrist": (118, 88)}), ARMS[1:]),
+    ],
+    ids=["both", "one is seen", "no skin to compare", "raised", "before the belly", "far from the hip"],
+)
+def test_hands_are_looked_for_at_their_hips(seen: Figure, expected: tuple[int, ...]) -> None:
+    found = hands_at_hips(seen, seen.rgb, ON_GRID)
+    assert tuple(hand.arm for hand in found) == expected
+    assert all(hand.doubtful for hand in found)
+
+
+def noisy(colour: tuple[int, int, int], shape: tuple[int, ...]) -> np.ndarray:
+    noise = np.random.default_rng(1).normal(0, 4, (*shape, 3))
+    return np.clip(np.array(colour) + noise, 0, 255)
+
+
+def standing(hand_shown: bool, arm_labelled_to: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, HandAtHip]:
+    """A picture of cloth with a sleeve before it as far as row 100, below which the template's hand is, from 104 to 130;
+    labels in which the arm goes on to some row; that hand; and what is known of it."""
+    rgb, labels, template = noisy(CLOTH, SHAPE), np.full(SHAPE, TORSO), np.zeros(SHAPE, np.bool_)
+    rgb[:100, 80:100] = noisy(SLEEVE, (100, 20))
+    labels[100:], labels[:arm_labelled_to, 80:100] = LEG, LEFT
+    template[100:130, 82:98] = True
+    if hand_shown:
+        rgb[100:130, 82:98] = noisy(SKIN, (30, 16))
+    skin = noisy(SKIN, (400,))
+    return (
+        rgb.astype(np.uint8),
+        labels,
+        template,
+        HandAtHip(LEFT, np.array([90.0, 100]), np.array([90.0, 115]), True, skin),
+    )
+
+
+def test_a_hand_in_a_pocket_leaves_the_cloth_to_the_leg() -> None:
+    rgb, labels, template, hand = standing(hand_shown=False, arm_labelled_to=120)
+    found = parted(rgb, labels, template, hand)
+    assert found is not None
+    after = with_hand_parted(labels, found, LEFT)
+    np.testing.assert_array_equal(after[:98] == LEFT, labels[:98] == LEFT)
+    assert (after[103:] == LEG).all()
+    np.testing.assert_array_equal(found.hidden[103:], template[103:])
+    assert not (found.hidden & (after == LEFT)).any()
+
+
+def test_a_hand_whose_skin_is_seen_is_the_arms() -> None:
+    rgb, labels, template, hand = standing(hand_shown=True, arm_labelled_to=100)
+    found = parted(rgb, labels, template, hand)
+    assert found is not None
+    after = with_hand_parted(labels, found, LEFT)
+    assert (after == LEFT)[102:128, 84:96].all()
+    assert ((after == LEFT) & (labels != LEFT) & ~template).sum() < 0.15 * template.sum(), "its edge at most"
+    assert not found.hidden.any()
+
+
+def test_without_colours_nothing_is_said() -> None:
+    rgb, labels, template, hand = standing(hand_shown=True, arm_labelled_to=100)
+    grey = np.repeat(rgb.mean(-1, keepdims=True), 3, -1).astype(np.uint8)
+    assert (
+        parted(
+            grey, labels, template, HandAtHip(LEFT, hand.wrist, hand.knuckles, True, hand.skin.mean() + 0 * hand.skin)
+        )
+        is None
+    )
+
+
+def test_of_a_hand_beside_the_person_nothing_is_said() -> None:
+    rgb, labels, template, hand = standing(hand_shown=True, arm_labelled_to=100)
+    assert parted(rgb, np.where(template, -1, labels), template, hand) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "side", "arm"), [("man_green_coat.png", "Right", 3), ("woman_green_dress_hip.jpg", "Left", 2)]
+)
+def test_a_hidden_hand_comes_out_and_the_cloth_stays(
+    name: str, side: str, arm: int, media: Callable[[str], Path]
+) -> None:
+    woken = wake(media(f"fullbody/{name}"), {})
+    assert set(np.unique(woken.labels.hidden)) == {-1, arm}
+    character = woken.character
+    mesh, names = character.mesh, character.mesh.skeleton.names
+    point = weld(mesh)
+    ends = np.sort(point[mesh.triangles][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), 1)
+    edges = np.unique(ends, axis=0)
+    count = point.max() + 1
+    _, piece = connected_components(csr_matrix((np.ones(len(edges)), edges.T), (count, count)))
+    most = mesh.bones[np.arange(len(point)), mesh.weights.argmax(1)]
+    hand = np.array([bone.startswith(f"{side}Hand") for bone in names])[most]
+    below = np.array([bone.startswith(("Hips", "LeftUpLeg", "RightUpLeg", "LeftLeg", "RightLeg")) for bone in names])[
+        most
+    ]
+    assert hand.sum() > 100
+    assert not set(piece[point[hand]]) & set(piece[point[below]]), "no edge leads from the hand to the cloth"
+
+    still = pose(character, character.pictured)
+    clip = in_place(built_in("dance", mesh.skeleton))
+    raised = pose(character, clip, int(0.6 * len(clip.rotations)))
+    assert np.median(raised[hand, 1] - still[hand, 1]) > 0.4, "both arms are up in the dance"
+    middle = np.median(still[hand], axis=0)
+    pocket = below & (np.linalg.norm(still - middle, axis=1) < 0.15)
+    assert pocket.sum() > 20
+    assert np.median(raised[pocket, 1] - still[pocket, 1]) < 0.1
+
+    wave = in_place(built_in("wave", mesh.skeleton))
+    first = np.unique(point, return_index=True)[1]
+    a, b = first[edges].T
+    length = np.maximum(np.linalg.norm(still[a] - still[b], axis=1), 1e-4)
+    for frame in range(0, len(wave.rotations), 10):
+        posed = pose(character, wave, frame)
+        assert (np.linalg.norm(posed[a] - posed[b], axis=1) > 3 * length).mean() < 0.005
