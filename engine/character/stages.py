@@ -10,13 +10,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.body.parts import PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.face_region import face_ellipse
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import turn_head
-from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
 from engine.character.measures import pose
 from engine.character.options import LabelStroke

@@ -11,11 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
+from engine.body.parts import PARTS
 from engine.body.skinning import pose_transforms, skin
 from engine.character.labels import (
-    PARTS,
     hair_beside_arms,
-    part_of_bone,
     refined_labels,
     rough_labels,
     without_specks,
@@ -175,13 +174,6 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
     np.testing.assert_allclose(*places, atol=1e-4)
     np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
-
-
-def test_bones_belong_to_parts() -> None:
-    assert PARTS[part_of_bone("LeftHandIndex2")] == "left_arm"
-    assert PARTS[part_of_bone("RightToeBase")] == "right_leg"
-    assert PARTS[part_of_bone("Neck")] == "head"
-    assert PARTS[part_of_bone("LeftShoulder")] == "torso"
 
 
 def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from engine.character.labels import PARTS
+from engine.body.parts import PARTS
 from engine.character.layers import BENEATH, THIN, Labels, PosedTemplate, _before, _behind, _limb, _sunk
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.character.labels import PARTS
+from engine.body.parts import PARTS
 from engine.character.layers import Labels
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
