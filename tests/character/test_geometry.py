@@ -22,7 +22,7 @@ from engine.character.labels import (
 from engine.character.occlusion import completed, largest
 from engine.character.part_surface import Surface, outline, part_surface, warp_part
 from engine.character.picture_space import PictureCamera
-from engine.character.rigging import bind
+from engine.character.rigging import at_rest, bind
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
@@ -174,6 +174,22 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
     np.testing.assert_allclose(*places, atol=1e-4)
     np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
+
+
+def test_what_brings_vertices_back_is_what_their_weights_blend() -> None:
+    """Also where blended turns would crush a vertex, and it goes with one joint alone."""
+    random = np.random.default_rng(8)
+    transforms = np.tile(np.eye(4), (6, 1, 1))
+    transforms[:, :3, :3] = Rotation.random(6, random_state=3).as_matrix()
+    transforms[:, :3, 3] = random.normal(size=(6, 3))
+    bones, posed = random.integers(0, 6, (500, 4)), random.normal(size=(500, 3))
+    weights = -np.sort(-random.dirichlet(np.ones(4), 500).astype(np.float32), 1)
+    vertices, kept, blended = at_rest(posed, bones, weights, transforms)
+    alone = (kept == [1, 0, 0, 0]).all(1)
+    assert 50 < alone.sum() < 450
+    np.testing.assert_array_equal(blended, np.einsum("vk,vkij->vij", kept.astype(np.float64), transforms[bones]))
+    back = np.einsum("vij,vj->vi", blended[:, :3, :3], vertices) + blended[:, :3, 3]
+    np.testing.assert_allclose(back, posed, atol=1e-9)
 
 
 def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:

@@ -37,7 +37,7 @@ def torn() -> Character:
     shown = skin(mesh.vertices, mesh.bones, mesh.weights, transforms).astype(np.float64)
     alone = np.zeros_like(mesh.weights)
     alone[:, 0] = 1
-    vertices, weights = at_rest(shown, mesh.bones.astype(np.intp), alone, transforms)
+    vertices, weights, _ = at_rest(shown, mesh.bones.astype(np.intp), alone, transforms)
     return Character(replace(mesh, vertices=vertices.astype(np.float32), weights=weights), pictured, np.zeros(3), 0.5)
 
 
