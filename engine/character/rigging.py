@@ -27,13 +27,11 @@ way back to T-pose is no longer one: such a vertex goes with its strongest joint
 @dataclass(frozen=True)
 class Character:
     """A character and how it stands in its picture: `pictured`, a clip of one frame. The picture's camera stands at
-    `eye` (3,) in the character's world, in which the ground is y = 0. `tile`: the share of the texture's width that each of
-    its tiles takes; the last is the back's."""
+    `eye` (3,) in the character's world, in which the ground is y = 0."""
 
     mesh: SkinnedMesh
     pictured: Clip
     eye: NDArray[np.float64]
-    tile: float
 
 
 def bind(
@@ -44,7 +42,6 @@ def bind(
     space: BodySpace,
     texture: NDArray[np.uint8],
     uv: NDArray[np.float32],
-    tile: float,
 ) -> Character:
     """Bind a mesh in picture space, made of a person's `mask` (h, w), to the fitted skeleton, in T-pose.
 
@@ -78,7 +75,7 @@ def bind(
         skeleton, (vertices + lift).astype(np.float32), mesh.triangles, uv, bones.astype(np.uint8), weights, texture
     )
     pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
-    return Character(bound, pictured, eye, tile)
+    return Character(bound, pictured, eye)
 
 
 def at_rest(

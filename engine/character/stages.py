@@ -124,10 +124,9 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
     texture, uv = atlas(tiles, mesh, 0)
-    tile = tiles.body.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
-    character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv, tile)
+    character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv)
     return relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
 
 

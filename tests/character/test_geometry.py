@@ -162,7 +162,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     fitted = FittedBody(fit, 100.0, (32, 32), kept)
     nowhere = np.zeros((64, 64), np.bool_)  # where undersides of feet would be hidden
     character = bind(
-        mesh, nowhere, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
+        mesh, nowhere, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32)
     )
     bound, pictured = character.mesh, character.pictured
     transforms = pose_transforms(bound.skeleton, pictured.rotations, pictured.root)[0]
@@ -170,7 +170,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     np.testing.assert_allclose(posed, camera.to_metres(mesh.vertices) + character.eye, atol=2e-4)
     assert abs(bound.vertices[:, 1].min()) < 1e-5, "the T-pose stands on the ground"
     plain = FittedBody(fit, 100.0, (32, 32), np.zeros_like(kept))
-    straight = bind(mesh, nowhere, camera, plain, space, bound.texture, bound.uv, 1.0)
+    straight = bind(mesh, nowhere, camera, plain, space, bound.texture, bound.uv)
     places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
     np.testing.assert_allclose(*places, atol=1e-4)
     np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
