@@ -7,14 +7,13 @@ in the comments.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pygltflib as gl
 from numpy.typing import NDArray
-from PIL import Image
 
 from engine.export.animation_tracks import tracks
 from engine.export.gltf_buffer import Buffer
@@ -155,9 +154,10 @@ def _add_material(
 
 def jpeg(texture: NDArray[np.uint8], quality: int, synthetic: bool) -> bytes:
     """A texture as JPEG, its colours at full resolution: neighbours in an atlas must not bleed into each other."""
-    packed = io.BytesIO()
-    Image.fromarray(texture).save(packed, "JPEG", quality=quality, subsampling=0, optimize=True)
-    return marked_jpeg(packed.getvalue()) if synthetic else packed.getvalue()
+    settings = [cv2.IMWRITE_JPEG_QUALITY, quality, cv2.IMWRITE_JPEG_OPTIMIZE, 1]
+    settings += [cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444]
+    _, packed = cv2.imencode(".jpg", cv2.cvtColor(texture, cv2.COLOR_RGB2BGR), settings)
+    return marked_jpeg(packed.tobytes()) if synthetic else packed.tobytes()
 
 
 def _add_mesh(gltf: gl.GLTF2, buffer: Buffer, mesh: SkinnedMesh, name: str, level: int) -> int:

@@ -1,5 +1,6 @@
 """GLB files against the specification: judged by Khronos' validator, read back and posed by other means than ours."""
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from PIL import Image
 from template_character import still, template_character, walk
 
 from engine.body.skinning import pose_transforms, skin
-from engine.export.glb import write_glb
+from engine.export.glb import jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.edit import travel
 from engine.motion.library import CLIPS, built_in
@@ -142,6 +143,15 @@ def test_many_vertices_get_wide_indices(mesh: SkinnedMesh, tmp_path: Path) -> No
     write_glb(tmp_path / "many.glb", many)
     assert validate(tmp_path / "many.glb")["messages"] == []
     np.testing.assert_array_equal(Glb(tmp_path / "many.glb").triangles(), many.triangles)
+
+
+def test_noise_is_a_texture_like_any_other() -> None:
+    """Of more than a byte to a pixel; and no colour is shared with a neighbour."""
+    noise = np.random.default_rng(6).integers(0, 256, (256, 512, 3), np.uint8)
+    packed = jpeg(noise, 90, synthetic=True)
+    assert len(packed) > noise.size / 3
+    with Image.open(io.BytesIO(packed)) as texture:
+        assert np.abs(np.asarray(texture).astype(int) - noise).mean() < 12
 
 
 def test_what_does_not_fit_is_refused_and_leaves_no_file(mesh: SkinnedMesh, tmp_path: Path) -> None:
