@@ -8,6 +8,7 @@ in the comments.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -27,6 +28,20 @@ from engine.motion.skeleton import Skeleton
 COVERAGE = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""
 
+QUALITY = 90
+"""Of a texture's JPEG, 1 to 100."""
+TIGHTER = ((1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
+"""How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """A file of `size` bytes, whose texture is so many times `smaller` than the mesh's, a JPEG of this `quality`."""
+
+    size: int
+    smaller: int
+    quality: int
+
 
 def write_glb(
     path: Path,
@@ -34,11 +49,12 @@ def write_glb(
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = 90,
+    quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
-) -> None:
+    most: int | None = None,
+) -> Written:
     """Write a character; the file appears under its name when it is whole.
 
     Parameters
@@ -51,21 +67,44 @@ def write_glb(
     levels : coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail
         show `mesh`. Their textures are not used.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
+    most : bytes that the file should have at most, levels included: its texture is written as mildly `TIGHTER` as that
+        takes. Where no texture is small enough it stays as it is, and the file is larger.
 
     Raises ValueError where clips or levels do not fit the skeleton, or two clips have one name.
     """
-    gltf = build_glb(mesh, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
-    save_glb(path, gltf)
+
+    def packed(smaller: int, quality: int) -> bytes:
+        own = replace(mesh, texture=_reduced(mesh.texture, smaller))
+        gltf = build_glb(own, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
+        return b"".join(gltf.save_to_bytes())
+
+    how = (1, quality)
+    data = packed(*how)
+    if most is not None and len(data) > most:
+        for tighter in TIGHTER:
+            if len(fitting := packed(*tighter)) <= most:
+                how, data = tighter, fitting
+                break
+    save_glb(path, data)
+    return Written(len(data), *how)
 
 
-def save_glb(path: Path, gltf: gl.GLTF2) -> None:
-    """Write what `build_glb` made; the file appears under its name when it is whole."""
+def save_glb(path: Path, data: bytes) -> None:
+    """Write a file that appears under its name when it is whole."""
     draft = path.with_name(f".{path.name}.draft")
     try:
-        draft.write_bytes(b"".join(gltf.save_to_bytes()))
+        draft.write_bytes(data)
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def _reduced(texture: NDArray[np.uint8], smaller: int) -> NDArray[np.uint8]:
+    """The texture so many times smaller; what lies where on it stays so."""
+    if smaller == 1:
+        return texture
+    size = (max(1, texture.shape[1] // smaller), max(1, texture.shape[0] // smaller))
+    return np.asarray(cv2.resize(texture, size, interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def build_glb(
@@ -73,7 +112,7 @@ def build_glb(
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = 90,
+    quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
