@@ -12,6 +12,7 @@ from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.film import cast_of, film, film_size
 from engine.character.findings import write_findings
+from engine.character.lit import lit_picture
 from engine.character.measures import measure, picture_camera
 from engine.character.options import CharacterOptions
 from engine.character.person import Person
@@ -89,9 +90,14 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     write_image(out / "background.png", plate)
     height, width = figure.rgb.shape[:2]
     camera = picture_camera(people[0].character, people[0].fitted, (height, width))
-    still = [(person.character, person.start) for person in people]
-    reposed = next(film_cast(cast_of(still), lambda second: camera, lambda camera: plate, shadow))
+    still = cast_of([(person.character, person.start) for person in people])
+    reposed = next(film_cast(still, lambda second: camera, lambda camera: plate, shadow))
     write_still(out / "posed.png", reposed, run.mark_synthetic)
+    if options.lit:
+        try:
+            write_still(out / "lit.png", lit_picture(still, camera, plate), run.mark_synthetic)
+        except InputError as without_gl:
+            run.warn(without_gl.code, without_gl.detail)
     size = film_size((width, height), options.size)
     name = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]

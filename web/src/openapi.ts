@@ -1442,6 +1442,11 @@ export interface components {
              */
             vrm_author?: string;
             /**
+             * @description Draw the character under lamps, too: lit.png. Takes OpenGL, which not every machine has.
+             * @default false
+             */
+            lit?: boolean;
+            /**
              * @description Accept a person whose legs are cut off or hidden, and animate what is there.
              * @default false
              */
