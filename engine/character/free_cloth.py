@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import PARTS
+from engine.body.parts import PARTS
 
 CLOSE, FREE = 1.12, 1.5
 """How much wider than the template cloth is that still follows the legs, and that hangs freely."""

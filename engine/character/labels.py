@@ -8,11 +8,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.rig import Rig
+from engine.body.parts import PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 
-PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
-"""Labels in order; the person's own left and right."""
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
 
 ROUGH_HEIGHT = 160
@@ -41,23 +39,6 @@ BARE_ARM = 0.008
 """How far beyond the template's arm no hair is looked for, as a share of the height."""
 NOWHERE = 1e3
 """The cost, in pixels, of a label that the template does not show."""
-
-
-def part_of_bone(name: str) -> int:
-    """The label of what a joint moves, by its Mixamo name."""
-    for side in ("Left", "Right"):
-        rest = name.removeprefix(side)
-        if rest != name and rest.startswith(("Arm", "ForeArm", "Hand")):
-            return PARTS.index(f"{side.lower()}_arm")
-        if rest != name and rest.startswith(("UpLeg", "Leg", "Foot", "Toe")):
-            return PARTS.index(f"{side.lower()}_leg")
-    return PARTS.index("head" if name.startswith(("Head", "Neck", "Jaw")) or name.endswith("Eye") else "torso")
-
-
-def vertex_parts(rig: Rig) -> NDArray[np.intp]:
-    """The label of each of the template's vertices (V,), by the joint that moves it most."""
-    of_bone = np.array([part_of_bone(name) for name in rig.names])
-    return of_bone[rig.bones[:, 0]]
 
 
 def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDArray[np.intp]:

@@ -13,18 +13,17 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
 from engine.character.free_cloth import free_cloth
 from engine.character.labels import (
     ARMS,
-    PARTS,
     complete_labels,
     hair_beside_arms,
     refined_labels,
     rough_labels,
-    vertex_parts,
     without_specks,
 )
 from engine.character.legs import LEGS_APART, cut_along, each_by_its_own
@@ -77,7 +76,7 @@ class PosedTemplate:
 
 @dataclass(frozen=True)
 class Labels:
-    """`labels` (h, w) int8: indices of `engine.character.labels.PARTS`, -1 outside the person; `occlusion` (h, w): where
+    """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
     arms pass before others; `apart`: the arms that do; `parting` (h, w): where one leg touches the other and is not
     joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere."""
 

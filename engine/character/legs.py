@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
+from engine.body.parts import PARTS
 from engine.body.rig import Rig
-from engine.character.labels import PARTS
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
 

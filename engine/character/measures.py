@@ -15,7 +15,7 @@ from engine.character.template_fit import FittedBody
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
 from engine.render.camera import Camera
-from engine.render.rasteriser import rasterise
+from engine.render.rasteriser import SUBPIXELS, rasterise
 
 
 def pose(character: Character, clip: Clip, frame: int = 0) -> NDArray[np.float32]:
@@ -37,12 +37,12 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
     `silhouette_iou`: how well the posed mesh covers the mask; `landmark_reprojection`: how far landmarks are from where they
     were seen, as a share of the person's height; `closed`, `holes` (loops of open border) and `non_manifold_edges` of the
     mesh; `flipped`: the share of the pixels in view that show a triangle from its back; `unseen_texture`: the share of the
-    surface whose colours are not the picture's own but mirrored or filled.
+    surface that the picture does not show, whose colours are mirrored or filled.
     """
     height, width = figure.rgb.shape[:2]
     camera = picture_camera(character, fitted, (height, width))
-    projected = camera.project(pose(character, character.pictured))
-    triangles = character.mesh.triangles
+    posed, triangles = pose(character, character.pictured), character.mesh.triangles
+    projected = camera.project(posed)
     seen = rasterise(projected, triangles, (height, width), perspective=True).triangle
     drawn, mask = seen >= 0, silhouette.alpha > 0.5
     rows = np.flatnonzero(mask.any(1))
@@ -54,8 +54,8 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
         "closed": float(is_closed(points[triangles])),
         "holes": float(_loops(border)),
         "non_manifold_edges": float(crowded),
-        "flipped": round(float(_turned_away(projected, triangles)[seen[drawn]].mean()), 5),
-        "unseen_texture": round(_unseen(character), 3),
+        "flipped": round(float((_areas(projected, triangles) < 0)[seen[drawn]].mean()), 5),
+        "unseen_texture": round(_unseen(posed, projected, triangles, seen[drawn]), 3),
         "triangles": float(len(triangles)),
     }
 
@@ -77,17 +77,22 @@ def _loops(border: NDArray[np.intp]) -> int:
     return int(connected_components(graph, directed=False)[0])
 
 
-def _turned_away(projected: NDArray[np.float32], triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Whether each triangle shows its back; y points down."""
+def _areas(projected: NDArray[np.float32], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """How many pixels each triangle covers (T,), fewer than none where it shows its back; y points down."""
     a, b, c = (projected[triangles[:, k], :2].astype(np.float64) for k in range(3))
     p, q = b - a, c - a
-    return np.asarray(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)
+    return np.asarray(p[:, 1] * q[:, 0] - p[:, 0] * q[:, 1]) / 2
 
 
-def _unseen(character: Character) -> float:
-    """The share of the surface, as pictured, on the last tile of the texture: the back's (`engine.character.texture.atlas`)."""
-    vertices, triangles = pose(character, character.pictured), character.mesh.triangles
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    behind = character.mesh.uv[triangles, 0].mean(1) > 1 - character.tile
-    return float(area[behind].sum() / max(float(area.sum()), 1e-12))
+def _unseen(
+    posed: NDArray[np.float32],
+    projected: NDArray[np.float32],
+    triangles: NDArray[np.integer],
+    seen: NDArray[np.integer],
+) -> float:
+    """The share of the surface of `posed` (V, 3) that no pixel shows. `seen` (N,): the triangle that each pixel shows, and of
+    it as much as one pixel covers."""
+    a, b, c = (posed[triangles[:, k]].astype(np.float64) for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    covered = np.maximum(np.abs(_areas(projected, triangles)[seen]), 1 / SUBPIXELS)  # finer than corners are placed
+    return float(1 - (area[seen] / covered).sum() / max(float(area.sum()), 1e-12))

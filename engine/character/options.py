@@ -85,6 +85,9 @@ class CharacterOptions(BaseModel):
     vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
         "Galatea", description="Whose the character is, as its VRM file says: nobody else may use it without asking."
     )
+    lit: bool = Field(
+        False, description="Draw the character under lamps, too: lit.png. Takes OpenGL, which not every machine has."
+    )
     partial: bool = Field(
         False, description="Accept a person who is cut off or hidden below the chest, and animate what is there."
     )

@@ -12,19 +12,22 @@ from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.film import cast_of, film, film_size
 from engine.character.findings import character_names, write_findings
+from engine.character.lit import lit_picture
 from engine.character.measures import measure, picture_camera
 from engine.character.options import CharacterOptions
 from engine.character.person import Person
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fewer_triangles, fill_background, fit_template, label, make_character
 from engine.errors import InputError
-from engine.export.glb import write_glb
+from engine.export.glb import QUALITY, write_glb
 from engine.export.still import write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
 from engine.export.vrm import VrmMeta, write_vrm
+from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.kind import Given
 from engine.media.image import write_image
+from engine.motion.clip import Clip
 from engine.perception.models import matting_model
 from engine.render.character import film_cast
 from engine.run import Run, write_report
@@ -46,6 +49,8 @@ EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character"
 """Those that come once for each person."""
 MOST = 6
 """People who are woken together."""
+MOST_BYTES = 10_000_000
+"""Of a character's GLB; levels of detail are files of their own."""
 LEAVE_OUT = ("not_full_body", "person_too_small", "person_lying")
 """Of all, those who are refused for this stay in the picture."""
 
@@ -85,9 +90,14 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     write_image(out / "background.png", plate)
     height, width = figure.rgb.shape[:2]
     camera = picture_camera(people[0].character, people[0].fitted, (height, width))
-    still = [(person.character, person.start) for person in people]
-    reposed = next(film_cast(cast_of(still), lambda second: camera, lambda camera: plate, shadow))
+    still = cast_of([(person.character, person.start) for person in people])
+    reposed = next(film_cast(still, lambda second: camera, lambda camera: plate, shadow))
     write_still(out / "posed.png", reposed, run.mark_synthetic)
+    if options.lit:
+        try:
+            write_still(out / "lit.png", lit_picture(still, camera, plate), run.mark_synthetic)
+        except InputError as without_gl:
+            run.warn(without_gl.code, without_gl.detail)
     size = film_size((width, height), options.size)
     animation = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]
@@ -199,13 +209,30 @@ def reconstruct(
 def write_character(out: Path, name: str, person: Person, options: CharacterOptions, run: Run) -> None:
     """The character in all formats that are wanted, and in all levels of detail."""
     mesh, marked = person.character.mesh, run.mark_synthetic
-    write_glb(out / f"{name}.glb", mesh, person.played.all, synthetic=marked)
+    write_small_glb(out / f"{name}.glb", mesh, person.played.all, run)
     for level in range(1, options.levels + 1):
         coarser = fewer_triangles(person.character, len(mesh.triangles) // 4**level)
-        write_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, synthetic=marked)
+        write_small_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, run)
     write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
     if options.vrm:
         write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=(options.vrm_author,)), synthetic=marked)
+
+
+def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
+    """A GLB of at most `MOST_BYTES`; the report says what that took, or that it was not to be had."""
+    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES)
+    if written.size > MOST_BYTES:
+        run.warn(
+            "glb_too_large",
+            f"{path.name} has {written.size / 1e6:.1f} MB, however its texture is written; fewer triangles help, or a shorter motion.",
+        )
+    elif (written.smaller, written.quality) != (1, QUALITY):
+        size = f"1/{written.smaller} of its width and height" if written.smaller > 1 else "its full size"
+        run.warn(
+            "texture_reduced",
+            f"The texture of {path.name} has {size}, at JPEG quality {written.quality}: the file would have had more than"
+            f" {MOST_BYTES / 1e6:.0f} MB.",
+        )
 
 
 def _file(inputs: Mapping[str, Given], name: str) -> Path | None:

@@ -11,9 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.body.parts import PARTS
 from engine.body.rig import Rig
 from engine.character.figure import SIDES, Figure
-from engine.character.labels import ARMS, COLOURS, PARTS, Colours, complete_labels
+from engine.character.labels import ARMS, COLOURS, Colours, complete_labels
 from engine.character.template_maps import side_maps
 from engine.perception.body import LANDMARKS
 

@@ -175,6 +175,6 @@ def _bound_anew(
     """Points that moved (N,) bound by weights (N, J), so that the joints as `pictured` (J, 4, 4) bring them to where they are."""
     places, all_bones, all_weights = bound.places.copy(), bound.bones.copy(), bound.weights.copy()
     bones, kept = strongest(weights[moved].astype(np.float32))
-    back, kept = at_rest(surface.pictured[moved], bones.astype(np.intp), kept, pictured)
+    back, kept, _ = at_rest(surface.pictured[moved], bones.astype(np.intp), kept, pictured)
     places[moved], all_bones[moved], all_weights[moved] = back, bones, kept
     return _Bound(places, all_bones, all_weights)

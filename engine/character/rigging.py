@@ -27,13 +27,11 @@ way back to T-pose is no longer one: such a vertex goes with its strongest joint
 @dataclass(frozen=True)
 class Character:
     """A character and how it stands in its picture: `pictured`, a clip of one frame. The picture's camera stands at
-    `eye` (3,) in the character's world, in which the ground is y = 0. `tile`: the share of the texture's width that each of
-    its tiles takes; the last is the back's."""
+    `eye` (3,) in the character's world, in which the ground is y = 0."""
 
     mesh: SkinnedMesh
     pictured: Clip
     eye: NDArray[np.float64]
-    tile: float
 
 
 def bind(
@@ -44,7 +42,6 @@ def bind(
     space: BodySpace,
     texture: NDArray[np.uint8],
     uv: NDArray[np.float32],
-    tile: float,
 ) -> Character:
     """Bind a mesh in picture space, made of a person's `mask` (h, w), to the fitted skeleton, in T-pose.
 
@@ -63,8 +60,7 @@ def bind(
     transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
         np.float64
     )
-    vertices, weights = at_rest(posed, bones, mesh.weights, transforms)
-    blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), transforms[bones])
+    vertices, weights, blended = at_rest(posed, bones, mesh.weights, transforms)
 
     def covered(which: NDArray[np.intp], places: NDArray[np.float64]) -> NDArray[np.bool_]:
         back = np.einsum("vij,vj->vi", blended[which, :3, :3], places) + blended[which, :3, 3]
@@ -79,7 +75,7 @@ def bind(
         skeleton, (vertices + lift).astype(np.float32), mesh.triangles, uv, bones.astype(np.uint8), weights, texture
     )
     pictured = Clip("pictured", 30.0, turns[None].astype(np.float32), root[None].astype(np.float32))
-    return Character(bound, pictured, eye, tile)
+    return Character(bound, pictured, eye)
 
 
 def at_rest(
@@ -87,9 +83,10 @@ def at_rest(
     bones: NDArray[np.integer],
     weights: NDArray[np.float32],
     transforms: NDArray[np.floating],
-) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    """The way back from a pose: vertices (V, 3) at rest which the joints' transforms (J, 4, 4) bring to `posed` (V, 3), and the
-    weights (V, 4) by which they do: some are changed where there is no way back (`LEAST_VOLUME`)."""
+) -> tuple[NDArray[np.float64], NDArray[np.float32], NDArray[np.float64]]:
+    """The way back from a pose: vertices (V, 3) at rest which the joints' transforms (J, 4, 4) bring to `posed` (V, 3); the
+    weights (V, 4) by which they do: some are changed where there is no way back (`LEAST_VOLUME`); and what these blend
+    for each vertex, (V, 4, 4)."""
     turned = transforms.astype(np.float64)
     blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), turned[bones])
     crushed = np.linalg.det(blended[:, :3, :3]) < LEAST_VOLUME
@@ -97,7 +94,7 @@ def at_rest(
     kept[crushed] = [1, 0, 0, 0]
     blended[crushed] = turned[bones[crushed, 0]]
     back = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
-    return np.asarray(back), kept
+    return np.asarray(back), kept, blended
 
 
 def _feet(mesh: ClosedMesh, names: Sequence[str]) -> NDArray[np.intp]:

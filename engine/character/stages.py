@@ -10,13 +10,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.body.parts import PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.face_region import face_ellipse
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import turn_head
-from engine.character.labels import PARTS
 from engine.character.layers import Labels, build_layers, label_parts
 from engine.character.measures import pose
 from engine.character.options import LabelStroke
@@ -126,10 +126,9 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
     texture, uv = atlas(tiles, mesh, 0)
-    tile = tiles.body.shape[1] / texture.shape[1]
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
-    character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv, tile)
+    character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv)
     return relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
 
 

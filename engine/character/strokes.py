@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import PARTS
+from engine.body.parts import PARTS
 from engine.character.options import LabelStroke, MaskStroke
 from engine.errors import InputError
 from engine.media.image import read_image

@@ -13,7 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import PARTS, complete_labels
+from engine.body.parts import PARTS
+from engine.character.labels import complete_labels
 from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture

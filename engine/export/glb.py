@@ -7,14 +7,14 @@ in the comments.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pygltflib as gl
 from numpy.typing import NDArray
-from PIL import Image
 
 from engine.export.animation_tracks import tracks
 from engine.export.gltf_buffer import Buffer
@@ -28,6 +28,20 @@ from engine.motion.skeleton import Skeleton
 COVERAGE = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""
 
+QUALITY = 90
+"""Of a texture's JPEG, 1 to 100."""
+TIGHTER = ((1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
+"""How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """A file of `size` bytes, whose texture is so many times `smaller` than the mesh's, a JPEG of this `quality`."""
+
+    size: int
+    smaller: int
+    quality: int
+
 
 def write_glb(
     path: Path,
@@ -35,11 +49,12 @@ def write_glb(
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = 90,
+    quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
-) -> None:
+    most: int | None = None,
+) -> Written:
     """Write a character; the file appears under its name when it is whole.
 
     Parameters
@@ -52,21 +67,44 @@ def write_glb(
     levels : coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail
         show `mesh`. Their textures are not used.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
+    most : bytes that the file should have at most, levels included: its texture is written as mildly `TIGHTER` as that
+        takes. Where no texture is small enough it stays as it is, and the file is larger.
 
     Raises ValueError where clips or levels do not fit the skeleton, or two clips have one name.
     """
-    gltf = build_glb(mesh, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
-    save_glb(path, gltf)
+
+    def packed(smaller: int, quality: int) -> bytes:
+        own = replace(mesh, texture=_reduced(mesh.texture, smaller))
+        gltf = build_glb(own, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
+        return b"".join(gltf.save_to_bytes())
+
+    how = (1, quality)
+    data = packed(*how)
+    if most is not None and len(data) > most:
+        for tighter in TIGHTER:
+            if len(fitting := packed(*tighter)) <= most:
+                how, data = tighter, fitting
+                break
+    save_glb(path, data)
+    return Written(len(data), *how)
 
 
-def save_glb(path: Path, gltf: gl.GLTF2) -> None:
-    """Write what `build_glb` made; the file appears under its name when it is whole."""
+def save_glb(path: Path, data: bytes) -> None:
+    """Write a file that appears under its name when it is whole."""
     draft = path.with_name(f".{path.name}.draft")
     try:
-        draft.write_bytes(b"".join(gltf.save_to_bytes()))
+        draft.write_bytes(data)
         draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def _reduced(texture: NDArray[np.uint8], smaller: int) -> NDArray[np.uint8]:
+    """The texture so many times smaller; what lies where on it stays so."""
+    if smaller == 1:
+        return texture
+    size = (max(1, texture.shape[1] // smaller), max(1, texture.shape[0] // smaller))
+    return np.asarray(cv2.resize(texture, size, interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def build_glb(
@@ -74,7 +112,7 @@ def build_glb(
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = 90,
+    quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
@@ -155,9 +193,10 @@ def _add_material(
 
 def jpeg(texture: NDArray[np.uint8], quality: int, synthetic: bool) -> bytes:
     """A texture as JPEG, its colours at full resolution: neighbours in an atlas must not bleed into each other."""
-    packed = io.BytesIO()
-    Image.fromarray(texture).save(packed, "JPEG", quality=quality, subsampling=0, optimize=True)
-    return marked_jpeg(packed.getvalue()) if synthetic else packed.getvalue()
+    settings = [cv2.IMWRITE_JPEG_QUALITY, quality, cv2.IMWRITE_JPEG_OPTIMIZE, 1]
+    settings += [cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444]
+    _, packed = cv2.imencode(".jpg", cv2.cvtColor(texture, cv2.COLOR_RGB2BGR), settings)
+    return marked_jpeg(packed.tobytes()) if synthetic else packed.tobytes()
 
 
 def _add_mesh(gltf: gl.GLTF2, buffer: Buffer, mesh: SkinnedMesh, name: str, level: int) -> int:

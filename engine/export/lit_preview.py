@@ -5,7 +5,7 @@ Nothing else needs it: the project's own rasteriser (`engine.render.character`) 
 
 from __future__ import annotations
 
-import ctypes.util
+import ctypes
 import os
 from types import ModuleType, TracebackType
 from typing import Any, Self
@@ -21,6 +21,10 @@ from engine.render.surface import vertex_normals
 
 NEAR, FAR = 0.05, 100.0
 """Metres from the camera between which things are seen."""
+
+PLATFORMS = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6")}
+"""PyOpenGL's ways to draw without a screen, and a library of which each takes one. They are loaded by name: what looks for
+libraries starts programs, and a job may start none."""
 
 KEY, FILL = 4.0, 1.5
 """Strength of the light from above the camera's left, which casts shadows, and of the one opposite."""
@@ -39,8 +43,10 @@ class LitPreview:
         self._gl = _load()
         self._mesh = mesh
         self._size = size
+        # four bytes to a pixel: OpenGL begins each row at a multiple of four, and pyrender does not
+        texture = np.pad(mesh.texture, ((0, 0), (0, 0), (0, 1)), constant_values=255)
         self._material = self._gl.MetallicRoughnessMaterial(
-            baseColorTexture=self._gl.Texture(source=mesh.texture, source_channels="RGB"),
+            baseColorTexture=self._gl.Texture(source=texture, source_channels="RGBA"),
             metallicFactor=0.0,
             roughnessFactor=0.8,
         )
@@ -122,12 +128,10 @@ def _load() -> ModuleType:
     """`pyrender`, told where its OpenGL is; which has to happen before its first import."""
     os.environ.setdefault("PYGLET_HEADLESS", "1")
     if "PYOPENGL_PLATFORM" not in os.environ:
-        for platform, library in (("egl", "EGL"), ("osmesa", "OSMesa")):
-            if ctypes.util.find_library(library):
-                os.environ["PYOPENGL_PLATFORM"] = platform
-                break
-        else:
+        platform = next((name for name, libraries in PLATFORMS.items() if any(map(_loads, libraries))), None)
+        if platform is None:
             raise _unavailable()
+        os.environ["PYOPENGL_PLATFORM"] = platform
     if not hasattr(np, "infty"):  # numpy 2 took it away, pyrender 0.1.45 asks for it
         np.infty = np.inf  # type: ignore[attr-defined]
     try:
@@ -135,6 +139,14 @@ def _load() -> ModuleType:
     except Exception as error:  # PyOpenGL fails in many ways where a library is missing
         raise _unavailable() from error
     return pyrender
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
 
 
 def _unavailable() -> InputError:

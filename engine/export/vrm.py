@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engine.export.glb import build_glb, joint_names, save_glb
+from engine.export.glb import QUALITY, build_glb, joint_names, save_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
@@ -74,7 +74,7 @@ def write_vrm(
     meta: VrmMeta,
     clips: Sequence[Clip] = (),
     *,
-    quality: int = 90,
+    quality: int = QUALITY,
     synthetic: bool = True,
 ) -> None:
     """Write a character as VRM 1.0; the file appears under its name when it is whole.
@@ -98,7 +98,7 @@ def write_vrm(
         }
     }
     gltf.extensionsUsed = [*gltf.extensionsUsed, "VRMC_vrm"]
-    save_glb(path, gltf)
+    save_glb(path, b"".join(gltf.save_to_bytes()))
 
 
 def human_bones(names: Sequence[str]) -> dict[str, dict[str, int]]:

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 import pytest
 
+from engine.body.parts import PARTS
 from engine.character.figure import Choice, Figure, find_figure
-from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
 from engine.character.pipeline import cut_all_out, find_figures, wake_up

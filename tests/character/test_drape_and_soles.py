@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from engine.body.parts import PARTS
 from engine.character.drape import drape
 from engine.character.free_cloth import ROUND, FreeCloth, free_cloth
-from engine.character.labels import PARTS
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
 from engine.character.skirt_weights import moved_by_both

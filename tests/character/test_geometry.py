@@ -11,11 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
+from engine.body.parts import PARTS
 from engine.body.skinning import pose_transforms, skin
 from engine.character.labels import (
-    PARTS,
     hair_beside_arms,
-    part_of_bone,
     refined_labels,
     rough_labels,
     without_specks,
@@ -23,7 +22,7 @@ from engine.character.labels import (
 from engine.character.occlusion import completed, largest
 from engine.character.part_surface import Surface, outline, part_surface, warp_part
 from engine.character.picture_space import PictureCamera
-from engine.character.rigging import bind
+from engine.character.rigging import at_rest, bind
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
@@ -163,7 +162,7 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     fitted = FittedBody(fit, 100.0, (32, 32), kept)
     nowhere = np.zeros((64, 64), np.bool_)  # where undersides of feet would be hidden
     character = bind(
-        mesh, nowhere, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32), 1.0
+        mesh, nowhere, camera, fitted, space, np.zeros((4, 4, 3), np.uint8), np.zeros((len(bones), 2), np.float32)
     )
     bound, pictured = character.mesh, character.pictured
     transforms = pose_transforms(bound.skeleton, pictured.rotations, pictured.root)[0]
@@ -171,17 +170,26 @@ def test_posed_as_pictured_the_vertices_are_where_they_were(held: tuple[str, ...
     np.testing.assert_allclose(posed, camera.to_metres(mesh.vertices) + character.eye, atol=2e-4)
     assert abs(bound.vertices[:, 1].min()) < 1e-5, "the T-pose stands on the ground"
     plain = FittedBody(fit, 100.0, (32, 32), np.zeros_like(kept))
-    straight = bind(mesh, nowhere, camera, plain, space, bound.texture, bound.uv, 1.0)
+    straight = bind(mesh, nowhere, camera, plain, space, bound.texture, bound.uv)
     places = [joint_places(one.mesh.skeleton, one.pictured)[0] for one in (character, straight)]
     np.testing.assert_allclose(*places, atol=1e-4)
     np.testing.assert_allclose(pictured.rotations[0, kept], np.tile([0, 0, 0, 1], (len(held), 1)), atol=1e-6)
 
 
-def test_bones_belong_to_parts() -> None:
-    assert PARTS[part_of_bone("LeftHandIndex2")] == "left_arm"
-    assert PARTS[part_of_bone("RightToeBase")] == "right_leg"
-    assert PARTS[part_of_bone("Neck")] == "head"
-    assert PARTS[part_of_bone("LeftShoulder")] == "torso"
+def test_what_brings_vertices_back_is_what_their_weights_blend() -> None:
+    """Also where blended turns would crush a vertex, and it goes with one joint alone."""
+    random = np.random.default_rng(8)
+    transforms = np.tile(np.eye(4), (6, 1, 1))
+    transforms[:, :3, :3] = Rotation.random(6, random_state=3).as_matrix()
+    transforms[:, :3, 3] = random.normal(size=(6, 3))
+    bones, posed = random.integers(0, 6, (500, 4)), random.normal(size=(500, 3))
+    weights = -np.sort(-random.dirichlet(np.ones(4), 500).astype(np.float32), 1)
+    vertices, kept, blended = at_rest(posed, bones, weights, transforms)
+    alone = (kept == [1, 0, 0, 0]).all(1)
+    assert 50 < alone.sum() < 450
+    np.testing.assert_array_equal(blended, np.einsum("vk,vkij->vij", kept.astype(np.float64), transforms[bones]))
+    back = np.einsum("vij,vj->vi", blended[:, :3, :3], vertices) + blended[:, :3, 3]
+    np.testing.assert_allclose(back, posed, atol=1e-9)
 
 
 def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:

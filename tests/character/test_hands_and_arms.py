@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from engine.body.parts import PARTS
 from engine.character.figure import Figure
-from engine.character.labels import PARTS
 from engine.character.silhouette import NEAR, _seen
 from engine.character.stages import hand_labels
 from engine.character.template_fit import BEFORE, _arms_before_the_trunk

@@ -9,8 +9,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from engine.body.parts import PARTS
 from engine.character.figure import Choice, find_figure
-from engine.character.labels import PARTS
 from engine.character.layers import (
     BENEATH,
     FOREARM,

@@ -37,8 +37,8 @@ def torn() -> Character:
     shown = skin(mesh.vertices, mesh.bones, mesh.weights, transforms).astype(np.float64)
     alone = np.zeros_like(mesh.weights)
     alone[:, 0] = 1
-    vertices, weights = at_rest(shown, mesh.bones.astype(np.intp), alone, transforms)
-    return Character(replace(mesh, vertices=vertices.astype(np.float32), weights=weights), pictured, np.zeros(3), 0.5)
+    vertices, weights, _ = at_rest(shown, mesh.bones.astype(np.intp), alone, transforms)
+    return Character(replace(mesh, vertices=vertices.astype(np.float32), weights=weights), pictured, np.zeros(3))
 
 
 def test_edges_that_tore_stretch_no_more(torn: Character) -> None:
@@ -62,7 +62,7 @@ def test_what_stretches_nowhere_stays_as_it_is() -> None:
     one = replace(
         mesh, bones=np.zeros_like(mesh.bones), weights=np.eye(1, 4, dtype=np.float32).repeat(len(mesh.bones), 0)
     )
-    stiff = Character(one, arms_down(mesh), np.zeros(3), 0.5)
+    stiff = Character(one, arms_down(mesh), np.zeros(3))
     eased = relaxed(stiff)
     np.testing.assert_array_equal(eased.mesh.weights, one.weights)
     np.testing.assert_allclose(eased.mesh.vertices, one.vertices, atol=1e-6)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
+from engine.body.parts import PARTS
 from engine.character.face_region import face_within
-from engine.character.labels import PARTS
 from engine.character.layers import Labels
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close

@@ -87,12 +87,15 @@ def test_nobody_is_left_in_the_background(woken: Path, picture: Path) -> None:
 
 
 def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path, tmp_path: Path) -> None:
-    out = wake_up(picture, tmp_path / "out", seconds=1, motion="wave", pose={"LeftArm": (0, 0, 90)}, keep=("legs",))
+    turned = {"LeftArm": (0, 0, 90)}
+    out = wake_up(picture, tmp_path / "out", seconds=1, motion="wave", pose=turned, keep=("legs",), lit=True)
     raised = np.abs(read_image(out / "posed.png").rgb.astype(int) - read_image(woken / "posed.png").rgb).sum(-1) > 60
     columns = np.nonzero(raised)[1]
     middle = raised.shape[1] / 2
     assert raised.sum() > 500
     assert np.median(columns) > middle, "the person's left is on the picture's right"
+    warned = [warning["code"] for warning in json.loads((out / "report.json").read_text())["warnings"]]
+    assert warned == ([] if (out / "lit.png").exists() else ["gl_unavailable"])
 
 
 def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_path: Path) -> None:

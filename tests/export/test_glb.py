@@ -1,5 +1,7 @@
 """GLB files against the specification: judged by Khronos' validator, read back and posed by other means than ours."""
 
+import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +12,7 @@ from PIL import Image
 from template_character import still, template_character, walk
 
 from engine.body.skinning import pose_transforms, skin
-from engine.export.glb import write_glb
+from engine.export.glb import QUALITY, TIGHTER, Written, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.edit import travel
 from engine.motion.library import CLIPS, built_in
@@ -142,6 +144,33 @@ def test_many_vertices_get_wide_indices(mesh: SkinnedMesh, tmp_path: Path) -> No
     write_glb(tmp_path / "many.glb", many)
     assert validate(tmp_path / "many.glb")["messages"] == []
     np.testing.assert_array_equal(Glb(tmp_path / "many.glb").triangles(), many.triangles)
+
+
+def test_noise_is_a_texture_like_any_other() -> None:
+    """Of more than a byte to a pixel; and no colour is shared with a neighbour."""
+    noise = np.random.default_rng(6).integers(0, 256, (256, 512, 3), np.uint8)
+    packed = jpeg(noise, QUALITY, synthetic=True)
+    assert len(packed) > noise.size / 3
+    with Image.open(io.BytesIO(packed)) as texture:
+        assert np.abs(np.asarray(texture).astype(int) - noise).mean() < 12
+
+
+def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: SkinnedMesh, tmp_path: Path) -> None:
+    noise = np.random.default_rng(5).integers(0, 256, (512, 1024, 3), np.uint8)
+    noisy, file = replace(mesh, texture=noise), tmp_path / "a.glb"
+    free = write_glb(file, noisy)
+    assert free == write_glb(file, noisy, most=free.size) == Written(file.stat().st_size, 1, 90)
+    before = free
+    for smaller, quality in TIGHTER:
+        written = write_glb(file, noisy, most=before.size - 1)
+        assert written == Written(file.stat().st_size, smaller, quality)
+        assert written.size < before.size
+        assert validate(file)["messages"] == []
+        glb = Glb(file)
+        with Image.open(io.BytesIO(glb.view(glb.json["images"][0]["bufferView"]))) as texture:
+            assert texture.size == (1024 // smaller, 512 // smaller)
+        before = written
+    assert write_glb(file, noisy, most=before.size - 1) == free, "not by the texture: it stays as it is"
 
 
 def test_what_does_not_fit_is_refused_and_leaves_no_file(mesh: SkinnedMesh, tmp_path: Path) -> None:

@@ -15,6 +15,8 @@ from running import Running
 
 from engine.character.sample import sample_picture
 
+OPTIONS = {"seconds": 1, "vrm": True, "lit": True}
+
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
@@ -42,10 +44,12 @@ def submitted(service: Running, **job: Any) -> dict[str, Any]:
 def test_a_picture_and_a_motion_become_a_character(service: Running, photo: str, media: Callable[[str], Path]) -> None:
     motion = uploaded(service, "jacks.bvh", media("mocap/cmu_jumping_jacks.bvh").read_bytes())
     assert motion["content_type"] == "text/x-bvh"
-    job = submitted(service, inputs={"photo": photo, "motion": motion["id"]}, options={"seconds": 1, "vrm": True})
+    job = submitted(service, inputs={"photo": photo, "motion": motion["id"]}, options=OPTIONS)
     assert job["error"] is None
     artifacts = job["artifacts"]
     assert {"character.glb", "character.usdz", "character.vrm", "animation.mp4", "posed.png"} <= set(artifacts)
+    warned = [one["code"] for one in service.client.get(artifacts["report.json"]["url"]).json()["warnings"]]
+    assert warned == ([] if "lit.png" in artifacts else ["gl_unavailable"]), "drawn behind the job's walls"
     assert artifacts["character.glb"]["content_type"] == "model/gltf-binary"
     assert service.client.get(artifacts["character.glb"]["url"]).content[:4] == b"glTF"
     correction = {"corrections": {"joints": {"LeftElbow": [300.0, 290.0]}}}

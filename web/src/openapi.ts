@@ -1442,6 +1442,11 @@ export interface components {
              */
             vrm_author?: string;
             /**
+             * @description Draw the character under lamps, too: lit.png. Takes OpenGL, which not every machine has.
+             * @default false
+             */
+            lit?: boolean;
+            /**
              * @description Accept a person who is cut off or hidden below the chest, and animate what is there.
              * @default false
              */

@@ -1,0 +1,44 @@
+"""A character's GLB keeps to its size, and the report says what that took."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from template_character import template_character
+
+from engine.character.pipeline import MOST_BYTES, write_small_glb
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.run import Run
+
+
+def noisy(height: int, width: int) -> SkinnedMesh:
+    noise = np.random.default_rng(7).integers(0, 256, (height, width, 3), np.uint8)
+    return replace(template_character(texture_size=64), texture=noise)
+
+
+@pytest.mark.parametrize(
+    ("height", "width", "warned"),
+    [
+        (1024, 2048, None),
+        (2048, 3072, "at JPEG quality 80"),
+        (4096, 4096, "1/2 of its width and height, at JPEG quality 90"),
+    ],
+)
+def test_a_texture_of_noise_is_made_to_fit(tmp_path: Path, height: int, width: int, warned: str | None) -> None:
+    run = Run()
+    write_small_glb(tmp_path / "character.glb", noisy(height, width), (), run)
+    assert (tmp_path / "character.glb").stat().st_size <= MOST_BYTES
+    assert [notice.code for notice in run.notices] == ["texture_reduced"] * (warned is not None)
+    assert all(warned is not None and warned in notice.message for notice in run.notices)
+
+
+def test_a_surface_that_is_too_large_by_itself_is_told_of(tmp_path: Path) -> None:
+    mesh = template_character(texture_size=64)
+    heavy = replace(mesh, triangles=np.tile(mesh.triangles, (80, 1)))
+    run = Run()
+    write_small_glb(tmp_path / "character.glb", heavy, (), run)
+    assert (tmp_path / "character.glb").stat().st_size > MOST_BYTES
+    assert [notice.code for notice in run.notices] == ["glb_too_large"]
