@@ -14,6 +14,7 @@ from engine.geometry.graph_cut import alpha_expansion, grid_edges
 PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 """Labels in order; the person's own left and right."""
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
+LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
 
 ROUGH_HEIGHT = 160
 """Pixels of height at which labels are found first."""
