@@ -1,7 +1,7 @@
 """The person taken apart: the body, and each arm that passes before it, each a surface with a front and a back.
 
 The paper's sections 4.2.2 and 4.2.3. Around the shoulder the arm and the body both have what is there, of the template and
-of the picture: as the arm is lifted, neither shows a gap.
+of the picture: as the arm is lifted, neither shows a gap. Beyond the paper, so is a leg that crosses before the other.
 """
 
 from __future__ import annotations
@@ -114,9 +114,10 @@ def label_parts(
         rough = np.where(known >= 0, known, rough)
         rough = hair_beside_arms(rgb, rough, projected, known)
         around = _occluded(rough, projected, rest).occlusion
-        rough = without_specks(refined_labels(rgb, rough, around), known)
+        rough = refined_labels(rgb, rough, around)
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
+        rough = without_specks(rough, known)
     labels = corrected(rough.astype(np.int8))
     return _occluded(labels, projected, rest, before(labels))
 
@@ -148,17 +149,17 @@ def _occluded(
 def build_layers(
     mask: NDArray[np.bool_], found: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None
 ) -> list[Layer]:
-    """The body first, its head by its `face` if there is one; then each arm that is apart and large enough."""
+    """The body first, its head by its `face` if there is one; then each limb that is apart and large enough."""
     apart = [int(arm) for arm in found.apart if largest(found.labels == arm).sum() >= LEAST]
     crossed = [limb for limb in apart if limb in LEGS]
     part = vertex_parts(rig)[template.triangles]
-    near = {arm: _near_shoulder(arm, template, rig, mask.shape) for arm in apart}
+    near = {arm: _near_joint(arm, template, rig, mask.shape) for arm in apart}
     of_body: NDArray[np.bool_] = np.asarray(~np.isin(part, apart)).any(1)  # type: ignore[assignment]
     for triangles, _ in near.values():
         of_body = np.asarray(of_body | triangles)
     arms = np.isin(found.labels, apart)
     before = np.isin(found.labels, crossed)
-    # at the hips' sides body and leg would both be seen
+    # at the sides of the hips one of body and leg alone is seen
     inner = cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
     limbs = {arm: _limb(arm, found, mask, template, near[arm][1], arms, part) for arm in apart}
     for leg in crossed:
@@ -168,19 +169,20 @@ def build_layers(
     body = largest(visible)
     sides = _sides(template, of_body, mask.shape)
     if apart:
-        joined = visible | (before & _bone(sum(LEGS) - crossed[0], template, part, mask.shape)) if crossed else visible
-        body = completed(joined, arms & ~lost, found.occlusion | before, sides.front.mask)
+        for leg in crossed:
+            visible = visible | (before & _bone(sum(LEGS) - leg, template, part, mask.shape))
+        body = completed(visible, arms & ~lost, found.occlusion | before, sides.front.mask)
         under = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
-        close = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
-        body = body | (arms & np.where(before, close, under))
+        beside = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+        body = body | (arms & np.where(before, beside, under))
         for _, pixels in near.values():
             body = largest(body | (arms & pixels & (inner | ~before)))
-    with_legs = of_body | np.asarray(np.isin(part, crossed)).any(1)
-    both_legs = _sides(template, with_legs, mask.shape) if crossed else sides
-    shown = np.where(both_legs.front.mask, part[:, 0][with_legs][both_legs.front.raster.triangle], -1)
-    cloth = (body | np.isin(found.labels, crossed)) & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
-    around_legs = free_cloth(cloth, shown, both_legs.front.depth, both_legs.back.depth, found.parting)
-    if crossed and around_legs and around_legs.hangs:  # one piece of cloth goes with both legs
+    clothed = np.asarray(of_body | np.isin(part, crossed).any(1))
+    whole = _sides(template, clothed, mask.shape) if crossed else sides
+    shown = np.where(whole.front.mask, part[:, 0][clothed][whole.front.raster.triangle], -1)
+    cloth = (body | before) & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
+    around_legs = free_cloth(cloth, shown, whole.front.depth, whole.back.depth, found.parting)
+    if crossed and around_legs and around_legs.hangs:  # what goes round both legs is one piece with them
         return build_layers(mask, replace(found, apart=np.setdiff1d(found.apart, crossed)), template, rig, face)
     parting = np.zeros_like(mask) if crossed else found.parting.copy()
     parting[: around_legs.rings[-1].row + 1 if around_legs else 0] = False
@@ -234,7 +236,7 @@ def _bone(leg: int, template: PosedTemplate, part: NDArray[np.intp], shape: Sequ
     return depth > FLESH * template.pixels_per_metre
 
 
-def _near_shoulder(
+def _near_joint(
     arm: int, template: PosedTemplate, rig: Rig, shape: Sequence[int]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder or a leg's hip."""
