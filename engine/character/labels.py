@@ -12,6 +12,7 @@ from engine.body.parts import PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
+LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
 
 ROUGH_HEIGHT = 160
 """Pixels of height at which labels are found first."""

@@ -1,7 +1,7 @@
 """The person taken apart: the body, and each arm that passes before it, each a surface with a front and a back.
 
 The paper's sections 4.2.2 and 4.2.3. Around the shoulder the arm and the body both have what is there, of the template and
-of the picture: as the arm is lifted, neither shows a gap.
+of the picture: as the arm is lifted, neither shows a gap. Beyond the paper, so is a leg that crosses before the other.
 """
 
 from __future__ import annotations
@@ -20,13 +20,14 @@ from engine.character.face_warp import Face, with_face
 from engine.character.free_cloth import free_cloth
 from engine.character.labels import (
     ARMS,
+    LEGS,
     complete_labels,
     hair_beside_arms,
     refined_labels,
     rough_labels,
     without_specks,
 )
-from engine.character.legs import LEGS_APART, cut_along, each_by_its_own
+from engine.character.legs import LEGS_APART, as_the_template, beside_the_other, cut_along, each_by_its_own, leg_before
 from engine.character.occlusion import completed, largest, occlusion_mask, occlusion_pixels, rest_places
 from engine.character.part_surface import Surface, part_surface, warp_part
 from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
@@ -35,10 +36,12 @@ from engine.character.skirt_weights import moved_by_both
 from engine.character.template_maps import SideMaps, side_maps, weights_at
 from engine.render.attributes import interpolate
 
-SHOULDER = 0.105
-"""Metres around the shoulder's joint in which arm and body overlap."""
+SHOULDER, HIP = 0.105, 0.125
+"""Metres around the joint in which arm or leg and the body overlap."""
 UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
+FLESH = 0.02
+"""Metres from the outline of the template's leg, within which it may be wider than the person's."""
 WHOLE = 0.9
 """Share of an arm in one piece, below which the other arm is taken to pass before it."""
 THIN = 0.5
@@ -77,8 +80,9 @@ class PosedTemplate:
 @dataclass(frozen=True)
 class Labels:
     """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
-    arms pass before others; `apart`: the arms that do; `parting` (h, w): where one leg touches the other and is not
-    joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket there, or behind other cloth, -1 elsewhere."""
+    limbs pass before others; `apart`: those that do, a leg that crosses before the other first, then arms; `parting`
+    (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
+    there, or behind other cloth, -1 elsewhere."""
 
     labels: NDArray[np.int8]
     occlusion: NDArray[np.bool_]
@@ -105,6 +109,10 @@ def label_parts(
     projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
     rest = interpolate(template.rest, template.triangles, seen.raster)
     hidden = np.full(mask.shape, -1, np.int8)
+
+    def before(labels: NDArray[np.integer]) -> int | None:
+        return leg_before(labels, template.joints, rig, template.pixels_per_metre)
+
     if given is not None:
         rough = complete_labels(mask, given)
     else:
@@ -113,13 +121,17 @@ def label_parts(
         rough = np.where(known >= 0, known, rough)
         rough = hair_beside_arms(rgb, rough, projected, known)
         around = _occluded(rough, projected, rest, hidden).occlusion
-        rough = without_specks(refined_labels(rgb, rough, around), known)
+        rough = refined_labels(rgb, rough, around)
+        if (leg := before(rough)) is not None:
+            rough = as_the_template(rough, projected, leg)
+        rough = without_specks(rough, known)
         for hand in at_hips:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:
                 rough = without_specks(with_hand_parted(rough, found, hand.arm), known)
                 hidden[found.hidden] = hand.arm
-    return _occluded(corrected(rough.astype(np.int8)), projected, rest, hidden)
+    labels = corrected(rough.astype(np.int8))
+    return _occluded(labels, projected, rest, hidden, before(labels))
 
 
 def _occluded(
@@ -127,8 +139,10 @@ def _occluded(
     projected: NDArray[np.integer],
     rest: NDArray[np.float32],
     hidden: NDArray[np.int8],
+    before: int | None = None,
 ) -> Labels:
-    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w)."""
+    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w); `before`: the leg that passes
+    before the other."""
     places = [rest_places(labels, part, projected, rest) for part in range(len(PARTS))]
     pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
     left, right = (PARTS.index(f"{side}_leg") for side in ("left", "right"))
@@ -136,10 +150,12 @@ def _occluded(
     for leg, other in ((left, right), (right, left)):
         only = [where if part in (left, right) else np.full_like(where, np.nan) for part, where in enumerate(places)]
         parting |= occlusion_pixels(np.where(np.isin(labels, (leg, other)), labels, -1), leg, only, LEGS_APART)
+    if before is not None:
+        pixels = {before: beside_the_other(labels, before)} | pixels
     return Labels(
         labels.astype(np.int8),
-        occlusion_mask(pixels[ARMS[0]] | pixels[ARMS[1]]),
-        np.array([arm for arm in ARMS if pixels[arm].any() or (hidden == arm).any()], np.int8),
+        occlusion_mask(np.logical_or.reduce(list(pixels.values()))),
+        np.array([limb for limb, where in pixels.items() if where.any() or (hidden == limb).any()], np.int8),
         parting,
         hidden,
     )
@@ -148,29 +164,42 @@ def _occluded(
 def build_layers(
     mask: NDArray[np.bool_], found: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None
 ) -> list[Layer]:
-    """The body first, its head by its `face` if there is one; then each arm that is apart and large enough."""
+    """The body first, its head by its `face` if there is one; then each limb that is apart and large enough."""
     apart = [int(arm) for arm in found.apart if largest(found.labels == arm).sum() >= LEAST]
+    crossed = [limb for limb in apart if limb in LEGS]
     part = vertex_parts(rig)[template.triangles]
-    near = {arm: _near_shoulder(arm, template, rig, mask.shape) for arm in apart}
+    near = {arm: _near_joint(arm, template, rig, mask.shape) for arm in apart}
     of_body: NDArray[np.bool_] = np.asarray(~np.isin(part, apart)).any(1)  # type: ignore[assignment]
     for triangles, _ in near.values():
         of_body = np.asarray(of_body | triangles)
     arms = np.isin(found.labels, apart)
+    before = np.isin(found.labels, crossed)
+    # at the sides of the hips one of body and leg alone is seen
+    inner = cv2.erode(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
     limbs = {arm: _limb(arm, found, mask, template, near[arm][1], arms, part) for arm in apart}
+    for leg in crossed:
+        limbs[leg] = largest(limbs[leg] & (inner | before))
     lost = arms & ~np.logical_or.reduce([np.zeros_like(mask), *limbs.values()])
     visible = mask & (~arms | lost)
     body = largest(visible)
     sides = _sides(template, of_body, mask.shape)
     if apart:
-        body = completed(visible, arms & ~lost, found.occlusion, sides.front.mask)
+        for leg in crossed:
+            visible = visible | (before & _bone(sum(LEGS) - leg, template, part, mask.shape))
+        body = completed(visible, arms & ~lost, found.occlusion | before, sides.front.mask)
         under = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=UNDER) > 0
-        body = body | (arms & under)
+        beside = cv2.dilate(body.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+        body = body | (arms & np.where(before, beside, under))
         for _, pixels in near.values():
-            body = largest(body | (arms & pixels))
-    shown = np.where(sides.front.mask, part[:, 0][of_body][sides.front.raster.triangle], -1)
-    cloth = body & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
-    around_legs = free_cloth(cloth, shown, sides.front.depth, sides.back.depth, found.parting)
-    parting = found.parting.copy()
+            body = largest(body | (arms & pixels & (inner | ~before)))
+    clothed = np.asarray(of_body | np.isin(part, crossed).any(1))
+    whole = _sides(template, clothed, mask.shape) if crossed else sides
+    shown = np.where(whole.front.mask, part[:, 0][clothed][whole.front.raster.triangle], -1)
+    cloth = (body | before) & ~np.isin(found.labels, [arm for arm in ARMS if arm not in apart])
+    around_legs = free_cloth(cloth, shown, whole.front.depth, whole.back.depth, found.parting)
+    if crossed and around_legs and around_legs.hangs:  # what goes round both legs is one piece with them
+        return build_layers(mask, replace(found, apart=np.setdiff1d(found.apart, crossed)), template, rig, face)
+    parting = np.zeros_like(mask) if crossed else found.parting.copy()
     parting[: around_legs.rings[-1].row + 1 if around_legs else 0] = False
     trunk = _layer(body, sides, rig, cut_along(found.labels, parting), face)
     trunk = each_by_its_own(trunk, found.labels, parting, rig)
@@ -182,6 +211,8 @@ def build_layers(
         limb = _put_in(_layer(reached, both, rig), layers[0], found.hidden == arm)
         own = found.labels == arm
         layers[0] = _behind(layers[0], limb, own)
+        if arm in LEGS:
+            layers[0] = _within(layers[0], limb, own & near[arm][1])
         layers.append(_sunk(_before(limb, layers[0], own), layers[0], own))
     return layers
 
@@ -212,15 +243,25 @@ def _limb(
     return largest(seen | (found.hidden == arm))
 
 
-def _near_shoulder(
+def _bone(leg: int, template: PosedTemplate, part: NDArray[np.intp], shape: Sequence[int]) -> NDArray[np.bool_]:
+    """The pixels (h, w) surely inside of a leg of the template, whatever is before it: what joins the leg's pieces. Its outline
+    is left to what is seen above and below."""
+    whole = side_maps(template.vertices, template.triangles[(part == leg).all(1)], (shape[0], shape[1]), "front").mask
+    depth = np.asarray(cv2.distanceTransform(whole.astype(np.uint8), cv2.DIST_L2, 5))
+    return depth > FLESH * template.pixels_per_metre
+
+
+def _near_joint(
     arm: int, template: PosedTemplate, rig: Rig, shape: Sequence[int]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder."""
-    joint = rig.index("LeftArm" if PARTS[arm] == "left_arm" else "RightArm")
-    close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < SHOULDER
+    """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder or a leg's hip."""
+    side = "Left" if PARTS[arm].startswith("left") else "Right"
+    bone, reach = ("Arm", SHOULDER) if arm in ARMS else ("UpLeg", HIP)
+    joint = rig.index(f"{side}{bone}")
+    close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < reach
     y, x = np.mgrid[: shape[0], : shape[1]]
     distance = np.hypot(x - template.joints[joint, 0], y - template.joints[joint, 1])
-    return close[template.triangles].all(1), distance < SHOULDER * template.pixels_per_metre
+    return close[template.triangles].all(1), distance < reach * template.pixels_per_metre
 
 
 @dataclass(frozen=True)
@@ -291,6 +332,13 @@ def _behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     front = body.front.depth.copy()
     front[hidden] = np.clip(reach, body.back.depth + THIN * (front - body.back.depth), front)[hidden]
     return replace(body, mask=mask, front=Surface(front, body.front.weights))
+
+
+def _within(body: Layer, limb: Layer, shared: NDArray[np.bool_]) -> Layer:
+    """The body with its back, too, beneath the limb's where both have the hip (`shared` (h, w))."""
+    inside = np.clip(limb.back.depth + BENEATH, body.back.depth, body.front.depth - 2 * THINNEST)
+    back = np.where(shared & body.mask & limb.mask, inside, body.back.depth)
+    return replace(body, back=Surface(back, body.back.weights))
 
 
 def _before(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
-from engine.character.labels import complete_labels
+from engine.character.labels import LEGS, complete_labels
 from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
@@ -146,8 +146,8 @@ def _behind_the_arms(
     own: NDArray[np.bool_],
     face: NDArray[np.floating] | None,
 ) -> NDArray[np.uint8]:
-    """The body (h, w, 3) where `arms` (h, w) hide it: the head is filled from the head without its face, all else from all
-    else, so that no dress is made of hair."""
+    """The body (h, w, 3) where `arms` (h, w) hide it: the head is filled from the head without its face, a leg behind the
+    other from that leg, all else from all else, so that no dress is made of hair."""
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
@@ -156,7 +156,8 @@ def _behind_the_arms(
     shown = own & ~arms
     if face is not None:
         shown &= ~(head & _ellipse(face, shown.shape))
-    for part in (head, ~head):
+    leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
+    for part in (head, leg, ~head & ~leg):
         body = _filled(body, arms & own & part, shown & part)
     return continued_colours(body, own)
 

@@ -1,0 +1,116 @@
+"""Legs that cross: which is before, and the other made where it is hidden. The template stands for the person, so that all is
+known of what nobody sees."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from engine.body.fitting import COEFFICIENTS, Fit
+from engine.character.labels import PARTS, vertex_parts
+from engine.character.layers import PosedTemplate, build_layers, label_parts
+from engine.character.legs import as_the_template, leg_before
+from engine.character.sheets import close
+from engine.character.template_fit import FittedBody, load_human, pose_template
+from engine.character.template_maps import side_maps
+from engine.geometry.welding import is_closed
+
+SIZE = (448, 260)
+LEFT, RIGHT = PARTS.index("left_leg"), PARTS.index("right_leg")
+ARMS_DOWN = {"LeftArm": (0, 0, -60), "RightArm": (0, 0, 60)}
+AT_THE_KNEES = {"LeftUpLeg": (-14, 0, -16), "LeftLeg": (14, 0, -4), "RightUpLeg": (2, 0, 10)}
+AT_THE_SHINS = {"RightUpLeg": (-9, 0, 13), "RightLeg": (4, 0, 0), "LeftUpLeg": (5, 0, -7), "LeftLeg": (6, 0, 0)}
+
+
+def standing(turns: dict[str, tuple[int, int, int]]) -> PosedTemplate:
+    human = load_human()
+    rotations = np.broadcast_to(np.eye(3, dtype=np.float32), (len(human.rig.names), 3, 3)).copy()
+    for joint, degrees in (ARMS_DOWN | turns).items():
+        rotations[human.rig.index(joint)] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
+    place = np.array([0, 0.05, -3.0], np.float32)
+    fit = Fit(np.zeros(COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
+    fitted = FittedBody(fit, 660.0, (SIZE[1] / 2, SIZE[0] / 2), np.zeros(len(rotations), np.bool_))
+    return pose_template(fitted, fitted.camera(), human)
+
+
+def leg_of(template: PosedTemplate, leg: int) -> np.ndarray:
+    """A leg's triangles."""
+    part = vertex_parts(load_human().rig)[template.triangles]
+    return template.triangles[(part == leg).all(1)]
+
+
+@pytest.mark.parametrize("worn", [0, 4], ids=["bare", "in trousers"])
+@pytest.mark.parametrize(
+    ("turns", "before", "behind"), [(AT_THE_KNEES, LEFT, RIGHT), (AT_THE_SHINS, RIGHT, LEFT)], ids=["knees", "shins"]
+)
+def test_the_leg_behind_goes_on_where_it_is_hidden(
+    turns: dict[str, tuple[int, int, int]], before: int, behind: int, worn: int
+) -> None:
+    human, template = load_human(), standing(turns)
+    mask = side_maps(template.vertices, template.triangles, SIZE, "front").mask
+    mask = cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=worn) > 0
+    rgb = np.where(mask[..., None], [60, 60, 90], [200, 200, 200]).astype(np.uint8)
+    found = label_parts(rgb, mask, template, human.rig)
+    assert before in found.apart and behind not in found.apart
+
+    own = [side_maps(template.vertices, leg_of(template, behind), SIZE, side) for side in ("front", "back")]
+    other = side_maps(template.vertices, leg_of(template, before), SIZE, "front")
+    hidden = own[0].mask & other.mask & (other.depth > own[0].depth)
+    assert hidden.sum() > 500
+    layers = build_layers(mask, found, template, human.rig)
+    body, leg = layers[0], layers[1]
+    # between hip, where the leg goes over into the trunk, and sole
+    rows = np.arange(int(template.joints[human.rig.index("LeftLeg"), 1]), SIZE[0])
+    hidden[: rows[0]] = False
+    assert (body.mask & hidden).sum() > 0.95 * hidden.sum()
+    shared = body.mask & leg.mask & hidden
+    assert (body.front.depth > body.back.depth)[shared].all(), "it has a front and a back"
+    assert np.mean((leg.front.depth > body.front.depth)[shared]) > 0.99, "behind the other"
+
+    mesh = close(layers, mask.astype(np.float32))
+    _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
+    assert is_closed(point.ravel()[mesh.triangles])
+    y, x = np.nonzero(hidden)
+    truth = np.concatenate([np.stack([x, y, side.depth[y, x]], 1) for side in own])
+    near = hidden[tuple(np.clip(np.rint(mesh.vertices[:, 1::-1]), 0, np.array(SIZE) - 1).astype(int).T)]
+    made = mesh.vertices[near & (mesh.layer == 0)]
+    ways = [cKDTree(a).query(b)[0].mean() / template.pixels_per_metre for a, b in ((made, truth), (truth, made))]
+    assert np.mean(ways) < 0.03
+
+    moving = np.zeros(len(human.rig.names), np.bool_)
+    side = "Left" if before == LEFT else "Right"
+    moving[[k for k, name in enumerate(human.rig.names) if name.startswith(side)]] = True
+    for surface in (body.front, body.back):
+        assert surface.weights[hidden & body.mask][:, moving].sum(1).max() < 0.05, "the other leg does not move it"
+
+
+def test_legs_that_stand_side_by_side_do_not_cross() -> None:
+    rig, template = load_human().rig, standing({})
+    labels = np.full(SIZE, LEFT)
+    assert leg_before(labels, template.joints, rig, template.pixels_per_metre) is None
+
+
+def test_the_leg_before_is_the_one_that_is_seen_where_they_cross() -> None:
+    rig, template = load_human().rig, standing(AT_THE_KNEES)
+    for leg in (LEFT, RIGHT):
+        labels = np.full(SIZE, leg)
+        assert leg_before(labels, template.joints, rig, template.pixels_per_metre) == leg
+    nothing = np.full(SIZE, -1)
+    assert leg_before(nothing, template.joints, rig, template.pixels_per_metre) is None
+
+
+def test_trousers_of_the_leg_before_hide_as_much_as_they_stand_off() -> None:
+    """Two upright legs side by side, the one before 4 pixels wider than the template on its free side."""
+    template = np.full((60, 60), -1)
+    template[:, 20:30], template[:, 30:40] = LEFT, RIGHT
+    labels = np.full((60, 60), -1)
+    labels[:, 16:30], labels[:, 30:44] = LEFT, RIGHT
+    found = as_the_template(labels, template, LEFT)
+    assert (found[:, 16:34] == LEFT).all()
+    assert (found[:, 34:44] == RIGHT).all()
+    assert (found[labels < 0] == -1).all()
+    bare = np.where(template >= 0, labels, -1)
+    np.testing.assert_array_equal(as_the_template(bare, template, LEFT)[:, 32:40], bare[:, 32:40])
