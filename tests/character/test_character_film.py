@@ -26,7 +26,7 @@ DARK = GroundShadow(strength=0.6)
 def character() -> Character:
     """Somebody in red, four metres from the camera."""
     mesh = replace(template_character(texture_size=16), texture=np.full((16, 16, 3), RED, np.uint8))
-    return Character(mesh, still(mesh.skeleton), np.array([0.0, 1.0, 4.0]), 0.5)
+    return Character(mesh, still(mesh.skeleton), np.array([0.0, 1.0, 4.0]))
 
 
 def filmed(character: Character, move: Move, shadow: GroundShadow = DARK) -> np.ndarray:

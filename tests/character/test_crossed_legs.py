@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting import COEFFICIENTS, Fit
-from engine.character.labels import PARTS, vertex_parts
+from engine.body.parts import PARTS, vertex_parts
 from engine.character.layers import PosedTemplate, build_layers, label_parts
 from engine.character.legs import as_the_template, leg_before
 from engine.character.sheets import close

@@ -18,7 +18,7 @@ TIPTOE = {f"{side}Foot": (40.0, 0.0, 0.0) for side in ("Left", "Right")}
 @pytest.fixture(scope="module")
 def character() -> Character:
     mesh = template_character(texture_size=16)
-    return Character(mesh, still(mesh.skeleton), np.array([0.0, 1.0, 4.0]), 0.5)
+    return Character(mesh, still(mesh.skeleton), np.array([0.0, 1.0, 4.0]))
 
 
 @pytest.mark.parametrize(("turned", "way"), [(CROUCHED, -1), (TIPTOE, 1), ({"LeftUpLeg": (-80.0, 0.0, 0.0)}, 0)])
