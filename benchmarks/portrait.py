@@ -20,16 +20,12 @@ TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", 
 def main() -> None:
     """Read the command line and print the tables asked for."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("what", nargs="?", default="all", choices=(*TABLES, "all", "floor"))
-    parser.add_argument("paths", nargs="*", type=Path, help="floor alone: the clip, and where the encoded one goes")
+    parser.add_argument("what", nargs="?", default="all", choices=(*TABLES, "all"))
     parser.add_argument("--clips", nargs="+", default=[], metavar="NAME", help="driving clips by part of their name")
     parser.add_argument("--repeats", type=int, default=3, help="speed: how often each case is timed (default 3)")
     parser.add_argument("--frames", type=int, default=100, help="speed: frames of the clip (default 100)")
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="keep contact sheets here")
     given = parser.parse_args()
-    if given.what == "floor":
-        portrait_speed.floor(*given.paths)
-        return
     print(f"Taken on {machine()}")
     for name in TABLES if given.what == "all" else (given.what,):
         if name == "speed":

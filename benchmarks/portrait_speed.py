@@ -20,7 +20,6 @@ from benchmarks.tables import table
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
-from engine.perception.faces import FaceTracker
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, animate_portrait
 from engine.run import Run
@@ -38,15 +37,6 @@ def speed(repeats: int, frames: int) -> None:
         image, clip = portrait(folder), _clip(folder, frames)
         _warm(image, clip, folder, repeats, frames)
         _processes(image, clip, folder, repeats, frames)
-
-
-def floor(clip: Path, out: Path) -> None:
-    """The least that any such system does: decode, follow the face, encode."""
-    info = probe_video(clip)
-    with FaceTracker() as tracker, VideoWriter(out, (info.width, info.height), info.fps) as writer:
-        for frame in read_video(clip):
-            tracker(frame.rgb)
-            writer.write(frame.rgb)
 
 
 def portrait(folder: Path) -> Path:
@@ -118,7 +108,7 @@ def _processes(image: Path, clip: Path, folder: Path, repeats: int, frames: int)
         return _timed([*command, "-o", str(folder / "shell")], {"GALATEA_DATA_DIR": str(data)})
 
     def lowest() -> float:
-        return _timed([sys.executable, "-m", "benchmarks.portrait", "floor", str(clip), str(folder / "floor.mp4")], {})
+        return _timed([sys.executable, "-m", "benchmarks.floor", str(clip), str(folder / "floor.mp4")], {})
 
     lowest()  # fills the caches of files and of compiled code
     galatea(folder / "known")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from engine.performances import names
 
@@ -12,6 +12,11 @@ Part = Literal["eyes", "mouth", "brows", "head"]
 PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
+
+
+def _named(follow: object) -> object:
+    """The parts, where they are not named one by one."""
+    return PARTS if follow in ("all", ["all"], ("all",)) else follow
 
 
 class PortraitOptions(BaseModel):
@@ -41,7 +46,9 @@ class PortraitOptions(BaseModel):
     strength: Annotated[float, Field(ge=0, le=2)] = Field(
         1.0, description="How strongly the motion is carried over; 1 is as the driver does it."
     )
-    follow: tuple[Part, ...] = Field(PARTS, description="Which parts follow the driver.")
+    follow: Annotated[tuple[Part, ...], BeforeValidator(_named)] = Field(
+        PARTS, description='Which parts follow the driver; `["all"]` stands for every one.'
+    )
     head_3d: bool = Field(
         True, description="Turn the head by a 3D proxy; false keeps to the paper's warp in the plane."
     )

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from made_face import driver, opened, placed, shut, smiling
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from engine.perception.landmarks import (
     FACE_OVAL,
@@ -59,6 +60,12 @@ def carried(folder: Path, in_space: bool, **options: object) -> ControlMotion:
     control = place_control_points(target, np.ones((300, 300), np.float32))
     proxy = build_head_proxy(control.points, target) if in_space else None
     return list(carry_motion(track, 0, target, control, proxy, PortraitOptions(**options)))[1]
+
+
+def test_all_parts_can_be_named_in_one_word() -> None:
+    assert PortraitOptions.model_validate({"follow": ["all"]}) == PortraitOptions()
+    with pytest.raises(ValidationError):
+        PortraitOptions.model_validate({"follow": ["all", "mouth"]})
 
 
 @pytest.mark.parametrize("in_space", [False, True])
