@@ -250,7 +250,7 @@ class Beside(Generic[T]):
     def once(self) -> T:
         """The output for its only user: it is not kept here any more."""
         output = self()
-        self.output = Future()
+        del self.output
         return output
 
 

@@ -83,7 +83,7 @@ def sample_portrait() -> Path:
 @contextmanager
 def service(folder: Path) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
     """A running service with nothing in it, on a free port of the loopback interface, and its address."""
-    data = folder / "data"
+    data = folder / "galatea-demo-data"
     shutil.rmtree(data, ignore_errors=True)
     data.mkdir(parents=True)
     address = f"http://127.0.0.1:{(port := free_port())}"

@@ -8,6 +8,7 @@ import importlib.util
 import json
 import os
 import platform
+import re
 import shutil
 import subprocess
 import sys
@@ -263,12 +264,18 @@ def _node() -> Iterator[Finding]:
     if node is None:
         yield Finding("warning", "Node is not installed", f"install {NODE} to build the page")
         return
-    version = subprocess.run([node, "--version"], capture_output=True, text=True, check=True).stdout.strip()  # noqa: S603
+    try:
+        asked = subprocess.run([node, "--version"], capture_output=True, text=True, timeout=10)  # noqa: S603
+        version = asked.stdout.strip()
+    except (OSError, subprocess.TimeoutExpired):
+        version = ""
     if not builds_the_page(version):
-        yield Finding("warning", f"Node {version} cannot build the page", f"install {NODE}")
+        yield Finding("warning", f"Node {version or 'does not run, and'} cannot build the page", f"install {NODE}")
 
 
 def builds_the_page(version: str) -> bool:
     """Whether Node `version`, such as `v20.19.0`, is one that `engines` of web/package.json allows."""
-    major, minor = (int(part) for part in version.removeprefix("v").split(".")[:2])
+    if (parts := re.match(r"v?(\d+)\.(\d+)", version)) is None:
+        return False
+    major, minor = map(int, parts.groups())
     return major > 22 or (major == 22 and minor >= 12) or (major == 20 and minor >= 19)

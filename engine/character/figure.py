@@ -51,7 +51,8 @@ LEAST_HEIGHT = 80
 @dataclass(frozen=True)
 class Choice:
     """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look, or which of those found, `index`, the largest first, who is meant where there is none, but not in a crowd; and joints `placed` by hand: name, x, y."""
+    look; or the `index` of those found, counted from the largest, None for the largest unless there is a crowd; and joints
+    `placed` by hand: name, x, y."""
 
     box: tuple[float, float, float, float] | None = None
     index: int | None = None

@@ -131,6 +131,7 @@ def label_parts(
                 rough = without_specks(with_hand_parted(rough, found, hand.arm), known)
                 hidden[found.hidden] = hand.arm
     labels = corrected(rough.astype(np.int8))
+    hidden[labels != rough] = -1  # whoever paints there has seen what is there
     return _occluded(labels, projected, rest, hidden, before(labels))
 
 

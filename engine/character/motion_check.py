@@ -17,6 +17,8 @@ from engine.kind import Given, Input, Kind
 from engine.run import Run, write_report
 
 STAGES = {"read": 4.0, "map_joints": 1.0}
+MOST_CLIPS = 1000
+"""Animations of a file that are told."""
 
 
 class MotionOptions(BaseModel):
@@ -48,7 +50,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     document = {
         **figures,
         "loops": checked.loops,
-        "clips": list(motion_clips(path)),
+        "clips": list(motion_clips(path)[:MOST_CLIPS]),
         "joints": [
             {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)
         ],

@@ -112,8 +112,9 @@ def paint_tiles(
     limbs = _filled(seen, _enlarged(arms_reach & ~arms, size), own & around) if arms.any() else seen
     if oval is not None and (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
-        hands = _enlarged(near & ~arms, size)
-        limbs[hands] = np.median(seen[_ellipse(oval, own.shape) & own], axis=0)
+        hands, skin = _enlarged(near & ~arms, size), _ellipse(oval, own.shape) & own
+        if skin.any():
+            limbs = np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), limbs)
     return Tiles(limbs, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
 
 

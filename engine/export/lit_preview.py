@@ -97,7 +97,10 @@ class LitPreview:
         scene.add(gl.DirectionalLight(intensity=KEY), pose=_aimed(axes, (-0.6, 0.9, 0.8), middle))
         scene.add(gl.DirectionalLight(intensity=FILL), pose=_aimed(axes, (0.9, 0.2, 0.5), middle))
         flags = gl.RenderFlags.RGBA | gl.RenderFlags.SHADOWS_DIRECTIONAL
-        rgba, _ = self._renderer.render(scene, flags=flags)
+        try:
+            rgba, _ = self._renderer.render(scene, flags=flags)
+        except Exception as error:  # OpenGL's own, where a driver lacks what shadows take
+            raise _unavailable() from error
         return _composed(np.asarray(rgba), background)
 
 

@@ -15,7 +15,8 @@ REACH = 0.75
 
 class OneFace:
     """Follows one face of a video, frame by frame: of those in the first frame that shows any, the `index`-th from the
-    largest on, 0 is the largest. `boxes` (F, 4) are those faces as x, y, width, height in pixels, the largest first.
+    largest on, 0 is the largest. `boxes` (F, 4) are those faces as x, y, width, height in pixels, the largest first. Where
+    there is one alone, whoever is seen when it has gone is taken for it.
 
     Use as a context manager.
     """
@@ -51,11 +52,11 @@ class OneFace:
 
     def _choose(self, rgb: NDArray[np.uint8], seen: list[NDArray[np.float32]]) -> list[NDArray[np.float32]]:
         """What a tracker of as many faces as there are sees, once it is known which one is meant."""
-        if self._index or several_faces(rgb):
+        if several := bool(self._index) or several_faces(rgb):
             seen = find_faces(rgb) or seen
         self.boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in seen], np.float32)
         self._last = seen[self._index]
-        if len(seen) == 1:
+        if not several:
             return seen
         self._among_others = True
         self._tracker.__exit__(None, None, None)

@@ -88,11 +88,11 @@ def carry_motion(
         if proxy is not None:
             around = correction(around, proxy.share[control.periphery], rim, motion, unit)
         expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
-        ratio = 1 + eyes * (lid_ratio(rest + motion.expression, rest) - 1)
-        acted = target + expression
-        keep_lips_off_skin(acted, target, lips_room(rest + motion.expression, rest))
+        upright, acted = rest + motion.expression, target + expression
+        ratio = 1 + eyes * (lid_ratio(upright, rest) - 1)
+        keep_lips_off_skin(acted, target, lips_room(upright, rest))
         expression = meet(acted, target, np.maximum(ratio, 0)) - target
-        look = eyes * gaze(rest + motion.expression, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        look = eyes * gaze(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         if proxy is None:
             frames = _in_plane(phi, motion, expression, around, target, control, head)
         else:

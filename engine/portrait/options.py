@@ -41,7 +41,8 @@ class PortraitOptions(BaseModel):
         0, description="Which face of the target, counted from the largest."
     )
     driver_face_index: Annotated[int, Field(ge=0)] = Field(
-        0, description="Which face of the driver, counted from the largest in the first frame that shows any."
+        0,
+        description="Which face of the driver, counted from the largest in the first frame that shows any. Not for `auto`, which compares the largest ones.",
     )
     strength: Annotated[float, Field(ge=0, le=2)] = Field(
         1.0, description="How strongly the motion is carried over; 1 is as the driver does it."

@@ -22,12 +22,10 @@ FOUND_AGAIN = 12.0
 WINDOW = (21, 21)
 COARSE, NEAR = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
-ENOUGH = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
-"""A match is found after so many steps, or when a step is shorter than so many working pixels."""
-
-
 FADE = 17
 """Frames over which a point that is lost, or found again, loses or gains its say."""
+ENOUGH = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
+"""A match is found after so many steps, or when a step is shorter than so many working pixels."""
 
 
 class PeripheryTracker:
@@ -59,19 +57,17 @@ class PeripheryTracker:
             self._tracked = [np.ones(len(self._start), bool)]
             return
         grey = self._grey(rgb)
-        if len(self._start):
-            carry = None if mesh is None else fit_similarity(self._face, self._small(mesh))
-            points, good = self._step(grey, carry)
-            self._points.append(points)
-            self._tracked.append(good)
+        carry = None if mesh is None else fit_similarity(self._face, self._small(mesh))
+        points, good = self._step(grey, carry) if len(self._start) else (self._start, self._broken)
+        self._points.append(points)
+        self._tracked.append(good)
         self._last = grey
 
     def result(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `fading`."""
-        frames = max(len(self._points), 1)
         if not len(self._start):
-            frames = max(frames, 1)
-            return np.zeros((self._before + frames, 0, 2), np.float32), np.zeros((self._before + frames, 0), np.float32)
+            frames = self._before + len(self._points)
+            return np.zeros((frames, 0, 2), np.float32), np.zeros((frames, 0), np.float32)
         points = np.array([self._points[0]] * self._before + self._points, np.float32)
         tracked = np.array([self._tracked[0]] * self._before + self._tracked)
         return (easing(points, tracked) + 0.5) / self._scale - 0.5, fading(tracked)

@@ -49,7 +49,10 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
     image, driver = inputs["image"], inputs["driver"]
     assert isinstance(image, Path) and isinstance(driver, Path | Candidates)
     run.plan(STAGES)
-    follows = options.fps, options.trim, options.driver_face_index, run
+    index = (
+        options.driver_face_index if isinstance(driver, Path) else 0
+    )  # candidates are compared by their largest face
+    follows = options.fps, options.trim, index, run
     tracking = follow(driver, *follows) if isinstance(driver, Path) else None
     prepared = prepare_target(image, options, out, run)
     target = prepared.face

@@ -31,7 +31,7 @@ class Check(BaseModel):
     frames: Annotated[int, Field(ge=0)]
     seconds: Annotated[float, Field(ge=0, allow_inf_nan=False)]
     loops: bool | None = None
-    clips: list[Name] = []
+    clips: Annotated[list[Name], Field(max_length=1000)] = []
     joints: Annotated[list[MotionJoint], Field(max_length=1000)]
     mapping: Annotated[dict[Name, Name], Field(max_length=200)]
     missing: Annotated[list[Name], Field(max_length=200)]

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 from made_clip import write_frames
+from made_face import placed
 from numpy.typing import NDArray
 
 from engine.errors import InputError
@@ -21,6 +22,8 @@ from engine.portrait.appearance import CROP, CROP_EYES
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.fine_details import keep_ratio_images
 from engine.portrait.held_face import EASE_BACK
+from engine.portrait.loop import close_loop
+from engine.portrait.periphery import PeripheryTracker
 from engine.portrait.registration import register_track
 from engine.run import Run
 from engine.store import StageStore
@@ -248,3 +251,18 @@ def test_points_around_are_found_again_where_the_face_comes_back(still, tmp_path
     assert track.trust[9].max() < 1 and track.trust[-1].mean() > 0.5
     assert np.linalg.norm(moved[-1] - [40, 0], axis=-1)[track.trust[-1] == 1].max() < 1.5
     assert np.abs(np.diff(moved[:, track.trust[-1] == 1], axis=0)).max() < 0.25 * 40
+
+
+def test_a_face_with_nothing_around_it_to_follow_has_no_points_in_any_frame() -> None:
+    """A plain picture, in which the face fills all: as many frames, and no point in any of them."""
+    plain = np.full((120, 100, 3), 128, np.uint8)
+    around = PeripheryTracker()
+    for mesh in (None, placed(40, (50, 50)), None, placed(40, (52, 50))):
+        around.follow(plain, mesh)
+    points, trust = around.result()
+    assert points.shape == (4, 0, 2) and trust.shape == (4, 0)
+
+
+def test_a_track_without_points_around_can_be_closed(track: DriverTrack) -> None:
+    none = replace(track, periphery=track.periphery[:, :0], trust=track.trust[:, :0])
+    assert close_loop(none).periphery.shape == (len(track), 0, 2)

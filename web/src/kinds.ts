@@ -21,7 +21,7 @@ export interface CharacterCorrections {
   /** Where the person is looked for. */
   person_box?: Frame;
   /** Which of the people found, counted from the largest, or all of them. */
-  person_index?: number | 'all';
+  person_index?: number | 'all' | null;
   /** Joints by their names in skeleton.json. */
   joints?: Record<string, [number, number]>;
   mask_strokes?: (Stroke & { person: boolean })[];

@@ -1610,7 +1610,7 @@ export interface components {
              */
             face_index?: number;
             /**
-             * @description Which face of the driver, counted from the largest in the first frame that shows any.
+             * @description Which face of the driver, counted from the largest in the first frame that shows any. Not for `auto`, which compares the largest ones.
              * @default 0
              */
             driver_face_index?: number;
@@ -1620,7 +1620,7 @@ export interface components {
              */
             strength?: number;
             /**
-             * @description Which parts follow the driver.
+             * @description Which parts follow the driver; `["all"]` stands for every one.
              * @default [
              *       "eyes",
              *       "mouth",

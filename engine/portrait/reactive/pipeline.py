@@ -29,7 +29,7 @@ from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
 from engine.portrait.render import Renderer, draw_in_order
 from engine.portrait.rig import Rig
-from engine.portrait.target import Layers, TargetFace
+from engine.portrait.target import Layers, TargetFace, in_pixels
 from engine.run import Run, write_report
 
 MOST_SECONDS = 20.0
@@ -82,7 +82,13 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
             "size": [width, height],
             "fps": fps,
             "frames": sum(len(act.poses) for act in acts),
-            "faces": [[round(float(v), 1) for v in box] for box in prepared.face.faces],
+            "faces": in_pixels(prepared.face.faces),
+            "driver_faces": [
+                box
+                for state, one in zip(states, performed, strict=True)
+                if state.own
+                for box in in_pixels(one.track.faces)
+            ],
             "states": {act.state.name: len(act.poses) for act in acts},
             "bridges": {act.state.name: len(act.exits.frames) for act in acts},
             "animation": "animation.mp4",
