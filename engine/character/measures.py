@@ -95,5 +95,4 @@ def _unseen(
     a, b, c = (posed[triangles[:, k]].astype(np.float64) for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     covered = np.maximum(np.abs(_areas(projected, triangles)[seen]), 1 / SUBPIXELS)  # finer than corners are placed
-    shown = np.minimum(np.bincount(seen, area[seen] / covered, len(area)), area)
-    return float(1 - shown.sum() / max(float(area.sum()), 1e-12))
+    return max(float(1 - (area[seen] / covered).sum() / max(float(area.sum()), 1e-12)), 0.0)
