@@ -160,3 +160,15 @@ def test_a_hidden_hand_comes_out_and_the_cloth_stays(
     for frame in range(0, len(wave.rotations), 10):
         posed = pose(character, wave, frame)
         assert (np.linalg.norm(posed[a] - posed[b], axis=1) > 3 * length).mean() < 0.005
+
+
+def test_a_label_painted_over_a_hidden_hand_overrules_it(media: Callable[[str], Path]) -> None:
+    photo = media("fullbody/woman_green_dress_hip.jpg")
+    woken = wake(photo, {})
+    y, x = np.argwhere(woken.labels.hidden >= 0).mean(axis=0)
+    to_grid = woken.silhouette.to_grid
+    place = np.linalg.solve(to_grid[:, :2], np.array([x, y]) - to_grid[:, 2]) / woken.figure.scale
+    stroke = {"path": [place.tolist()], "radius": 0.05 * woken.figure.rgb.shape[0], "part": "left_arm"}
+    painted = wake(photo, {"label_strokes": [stroke]})
+    assert painted.labels.labels[round(y), round(x)] == LEFT
+    assert (painted.labels.hidden >= 0).sum() < 0.1 * (woken.labels.hidden >= 0).sum()

@@ -139,3 +139,10 @@ def test_a_driver_that_cannot_be_used_is_passed_over(tmp_path: Path) -> None:
     assert [notice.code for notice in run.notices] == ["driver_passed_over"] * 2
     with pytest.raises(InputError, match="None of the drivers"):
         choose_driver(target, Candidates({"blank": blank}), run)
+
+
+def test_a_driver_that_is_chosen_is_followed_by_the_face_by_which_it_was(tmp_path: Path) -> None:
+    """The performances show one face: a second one, which a driver of one's own may have, is not asked of them."""
+    write_image(tmp_path / "calm.png", moment("happy", 0))
+    animate(tmp_path / "calm.png", "auto", tmp_path / "out", size=(128, 128), trim=(0, 0.2), driver_face_index=1)
+    assert len(json.loads((tmp_path / "out" / "report.json").read_text())["inputs"]["driver_faces"]) == 1
