@@ -7,10 +7,10 @@ object grasping, Graphics Interface 1988.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
+from engine.compiled import njit
 from engine.motion import rotation
 from engine.motion.kinematics import place_joints, world_rotations
 from engine.motion.skeleton import Skeleton
@@ -88,7 +88,7 @@ def skin(
     return posed[0] if single else posed
 
 
-@njit(cache=True, nogil=True, boundscheck=False)  # no fastmath: what is drawn from posed figures must come out alike
+@njit(nogil=True, boundscheck=False)  # no fastmath: what is drawn from posed figures must come out alike
 def _skin(
     vertices: np.ndarray, bones: np.ndarray, weights: np.ndarray, transforms: np.ndarray, posed: np.ndarray
 ) -> None:

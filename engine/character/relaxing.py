@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
@@ -18,6 +17,7 @@ from engine.body.skinning import pose_transforms, skin
 from engine.character.measures import pose
 from engine.character.rigging import Character, at_rest
 from engine.character.sheets import strongest
+from engine.compiled import njit
 from engine.geometry.welding import weld
 from engine.motion.library import CLIPS, built_in
 
@@ -118,7 +118,7 @@ def _stretch(surface: _Surface, bound: _Bound, frames: NDArray[np.float32]) -> t
     return most, worst / max(len(most), 1)
 
 
-@njit(cache=True, nogil=True, boundscheck=False)
+@njit(nogil=True, boundscheck=False)
 def _longest(posed: np.ndarray, edges: np.ndarray, lengths: np.ndarray, most: np.ndarray) -> int:
     worst = 0
     for f in range(len(posed)):

@@ -6,8 +6,9 @@ Source: C.-Y. Weng et al., Photo Wake-Up, CVPR 2019, section 4.1.1, equations 9 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 KAPPA = 32
 """By how many points the match may advance from one point to the next (the paper's value)."""
@@ -53,7 +54,7 @@ def _path(points: NDArray[np.float64], partners: NDArray[np.float64], kappa: int
     return _open_path(np.vstack([points, points[:1]]), np.vstack([partners, partners[:1]]), kappa)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def _open_path(points, partners, kappa):  # type: ignore[no-untyped-def]
     m, n = len(points), len(partners)
     steps = np.zeros((m, n), np.int32)

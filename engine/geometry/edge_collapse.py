@@ -7,9 +7,9 @@ that meet at a point hang on a linked list; a collapse joins two lists.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.geometry.fan import heirs, neighbours
 from engine.geometry.heap import sift_down, sift_up
 from engine.geometry.quadrics import collapse_cost, least_costs, surface_quadrics, texture_seams
@@ -21,7 +21,7 @@ PATIENCE = 0.05
 """A collapse goes ahead although it has become dearer by this share since it was priced."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def _best(
     u: int,
     places: np.ndarray,
@@ -119,7 +119,7 @@ def collapse_edges(
     return corners[alive]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def _collapse(
     places: np.ndarray,
     faces: np.ndarray,

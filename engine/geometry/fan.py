@@ -7,7 +7,8 @@ The corners that meet at a point hang on a linked list (`head` of each point, `f
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from engine.compiled import njit
 
 LEAST_COSINE = 0.2
 """A collapse may not turn a triangle's normal by more than this."""
@@ -16,7 +17,7 @@ SLIVER = 1e-3
 """The area of a triangle over that of a square on its longest edge, below which it may not get."""
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def neighbours(
     p: int,
     faces: np.ndarray,
@@ -59,7 +60,7 @@ def neighbours(
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def heirs(
     u: int,
     v: int,

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
 
@@ -20,7 +21,7 @@ def diffuse(values: NDArray[np.float32], mask: NDArray[np.bool_], rounds: int) -
     return np.asarray(_diffuse(np.ascontiguousarray(values), np.ascontiguousarray(np.stack(beside, 1)), rounds))
 
 
-@njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def _diffuse(values, beside, rounds):  # type: ignore[no-untyped-def]
     now, then = values.copy(), np.empty_like(values)
     count, channels = values.shape

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from engine.compiled import njit
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def sift_up(keys: np.ndarray, items: np.ndarray, at: int) -> None:
     key, item = keys[at], items[at]
     while at > 0:
@@ -18,7 +19,7 @@ def sift_up(keys: np.ndarray, items: np.ndarray, at: int) -> None:
     keys[at], items[at] = key, item
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def sift_down(keys: np.ndarray, items: np.ndarray, size: int) -> None:
     """Restore the heap after its first entry was replaced."""
     key, item = keys[0], items[0]

@@ -7,8 +7,10 @@ Wake-Up, CVPR 2019, equations 6 and 8.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 ON_IT = 1e-9
 """Points nearer to the outline than this, in its own unit, squared, lie on it."""
@@ -31,7 +33,7 @@ def mean_value_warp(
     )
 
 
-@njit(cache=True, parallel=True, nogil=True, error_model="numpy")
+@njit(parallel=True, nogil=True, error_model="numpy")
 def _warp(points, polygon, values):  # type: ignore[no-untyped-def]
     count, corners, channels = len(points), len(polygon), values.shape[1]
     out = np.zeros((count, channels))

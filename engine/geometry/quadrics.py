@@ -7,10 +7,11 @@ upper triangle of a symmetric 4x4 matrix, row by row: 10 numbers.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from engine.compiled import njit
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _add_plane(quadrics: np.ndarray, p: int, a: float, b: float, c: float, d: float, w: float) -> None:
     q = quadrics[p]
     q[0] += w * a * a
@@ -25,7 +26,7 @@ def _add_plane(quadrics: np.ndarray, p: int, a: float, b: float, c: float, d: fl
     q[9] += w * d * d
 
 
-@njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _error(quadrics: np.ndarray, p: int, x: float, y: float, z: float) -> float:
     q = quadrics
     return (
@@ -35,7 +36,7 @@ def _error(quadrics: np.ndarray, p: int, x: float, y: float, z: float) -> float:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def _bend(u: int, v: int, bones: np.ndarray, weights: np.ndarray) -> float:
     """The squared difference of two points' influences."""
     total = 0.0
@@ -47,7 +48,7 @@ def _bend(u: int, v: int, bones: np.ndarray, weights: np.ndarray) -> float:
     return max(total, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def collapse_cost(
     u: int, v: int, places: np.ndarray, quadrics: np.ndarray, bones: np.ndarray, weights: np.ndarray, bending: float
 ) -> float:
@@ -59,7 +60,7 @@ def collapse_cost(
     return cost + 1e-9 * length + bending * length * length * _bend(u, v, bones, weights)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def least_costs(
     ends: np.ndarray,
     places: np.ndarray,
@@ -79,7 +80,7 @@ def least_costs(
     return least
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def surface_quadrics(
     places: np.ndarray, faces: np.ndarray, corners: np.ndarray, edges: np.ndarray, hold: np.ndarray
 ) -> np.ndarray:
@@ -111,7 +112,7 @@ def surface_quadrics(
     return quadrics
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True)
 def texture_seams(faces: np.ndarray, corners: np.ndarray, edges: np.ndarray, count: int) -> np.ndarray:
     """(E,) where the triangles at an edge name different vertices at one of its ends."""
     ends = np.full((count, 2), -1, np.int32)

@@ -10,10 +10,10 @@ of hair where the Laplacian alone would bleed.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.colour_pairs import alpha_from_colour_pairs
 from engine.imaging.resample import resized
 
@@ -99,7 +99,7 @@ def _solve(
     return alpha
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _laplacian_rows(pixels, number, count, noise):  # type: ignore[no-untyped-def]
     """Rows of the matting Laplacian for the numbered pixels, over their 5x5 neighbours: (count, 25)."""
     height, width = number.shape
@@ -154,7 +154,7 @@ def _laplacian_rows(pixels, number, count, noise):  # type: ignore[no-untyped-de
     return rows
 
 
-@numba.njit(cache=True, nogil=True)
+@njit(nogil=True)
 def _couple(rows, number, known, ys, xs):  # type: ignore[no-untyped-def]
     """Numbers of each row's unknown neighbours (itself where there is none), and what the known ones give."""
     height, width = number.shape
@@ -176,7 +176,7 @@ def _couple(rows, number, known, ys, xs):  # type: ignore[no-untyped-def]
     return neighbours, right
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _conjugate_gradients(rows, neighbours, right, x, iterations, tolerance):  # type: ignore[no-untyped-def]
     """Solve with the diagonal as preconditioner; stops when the residual has shrunk by `tolerance`."""
     count = len(right)

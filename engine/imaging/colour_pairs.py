@@ -7,9 +7,10 @@ side, are the candidates. The pair that explains the colour best, and is near, g
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 RAYS = 8
 """Directions searched; neighbouring pixels use different sets of them, so that together they see more."""
@@ -32,7 +33,7 @@ def alpha_from_colour_pairs(
     return alpha, confidence
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _search(rgb, trimap, reach, alpha_out, confidence_out):  # type: ignore[no-untyped-def]
     height, width = trimap.shape
     front = np.empty((2 * RAYS, 4), np.float32)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import cv2
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+
+@njit(fastmath=True, nogil=True)
 def _over(layer: NDArray[np.uint8], plate: NDArray[np.uint8], out: NDArray[np.uint8]) -> None:
     height, width = out.shape[:2]
     for y in range(height):

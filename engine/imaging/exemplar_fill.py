@@ -8,10 +8,10 @@ Greedy and exhaustive: for small pictures, as the start of `engine.imaging.inpai
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.patchmatch import RADIUS, SIDE, colour_planes, patch_distance, patch_shift, take_target
 
 SPREAD = 0.02
@@ -30,13 +30,12 @@ def exemplar_fill(
     half = (ys + xs) % 2 == 0 if len(ys) > 500 else np.ones(len(ys), bool)
     ys, xs = ys[half], xs[half]
     planes = colour_planes(image)
-    _fill(planes, hole.copy(), ys.astype(np.int32), xs.astype(np.int32))
+    _fill(planes, hole.copy(), (~hole).astype(np.float32), ys.astype(np.int32), xs.astype(np.int32))
     return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
-def _fill(planes, hole, source_ys, source_xs):  # type: ignore[no-untyped-def]
-    known = np.where(hole, np.float32(0), np.float32(1))
+@njit(fastmath=True, nogil=True)
+def _fill(planes, hole, known, source_ys, source_xs):  # type: ignore[no-untyped-def]
     confidence = known.copy()
     target = np.zeros((4, SIDE, 8), np.float32)
     while True:
@@ -65,7 +64,7 @@ def _fill(planes, hole, source_ys, source_xs):  # type: ignore[no-untyped-def]
                     hole[y, x] = False
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _next_centre(planes, hole, known, confidence):  # type: ignore[no-untyped-def]
     """The centre (y, x) of highest priority on the hole's front, or (-1, -1) when there is none."""
     height, width = hole.shape
@@ -108,7 +107,7 @@ def _next_centre(planes, hole, known, confidence):  # type: ignore[no-untyped-de
     return by, bx
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _touches(hole, y, x):  # type: ignore[no-untyped-def]
     """Whether the patch around a known centre at the picture's rim holds hole pixels that no other centre fills."""
     for dy in range(-RADIUS, RADIUS + 1):
@@ -121,7 +120,7 @@ def _touches(hole, y, x):  # type: ignore[no-untyped-def]
     return False
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _mean_over_patch(values, y, x):  # type: ignore[no-untyped-def]
     total = np.float32(0)
     for dy in range(-RADIUS, RADIUS + 1):

@@ -3,9 +3,10 @@ drawn outline would not have. They are smoothed there, and nowhere else."""
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 
 def smooth_folds(
@@ -43,25 +44,25 @@ def folded(
     return left, top, right, bottom
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _face_down(moved, triangles):  # type: ignore[no-untyped-def]
     """The box (left, top), (right, bottom) around the triangles that are turned over; right of left none if there are none."""
-    area = np.zeros(len(triangles), np.float32)
+    area, whole = np.zeros(len(triangles), np.float32), np.float32(0)
     for t in range(len(triangles)):
         a, b, c = triangles[t]
         across = (moved[b, 0] - moved[a, 0]) * (moved[c, 1] - moved[a, 1])
         area[t] = across - (moved[b, 1] - moved[a, 1]) * (moved[c, 0] - moved[a, 0])
-    up = np.sign(area.sum())
+        whole += area[t]
     low, high = np.full(2, np.float32(1e9)), np.full(2, np.float32(-1e9))
     for t in range(len(triangles)):
-        if up * area[t] < 0:
+        if whole * area[t] < 0:
             for v in triangles[t]:
                 for k in range(2):
                     low[k], high[k] = min(low[k], moved[v, k]), max(high[k], moved[v, k])
     return low, high
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _smooth(frame, before, origin, left, top, jump):  # type: ignore[no-untyped-def]
     """`before` is a copy of the frame from one pixel left of and above (left, top) on."""
     for row in range(1, before.shape[0] - 1):

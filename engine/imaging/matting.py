@@ -8,10 +8,10 @@ smooth as alpha allows, solved pixel by pixel on a pyramid from a single pixel t
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.resample import resized
 
 SMOOTHNESS = 5e-3
@@ -73,7 +73,7 @@ def reconcile_with_plate(
     return np.clip(front + share * missing, 0, 255).astype(np.float32)
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _relax(image, alpha, front, back, sweeps):  # type: ignore[no-untyped-def]
     """Gauss-Seidel sweeps over the 2x2 systems of each pixel's front and back colour, in place."""
     height, width = alpha.shape

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 ROUNDING = 1e-4
 """By how much a pixel may lie outside a triangle, in barycentric coordinates, and still count as in it."""
 NEVER = 1e9
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _bounds(w: float, wx: float, wy: float) -> tuple[float, float, float, float]:
     """Where w + wx * dx + wy * dy is not negative: from a + b * dy to c + d * dy, as (a, b, c, d)."""
     if wx > 1e-12:
@@ -21,7 +22,7 @@ def _bounds(w: float, wx: float, wy: float) -> tuple[float, float, float, float]
     return -NEVER, 0.0, NEVER, 0.0  # an edge along the row bounds rows, as the triangle's box does
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _triangle(out_xy, a, b, c, width, height):  # type: ignore[no-untyped-def]
     """A triangle's box (west, east, top, bottom) within the picture, and how the weights of corners b and c grow along
     x and y: (bdx, bdy, cdx, cdy). Its box is empty (west > east) where it covers nothing."""
@@ -36,21 +37,21 @@ def _triangle(out_xy, a, b, c, width, height):  # type: ignore[no-untyped-def]
     return (west, east, top, bottom), (cy / area, -cx / area, -by / area, bx / area)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _edges(growth):  # type: ignore[no-untyped-def]
     """The bounds that a triangle's three edges set to its rows, relative to corner a."""
     bdx, bdy, cdx, cdy = growth
     return _bounds(1.0, -bdx - cdx, -bdy - cdy), _bounds(0.0, bdx, bdy), _bounds(0.0, cdx, cdy)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _ceil(x: float) -> int:
     """Of what is not negative; faster than the library's, and called once a row."""
     whole = int(x)
     return whole + (whole < x)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@njit(nogil=True, inline="always")
 def _row(edges, ax, dy, west, east):  # type: ignore[no-untyped-def]
     """The first and the last pixel of a triangle's row; the last is less where there is none."""
     (a, a_dy, a_end, a_end_dy), (b, b_dy, b_end, b_end_dy), (c, c_dy, c_end, c_end_dy) = edges
@@ -59,7 +60,7 @@ def _row(edges, ax, dy, west, east):  # type: ignore[no-untyped-def]
     return (_ceil(left), int(right)) if left <= right else (0, -1)
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _rasterise(
     out_xy: NDArray[np.float32],
     depth: NDArray[np.float32],
@@ -102,7 +103,7 @@ def _rasterise(
                         field[y, x, k] = start[k] + step * along[k]
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _paint(
     out_xy: NDArray[np.float32],
     source: NDArray[np.float32],

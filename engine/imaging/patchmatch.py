@@ -12,9 +12,10 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import cv2
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 RADIUS = 3
 """Patches are 7x7."""
@@ -40,12 +41,12 @@ def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.ascontiguousarray(np.pad(image, ((0, 0), (0, 1), (0, 0))).transpose(2, 0, 1), np.float32)
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, inline="always")
 def _allowed_shift(mean):  # type: ignore[no-untyped-def]
     return min(max(mean, np.float32(-LARGEST_SHIFT)), np.float32(LARGEST_SHIFT))
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, inline="always")
 def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     """Copy the patch at (y, x) into `target` (4, 7, 8): colours and weights. Returns the sum of the weights."""
     mass = np.float32(0)
@@ -59,7 +60,7 @@ def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     return max(mass, np.float32(1e-6))
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True, inline="always")
+@njit(fastmath=True, nogil=True, inline="always")
 def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     """Weighted mean squared difference, after the best allowed shift, of the taken patch and the one at
     (sy, sx) (grey levels squared)."""
@@ -83,7 +84,7 @@ def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def
     return (total - saved * np.float32(1 - SHIFT_COST)) / mass
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     """The colour (3 numbers) to add to the patch at (sy, sx) so that it fits the taken one."""
     s0 = s1 = s2 = np.float32(0)
@@ -97,7 +98,7 @@ def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     return _allowed_shift(s0 / mass) * share, _allowed_shift(s1 / mass) * share, _allowed_shift(s2 / mass) * share
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom):  # type: ignore[no-untyped-def]
     height, width = cost.shape
     state = np.uint32((seed + top) * 2654435761 + 12345)
@@ -162,7 +163,7 @@ def match_patches(
             band.result()
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type: ignore[no-untyped-def]
     """Each pixel of `hole` becomes the mean of what the patches over it say, the better ones counting more.
 

@@ -9,9 +9,10 @@ which keeps every grid an accurate picture of the same problem.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 CYCLES = 2
 """V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
@@ -57,7 +58,7 @@ def membrane(
     return result
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _edge_distances(mask):  # type: ignore[no-untyped-def]
     """How far each masked pixel is from the first pixel outside the mask, (H + 2, W + 2, 4) int32 in the
     directions up, down, left, right, in a frame one pixel wide; negative to the array's border instead."""
@@ -80,12 +81,13 @@ def _edge_distances(mask):  # type: ignore[no-untyped-def]
     return distance
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _discretise(distance, values, step, links, inverse, right):  # type: ignore[no-untyped-def]
     """The grid of every `step`-th pixel: which links lead to unknown pixels, the inverse of the diagonal (0
-    where nothing is to be found) and what the edges' values (H, W, C) contribute."""
+    where nothing is to be found) and what the edges' values (H, W, C) contribute. Whether there is anything to find."""
     height, width = inverse.shape
     channels = right.shape[2]
+    found = False
     for y in range(1, height - 1):
         for x in range(1, width - 1):
             fy, fx = (y - 1) * step + 1, (x - 1) * step + 1
@@ -106,10 +108,12 @@ def _discretise(distance, values, step, links, inverse, right):  # type: ignore[
                 else:
                     links[y, x, k] = 1
                     diagonal += 1
-            inverse[y, x] = 1 / diagonal if diagonal > 0 else 0
+            if diagonal > 0:
+                inverse[y, x], found = 1 / diagonal, True
+    return found
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _relax(u, right, links, inverse, sweeps):  # type: ignore[no-untyped-def]
     """Red-black Gauss-Seidel in place."""
     height, width, channels = u.shape
@@ -125,7 +129,7 @@ def _relax(u, right, links, inverse, sweeps):  # type: ignore[no-untyped-def]
                     u[y, x, k] = (right[y, x, k] + total) * scale
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _restrict_residual(u, right, links, inverse, residual, coarse, coarse_inverse):  # type: ignore[no-untyped-def]
     """The coarse grid's right side: the residual, fully weighted (4 fine pixels stand in a coarse one)."""
     height, width, channels = u.shape
@@ -151,7 +155,7 @@ def _restrict_residual(u, right, links, inverse, residual, coarse, coarse_invers
                 coarse[y, x, k] = residual[fy, fx, k] + sides / 2 + corners / 4
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _add_interpolated(coarse, u, inverse):  # type: ignore[no-untyped-def]
     """Add the coarse grid's correction, bilinearly; outside the mask it is 0."""
     height, width, channels = u.shape
@@ -166,7 +170,7 @@ def _add_interpolated(coarse, u, inverse):  # type: ignore[no-untyped-def]
                 u[y, x, k] += np.float32(0.25) * total
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _start_from(coarse, coarse_inverse, u, right, inverse):  # type: ignore[no-untyped-def]
     """A first guess from the coarse solution: the mean of the coarse pixels around that lie in the mask,
     or what the edge alone says where there are none."""
@@ -190,7 +194,7 @@ def _start_from(coarse, coarse_inverse, u, right, inverse):  # type: ignore[no-u
                     u[y, x, k] = total / count
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _solve(values, force, mask, cycles):  # type: ignore[no-untyped-def]
     height, width, channels = values.shape
     distance = _edge_distances(mask)
@@ -207,8 +211,7 @@ def _solve(values, force, mask, cycles):  # type: ignore[no-untyped-def]
         coarser = np.zeros((rows, columns), np.float32)
         coarser_links = np.zeros((rows, columns, 4), np.float32)
         coarser_own = np.zeros((rows, columns, channels), np.float32)
-        _discretise(distance, values, step, coarser_links, coarser, coarser_own)
-        if not coarser.any():
+        if not _discretise(distance, values, step, coarser_links, coarser, coarser_own):
             break
         u.append(np.zeros((rows, columns, channels), np.float32))
         own.append(coarser_own)

@@ -8,10 +8,10 @@ spread out to nothing, edges and grain that a source shows stay.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.poisson import membrane
 
 CYCLES = 3
@@ -28,7 +28,7 @@ def heal_seams(picture: NDArray[np.float32], field: NDArray[np.int32], mask: NDA
     return np.where(mask[..., None], healed, picture).astype(np.float32)
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _divergence(picture, field, mask, divergence):  # type: ignore[no-untyped-def]
     height, width = mask.shape
     for y in range(height):

@@ -13,8 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numba
 import numpy as np
+
+from engine.compiled import njit
 
 Transfer = Literal["hlg", "pq", "sdr"]
 Primaries = Literal["bt2020", "p3", "bt709"]
@@ -126,7 +127,7 @@ def xyz_of(primaries: Primaries) -> np.ndarray:
     return columns * np.linalg.solve(columns, [x / y, 1, (1 - x - y) / y])
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def _apply(
     codes: np.ndarray,
     light: np.ndarray,

@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import av
-import numba
 import numpy as np
 from av.video.frame import VideoFrame
 from av.video.plane import VideoPlane
+
+from engine.compiled import njit
 
 # Shares of red and blue in the brightness, by FFmpeg's number of the matrix (AVCOL_SPC_*; ITU-T H.273, table 4).
 _SHARES = {
@@ -92,7 +93,7 @@ def _samples(plane: VideoPlane) -> np.ndarray:
     return np.frombuffer(memoryview(plane), np.uint8).reshape(plane.height, plane.line_size)[:, : plane.width]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def _decode(
     brightness: np.ndarray, blue: np.ndarray, red: np.ndarray, rgb: np.ndarray, base: np.int32, weights: np.ndarray
 ) -> None:
@@ -126,7 +127,7 @@ def _decode(
             rgb[y, 3 * x], rgb[y, 3 * x + 1], rgb[y, 3 * x + 2] = channels[0, x], channels[1, x], channels[2, x]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy")
 def _encode(rgb: np.ndarray, brightness: np.ndarray, blue: np.ndarray, red: np.ndarray, weights: np.ndarray) -> None:
     """Colour samples are the mean over two rows, weighted 1 2 1 over the columns about the left one of a pair."""
     height, width = brightness.shape

@@ -14,9 +14,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.performances.actor import Actor, Scene, stage
 from engine.performances.figure import Pose
 from engine.performances.studio import CAMERA, SAMPLES, Exposure, backdrop, expose, finish, parts_seen
@@ -106,7 +107,7 @@ def _look_up(
     )  # fmt: skip
 
 
-@njit(cache=True, parallel=True, error_model="numpy")
+@njit(parallel=True, error_model="numpy")
 def _reproject(
     ids: np.ndarray,
     shares: np.ndarray,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.performances.chart import step
 from engine.render.light import Lamps
 
@@ -41,7 +42,7 @@ def light_through(
     return passed.reshape(*points.shape[:2], -1) * facing[:, None]
 
 
-@njit(cache=True, parallel=True, fastmath=True)
+@njit(parallel=True, fastmath=True)
 def _march(density: np.ndarray, places: np.ndarray, directions: np.ndarray, weight: float) -> np.ndarray:
     out = np.empty((len(places), len(directions)), np.float32)
     for i in prange(len(places)):

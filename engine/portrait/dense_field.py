@@ -10,10 +10,10 @@ costs one small product and one rasterisation of that mesh, which is the inverse
 from __future__ import annotations
 
 import cv2
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 from engine.portrait.warp_mesh import WarpMesh
@@ -128,7 +128,7 @@ def _grid_around(face: NDArray[np.floating], shape: tuple[int, int], spacing: fl
     return grid[distance < -0.4 * spacing]
 
 
-@numba.njit(cache=True, nogil=True)
+@njit(nogil=True)
 def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[no-untyped-def]
     """Write corners and weights (N, 3) of the points that lie in a triangle; x and y are sorted by y."""
     for t in range(len(triangles)):
@@ -140,7 +140,7 @@ def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[
             continue
         top = control[a, 1] + min(0.0, by, cy)
         bottom = control[a, 1] + max(0.0, by, cy)
-        for k in range(np.searchsorted(y, top - NEAR), np.searchsorted(y, bottom + NEAR)):
+        for k in range(_below(y, top - NEAR), _below(y, bottom + NEAR)):
             px, py = x[k] - control[a, 0], y[k] - control[a, 1]
             wb, wc = (px * cy - py * cx) / area, (bx * py - by * px) / area
             if min(wb, wc, 1 - wb - wc) >= -NEAR:
@@ -148,7 +148,20 @@ def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[
                 weights[order[k]] = 1 - wb - wc, wb, wc
 
 
-@numba.njit(cache=True, nogil=True)
+@njit(nogil=True)
+def _below(places, value, or_at=False):  # type: ignore[no-untyped-def]
+    """How many of the places, which rise, are below a value, `or_at` it."""
+    low, high = 0, len(places)
+    while low < high:
+        middle = (low + high) // 2
+        if places[middle] < value or (or_at and places[middle] == value):
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@njit(nogil=True)
 def _disk_average(vertices, radii, across, down, corners, weights, count):  # type: ignore[no-untyped-def]
     """(V, count) float32: what the mean over the samples within each vertex's disk takes of each control point. The
     samples lie where `across` and `down` cross, row by row; corners and weights (S, 3) are theirs."""
@@ -156,9 +169,9 @@ def _disk_average(vertices, radii, across, down, corners, weights, count):  # ty
     for v in range(len(vertices)):
         x, y, radius = vertices[v, 0], vertices[v, 1], radii[v]
         inside = 0
-        for row in range(np.searchsorted(down, y - radius), np.searchsorted(down, y + radius, "right")):
+        for row in range(_below(down, y - radius), _below(down, y + radius, True)):
             wide = np.sqrt(max(radius**2 - (down[row] - y) ** 2, 0.0))
-            for column in range(np.searchsorted(across, x - wide), np.searchsorted(across, x + wide, "right")):
+            for column in range(_below(across, x - wide), _below(across, x + wide, True)):
                 inside += 1
                 sample = row * len(across) + column
                 for k in range(3):

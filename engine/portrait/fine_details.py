@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import cv2
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
@@ -283,7 +283,7 @@ def shade(
     _multiply(frame[there], change, np.float32(strength), origin[there], *place)
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _multiply(rgb, change, strength, origin, x0, y0, shrink):  # type: ignore[no-untyped-def]
     """The colours changed by bilinear samples of `change`, which lies at (x0, y0) of the target."""
     rows, columns = change.shape

@@ -7,9 +7,9 @@ to the nose, and down to the jaw, and where it cannot any more, the lips stop.
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import convolve1d
 
 UPPER = (
     *((184, 183, 191), (74, 42, 80), (73, 41, 81), (72, 38, 82), (11, 12, 13)),
@@ -82,7 +82,7 @@ def _in_order(along: NDArray[np.floating], least: NDArray[np.floating]) -> NDArr
 
 def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
     """How far the columns (N, 9) of a lip move back where each draws those beside it along: no less than by themselves."""
-    drawn = convolve1d(moves, NEIGHBOURS, axis=1, mode="nearest")
+    drawn = cv2.filter2D(moves, -1, NEIGHBOURS[None], borderType=cv2.BORDER_REPLICATE)
     return np.asarray(np.where(np.abs(drawn) > np.abs(moves), drawn, moves))
 
 

@@ -13,6 +13,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.perception.landmarks import fiducials
 from engine.portrait.alignment import Similarity, fit_similarity
 from engine.portrait.driver import DriverTrack
@@ -88,7 +89,7 @@ def match_differences(
     return _match(frame, neutral, origin, where, np.array(offsets, np.float32), SEARCH)
 
 
-@numba.njit(cache=True, parallel=True, fastmath=True)
+@njit(parallel=True, fastmath=True)
 def _match(frame, neutral, origin, where, rotated, search):  # type: ignore[no-untyped-def]
     height, width = where.shape
     best = np.zeros((height, width), np.float32)

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.fold_edges import folded
 from engine.imaging.mesh_warp import inverse_map
 
@@ -57,7 +57,7 @@ class WarpMesh:
         return origin
 
 
-@numba.njit(cache=True, fastmath=True, nogil=True)
+@njit(fastmath=True, nogil=True)
 def _product(rows, columns, weights, right):  # type: ignore[no-untyped-def]
     out = np.zeros((len(rows) - 1, right.shape[1]), np.float32)
     for row in range(len(out)):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.rasteriser import Raster
 
 
@@ -53,7 +54,7 @@ def sample_texture(
     return _sample(np.ascontiguousarray(texture), np.ascontiguousarray(uv, dtype=np.float32), covered)
 
 
-@njit(cache=True, parallel=True, boundscheck=False)
+@njit(parallel=True, boundscheck=False)
 def _interpolate(
     values: np.ndarray, faces: np.ndarray, ids: np.ndarray, weights: np.ndarray, background: float
 ) -> np.ndarray:
@@ -72,7 +73,7 @@ def _interpolate(
     return out
 
 
-@njit(cache=True, parallel=True, boundscheck=False)
+@njit(parallel=True, boundscheck=False)
 def _sample(texture: np.ndarray, uv: np.ndarray, covered: np.ndarray) -> np.ndarray:
     height, width = covered.shape
     rows, columns, channels = texture.shape

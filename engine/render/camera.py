@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
+
+from engine.compiled import njit
 
 Axes = tuple[tuple[float, ...], ...]
 
@@ -57,7 +58,7 @@ class Camera:
         return replace(self, eye=(x, y, z), axes=tuple(map(tuple, axes)))
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def _project(
     points: np.ndarray, eye: np.ndarray, axes: np.ndarray, focal: float, x: float, y: float, found: np.ndarray
 ) -> None:

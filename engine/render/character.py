@@ -14,10 +14,10 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from engine.body.skinning import pose_transforms, skin
+from engine.compiled import njit
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
@@ -213,7 +213,7 @@ def _shade(subject: Subject, posed: NDArray[np.float32], shading: float) -> NDAr
     return (1 - shading * (1 - normals @ towards) / 2).astype(np.float32)[point]
 
 
-@njit(cache=True, nogil=True, boundscheck=False)
+@njit(nogil=True, boundscheck=False)
 def _box(points: np.ndarray, height: int, width: int) -> tuple[int, int, int, int]:
     """The pixels that points before the camera, (V, 3) float32, can touch: left, top, right, bottom (exclusive)."""
     left, top, right, bottom = np.float32(width), np.float32(height), np.float32(-1), np.float32(-1)

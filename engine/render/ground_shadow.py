@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.camera import Camera
 from engine.render.rasteriser import draw_into
 
@@ -126,7 +126,7 @@ def _density(
     return (1 - (1 - core) * (1 - 0.6 * wide)).astype(np.float32)
 
 
-@njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def _darken(
     rgb: np.ndarray,
     lit: np.ndarray,

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.rasteriser import depth_map
 
 
@@ -96,7 +96,7 @@ def cast_shadow(
     return Shadow(depth_map(seen, triangles, (size, size)), view, texel)
 
 
-@njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _seen_by(vertices: np.ndarray, view: np.ndarray) -> np.ndarray:
     out = np.empty_like(vertices)
     for i in range(len(vertices)):
@@ -106,7 +106,7 @@ def _seen_by(vertices: np.ndarray, view: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def lit(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias: float) -> np.float32:
     """The share of light [0, 1] that reaches a point: four texels compared, blended bilinearly."""
     u = view[0, 0] * x + view[0, 1] * y + view[0, 2] * z + view[3, 0]

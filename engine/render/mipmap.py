@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 
 class Mipmap(NamedTuple):
@@ -39,7 +40,7 @@ def build_mipmap(texture: NDArray[np.uint8], smallest: int = 16) -> Mipmap:
     )
 
 
-@njit(cache=True, nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, inline="always", boundscheck=False)
 def _spread(texel: np.uint32) -> np.uint64:
     """The bytes 0, 2, 1, 3 of a texel in the four 16-bit lanes of an integer: weights that sum to 256 can then be
     multiplied into all of them at once, without a carry from one into the next."""
@@ -47,7 +48,7 @@ def _spread(texel: np.uint32) -> np.uint64:
     return (wide | (wide << np.uint64(24))) & np.uint64(0x00FF00FF00FF00FF)
 
 
-@njit(cache=True, nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, inline="always", boundscheck=False)
 def _bilinear(texels: np.ndarray, start: int, height: int, width: int, u: np.float32, v: np.float32) -> tuple:
     """Places and weights are rounded to 1/256: at most half a grey level."""
     half, step = np.float32(0.5), np.float32(256)
@@ -67,7 +68,7 @@ def _bilinear(texels: np.ndarray, start: int, height: int, width: int, u: np.flo
     return red, green, blue
 
 
-@njit(cache=True, nogil=True, inline="always", boundscheck=False)
+@njit(nogil=True, inline="always", boundscheck=False)
 def look_up(
     texels: np.ndarray, starts: np.ndarray, sizes: np.ndarray, u: np.float32, v: np.float32, level: np.float32
 ) -> tuple:

@@ -11,9 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.rasteriser import SHIFT, SUBPIXELS, bias, snapped
 
 BLOCK = 3
@@ -48,7 +48,7 @@ def sample_offsets(samples: int) -> NDArray[np.int64]:
     return np.stack([np.tile(along, samples), np.repeat(along, samples)], 1)
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def draw_samples(
     points: np.ndarray,
     faces: np.ndarray,
@@ -120,7 +120,7 @@ def draw_samples(
     return ids
 
 
-@njit(cache=True, nogil=True, boundscheck=False, inline="always")
+@njit(nogil=True, boundscheck=False, inline="always")
 def _any(starts: np.ndarray, blocks: int, top: int, bottom: int, left: int, right: int) -> bool:
     """Whether any pixel is chosen in the blocks that these rows and columns of pixels reach into."""
     for i in range(top >> BLOCK, (bottom >> BLOCK) + 1):

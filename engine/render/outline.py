@@ -7,9 +7,9 @@ them hides what is behind it whole pixels at a time.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.rasteriser import LOST, snapped
 
 NEARER = 0.998
@@ -35,7 +35,7 @@ def edge_table(triangles: NDArray[np.int32], point: NDArray[np.int32]) -> NDArra
     return np.stack([start[here], end[here], here // 3, there], 1).astype(np.int32)
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def facings(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """(T,) int8: 1 for triangles seen from the front, -1 from behind, 0 for those that the rasteriser leaves out.
     `points` (V, 3) as `rasteriser.draw_into` takes them with perspective."""
@@ -52,7 +52,7 @@ def facings(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return found
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def mark_outline(
     points: np.ndarray, edges: np.ndarray, facing: np.ndarray, depths: np.ndarray, marks: np.ndarray
 ) -> None:
@@ -93,7 +93,7 @@ def mark_outline(
                     marks[y, x] = True
 
 
-@njit(cache=True, nogil=True, boundscheck=False, inline="always")
+@njit(nogil=True, boundscheck=False, inline="always")
 def _open_to_view(depths: np.ndarray, y: int, x: int, distance: float) -> bool:
     """Whether anything at this distance may be seen in a pixel, or in one beside it."""
     for i in range(max(y - 1, 0), min(y + 2, depths.shape[0])):

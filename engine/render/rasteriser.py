@@ -14,8 +14,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import get_num_threads, njit, prange
+from numba import get_num_threads, prange
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 SHIFT = 8
 SUBPIXELS = 1 << SHIFT
@@ -81,7 +83,7 @@ def depth_map(
     return _nearest(points, faces, size[0], size[1], False, False, get_num_threads())[1]
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def draw_into(
     points: np.ndarray, faces: np.ndarray, perspective: bool, cull: bool, ids: np.ndarray, depths: np.ndarray
 ) -> None:
@@ -92,12 +94,12 @@ def draw_into(
         _draw(places, points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def _snap(value: float) -> int:
     return int(np.floor(value * SUBPIXELS + 0.5))
 
 
-@njit(cache=True, nogil=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, boundscheck=False, error_model="numpy")
 def snapped(points: np.ndarray) -> np.ndarray:
     """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXELS`; x is `LOST` where a vertex is too far out."""
     places = np.empty((len(points), 2), np.int32)
@@ -110,7 +112,7 @@ def snapped(points: np.ndarray) -> np.ndarray:
     return places
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def bias(dx: int, dy: int) -> int:
     """0 for a top or left edge, which owns the pixel centres lying on it; -1 for the others.
 
@@ -119,7 +121,7 @@ def bias(dx: int, dy: int) -> int:
     return 0 if dy < 0 or (dy == 0 and dx > 0) else -1
 
 
-@njit(cache=True, parallel=True, boundscheck=False, error_model="numpy")
+@njit(parallel=True, boundscheck=False, error_model="numpy")
 def _nearest(
     points: np.ndarray, faces: np.ndarray, height: int, width: int, perspective: bool, cull: bool, bands: int
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -133,7 +135,7 @@ def _nearest(
     return ids, depths
 
 
-@njit(cache=True, boundscheck=False, error_model="numpy")
+@njit(boundscheck=False, error_model="numpy")
 def _draw(
     places: np.ndarray,
     points: np.ndarray,
@@ -204,7 +206,7 @@ def _draw(
         row_z += down_z
 
 
-@njit(cache=True, parallel=True, boundscheck=False, error_model="numpy")
+@njit(parallel=True, boundscheck=False, error_model="numpy")
 def _barycentrics(points: np.ndarray, faces: np.ndarray, ids: np.ndarray, perspective: bool) -> np.ndarray:
     height, width = ids.shape
     out = np.zeros((height, width, 3), np.float32)

@@ -11,9 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.light import Lamps, cast_shadow, lit
 
 
@@ -83,7 +84,7 @@ def illuminate(
     return Lighting(irradiance, mirrored)
 
 
-@njit(cache=True, inline="always")
+@njit(inline="always")
 def _lobe(nl: float, nv: float, nh: float, vh: float, roughness: float, reflectance: float) -> float:
     """GGX times the cosine towards the lamp: the mirrored share of the irradiance of a lamp."""
     one = np.float32(1)
@@ -99,7 +100,7 @@ def _lobe(nl: float, nv: float, nh: float, vh: float, roughness: float, reflecta
     return distribution * masking * fresnel * nl
 
 
-@njit(cache=True, parallel=True, fastmath=True, error_model="numpy")
+@njit(parallel=True, fastmath=True, error_model="numpy")
 def _add(
     position: np.ndarray,
     normal: np.ndarray,

@@ -7,9 +7,10 @@ shifted highlights, white and tinted, after S. Marschner et al., Light scatterin
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.light import Lamps
 
 
@@ -71,7 +72,7 @@ def draw_strands(
     )
 
 
-@njit(cache=True, parallel=True, fastmath=True)
+@njit(parallel=True, fastmath=True)
 def _shade(
     tangents: np.ndarray,
     view: np.ndarray,
@@ -104,7 +105,7 @@ def _shade(
     return out
 
 
-@njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _draw(
     picture: np.ndarray,
     depth: np.ndarray,

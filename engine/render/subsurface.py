@@ -8,8 +8,10 @@ Perceptual Rendering of Human Skin, 2009, here with exact Gaussians.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 VARIANCES = (0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41)
 """Square millimetres."""
@@ -60,7 +62,7 @@ def diffuse(
     return total
 
 
-@njit(cache=True, parallel=True, fastmath=True)
+@njit(parallel=True, fastmath=True)
 def _blur_rows(image: np.ndarray, weight: np.ndarray, depth: np.ndarray, sigma: float, reach: float) -> np.ndarray:
     most = np.float32(reach)
     height, width = weight.shape

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from engine.compiled import njit
 
 
 def triangulate(quads: NDArray[np.integer]) -> NDArray[np.int32]:
@@ -48,7 +49,7 @@ def bump(
     return (raised / np.maximum(np.linalg.norm(raised, axis=1, keepdims=True), 1e-12)).astype(np.float32)
 
 
-@njit(cache=True)
+@njit()
 def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     out = np.zeros_like(vertices)
     for t in range(len(triangles)):
@@ -67,7 +68,7 @@ def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return out
 
 
-@njit(cache=True)
+@njit()
 def _tangents(vertices: np.ndarray, chart: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     out = np.zeros((len(vertices), 6), np.float32)
     weights = np.zeros(len(vertices), np.float32)

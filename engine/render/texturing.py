@@ -4,9 +4,9 @@ outline runs, or where two surfaces meet."""
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.render.mipmap import look_up
 
 JUMP, SLACK = 4.0, 2.0
@@ -29,7 +29,7 @@ def corner_table(
     return table
 
 
-@njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def colour_inside(
     corners: np.ndarray,
     faces: np.ndarray,
@@ -112,7 +112,7 @@ def colour_inside(
             neighbour = True
 
 
-@njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def _colour(
     corners: np.ndarray,
     faces: np.ndarray,
@@ -142,7 +142,7 @@ def _colour(
     return red, green, blue
 
 
-@njit(cache=True, nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
+@njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def colour_samples(
     corners: np.ndarray,
     faces: np.ndarray,

@@ -1,0 +1,33 @@
+"""Loops compiled by numba: kept between processes, and loaded there without all that only compiling needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+from numba.core.caching import FunctionCache
+from numba.core.runtime import rtsys
+
+
+def njit(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
+    """`numba.njit` with these flags; what is compiled is kept beside the source, or where `NUMBA_CACHE_DIR` says."""
+
+    def compiled(function: Callable[..., Any]) -> Any:
+        dispatcher = numba.njit(**flags)(function)
+        dispatcher._cache = _Kept(function)
+        return dispatcher
+
+    return compiled
+
+
+class _Kept(FunctionCache):  # type: ignore[misc]
+    """Numba readies its whole compiler, SciPy's linear algebra included, before it looks for what was kept: a third of a
+    second in which a short clip is half drawn. Machine code needs its memory's manager alone."""
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The function for these types from the disk; None where it has to be compiled, for which all is ready then."""
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            kept = self._load_overload(sig, target_context)
+        return kept if kept is not None else super().load_overload(sig, target_context)
