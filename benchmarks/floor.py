@@ -1,5 +1,5 @@
 """The least that any system of this kind does with a clip: decode, follow the face, encode. A process of its own, which loads
-nothing else and is spared what `galatea` is spared.
+nothing else and is spared what `galatea` is spared. Nobody writes it so at first: see `benchmarks.plain_script`.
 
     python -m benchmarks.floor CLIP OUT.mp4
 """

@@ -84,7 +84,7 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
             kept = true[::STEP]
             for label, parts, space in ABLATIONS:
-                rig = rig_target(acting.target, acting.layers, SMOOTHING.get(label, "confidence"))
+                rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING.get(label, "confidence"))
                 options = acting.options.model_copy(update=space)
                 varied = replace(acting, rig=rig, options=options, looked=label == ALL)
                 made = list(varied.frames(parts, refined=label != FULL, step=STEP))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numba
 from numba.core.caching import FunctionCache
-from numba.core.runtime import rtsys
+from numba.core.runtime.nrt import rtsys
 
 
 def njit(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
@@ -15,13 +15,13 @@ def njit(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
 
     def compiled(function: Callable[..., Any]) -> Any:
         dispatcher = numba.njit(**flags)(function)
-        dispatcher._cache = _Kept(function)
+        dispatcher._cache = _Kept(function)  # type: ignore[no-untyped-call]
         return dispatcher
 
     return compiled
 
 
-class _Kept(FunctionCache):  # type: ignore[misc]
+class _Kept(FunctionCache):
     """Numba readies its whole compiler, SciPy's linear algebra included, before it looks for what was kept: a third of a
     second in which a short clip is half drawn. Machine code needs its memory's manager alone."""
 
@@ -29,5 +29,7 @@ class _Kept(FunctionCache):  # type: ignore[misc]
         """The function for these types from the disk; None where it has to be compiled, for which all is ready then."""
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
-            kept = self._load_overload(sig, target_context)
-        return kept if kept is not None else super().load_overload(sig, target_context)
+            kept = self._load_overload(sig, target_context)  # type: ignore[no-untyped-call]
+        if kept is not None:
+            return kept
+        return super().load_overload(sig, target_context)  # type: ignore[no-untyped-call]

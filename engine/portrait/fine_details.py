@@ -107,6 +107,7 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     labels = np.where(probable | sure, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[middle > 0] = cv2.GC_FGD
     models = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.setRNGSeed(1)
     cv2.grabCut(patch, labels, (0, 0, 1, 1), *models, 3, cv2.GC_INIT_WITH_MASK)
     inside = ((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.float32)
     inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((5, 5))), (0, 0), 3)

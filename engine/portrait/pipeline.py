@@ -18,7 +18,7 @@ from engine.perception.landmarks import fiducials
 from engine.perception.models import matting_model
 from engine.portrait.choice import choose_driver
 from engine.portrait.driver import DriverTrack, track_driver
-from engine.portrait.fine_details import RatioStrip, keep_ratio_images
+from engine.portrait.fine_details import RatioStrip, detail_region, keep_ratio_images
 from engine.portrait.loop import close_loop
 from engine.portrait.misfit import Misfit
 from engine.portrait.neutral import choose_neutral_frame
@@ -109,7 +109,8 @@ def prepare_target(image: Path, options: PortraitOptions, out: Path, run: Run) -
     run.publish(out / "preview.jpg")
     model = matting_model(os.environ)
     layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)
-    return PreparedTarget(face, layers, run.beside("rig_target", rig_target, face, layers))
+    details = run.beside("detail_region", detail_region, face.rgb, face.mesh)
+    return PreparedTarget(face, layers, run.beside("rig_target", rig_target, face, layers, details))
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,11 @@ class Rig:
     details: DetailRegion
 
 
-def rig_target(target: TargetFace, layers: Layers, smoothing: str = "confidence") -> Rig:
-    """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it."""
+def rig_target(
+    target: TargetFace, layers: Layers, details: DetailRegion | None = None, smoothing: str = "confidence"
+) -> Rig:
+    """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it, `details` the region
+    if it is known already."""
     control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255))
     mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], smoothing, control.usable)
-    return Rig(control, mesh, detail_region(target.rgb, target.mesh))
+    return Rig(control, mesh, details or detail_region(target.rgb, target.mesh))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -132,8 +133,10 @@ def separate_layers(target: TargetFace, model: MattingModel | None = None, model
     if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
         person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
         return Layers(person, np.full_like(target.rgb, 255), transparent=True)
-    plate = background_plate(target.rgb, alpha)
-    colours = reconcile_with_plate(target.rgb, alpha, estimate_foreground(target.rgb, alpha), plate)
+    with ThreadPoolExecutor(1, thread_name_prefix="foreground") as beside:
+        front = beside.submit(estimate_foreground, target.rgb, alpha)
+        plate = background_plate(target.rgb, alpha)
+        colours = reconcile_with_plate(target.rgb, alpha, front.result(), plate)
     return Layers(np.dstack([colours + 0.5, alpha * 255 + 0.5]).astype(np.uint8), plate)
 
 
