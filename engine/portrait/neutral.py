@@ -1,4 +1,4 @@
-"""The driver's neutral frame s*: closed mouth, open eyes, frontal, near the clip's own mean (section 4)."""
+"""The driver's neutral frame s*: closed mouth, open eyes, calm brows, frontal, near the calm frames' mean (section 4)."""
 
 from __future__ import annotations
 
@@ -11,14 +11,21 @@ from engine.portrait.driver import DriverTrack
 from engine.portrait.head_motion import fit_rigid, turns
 from engine.portrait.looks import EXPRESSION, expression
 
-MOUTH, SHUT, CORNERS, WIDE, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 2.0, 1.5, 3.0
+MOUTH, SHUT, CORNERS, WIDE, UPPER, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 10.0, 2.0, 1.5, 3.0
 """What counts how much: a mouth that is further open, or less open, than the target's, how far its corners lie higher or
-lower, by how much it is wider (eye distances), closing of the eyes, radians of turn, and distance from the mean. A mouth
-that stays a little open does less harm than one that is pressed together, because the frame with the right opening
-smiles and the target does not."""
+lower, by how much it is wider (eye distances), brows and lids that no calm face shows, closing of the eyes, radians of
+turn, and distance from the mean. A mouth that stays a little open does less harm than one that is pressed together,
+because the frame with the right opening smiles and the target does not."""
 
 USUAL = 0.05
 """Eye distances by which mouths differ between people who do nothing."""
+
+CALM = {"inner_brows_up": (0.31, 0.41), "eyes_open": (0.24, 0.40)}
+"""Where the brows' inner ends and the lids of two dozen people who do nothing were. They differ by as much as an expression
+moves them: a target's alone do not tell what it shows, and are taken to be at rest."""
+
+CALMEST = 0.2
+"""Share of a driver's frames that stand for its face at rest: over a whole clip it may be surprised most of the time."""
 
 
 def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> int:
@@ -53,7 +60,6 @@ def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> N
     inner = fiducials(meshes)[:, 17:]
     at_rest = np.einsum("nji,nvj->nvi", rotation, inner - shift[:, None]) / scale[:, None, None]
     unit = float(np.linalg.norm(middle[33] - middle[263]))
-    far = np.linalg.norm(at_rest - np.median(at_rest, axis=0), axis=-1).mean(axis=-1) / unit
     angle = turns(meshes, target)
     opening = mouth_opening(meshes) - float(mouth_opening(target))
     mouth = np.maximum(MOUTH * opening, -SHUT * opening)
@@ -62,7 +68,15 @@ def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> N
     smile = np.maximum(np.abs(shown[:, corners] - wanted[corners]) - USUAL, 0)
     at_most = max(float(wanted[wide]), float(np.quantile(shown[:, wide], 0.2)))
     grin = np.maximum(shown[:, wide] - at_most - USUAL, 0)
+    upper = sum(_outside(shown[:, k], wanted[k], *CALM[name]) for k, name in enumerate(EXPRESSION) if name in CALM)
+    cost = mouth + CORNERS * smile + WIDE * grin + UPPER * upper + TURN * angle
+    calm = cost <= np.quantile(cost, CALMEST)
     eyes = eye_opening(meshes)
-    usual = np.quantile(eyes, 0.8, axis=0)
-    closing = np.clip(1 - eyes / np.maximum(usual, 1e-3), 0, 1).max(axis=1)
-    return np.asarray(mouth + CORNERS * smile + WIDE * grin + EYES * closing + TURN * angle + MEAN * far, float)
+    closing = np.clip(1 - eyes / np.maximum(np.median(eyes[calm], axis=0), 1e-3), 0, 1).max(axis=1)
+    far = np.linalg.norm(at_rest - np.median(at_rest[calm], axis=0), axis=-1).mean(axis=-1) / unit
+    return np.asarray(cost + EYES * closing + MEAN * far, float)
+
+
+def _outside(shown: NDArray[np.floating], wanted: float, low: float, high: float) -> NDArray[np.floating]:
+    """(N,) how far values (N,) lie outside of a range that is widened to what is wanted."""
+    return np.maximum(np.maximum(min(low, wanted) - shown, shown - max(high, wanted)), 0)

@@ -11,11 +11,19 @@ from made_face import driver, opened, placed, shut, smiling
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.media.video import read_video
+from engine.perception.faces import FaceTracker
+from engine.perception.landmarks import eye_distance
+from engine.performances import video
 from engine.portrait.driver import DriverTrack
+from engine.portrait.looks import expression
 from engine.portrait.neutral import choose_neutral_frame, neutral_cost
 
 REST = 12
 """The only frame of the clip with a closed mouth, open eyes and a face from the front."""
+
+BROWS = (70, 63, 105, 66, 107, 336, 296, 334, 293, 300)
+UPPER_LIDS = (158, 159, 160, 385, 386, 387)
 
 
 def clip(rest: NDArray) -> list[NDArray]:
@@ -34,6 +42,14 @@ def clip(rest: NDArray) -> list[NDArray]:
         frames.append(face)
     frames[REST] = rest
     return frames
+
+
+def raised(face: NDArray, up: float) -> NDArray[np.float32]:
+    """The face with its brows up by so many eye distances, and with them the upper lids by a quarter."""
+    high = face.copy()
+    high[list(BROWS), 1] -= up * eye_distance(face)
+    high[list(UPPER_LIDS), 1] -= up * eye_distance(face) / 4
+    return high
 
 
 @pytest.fixture(scope="module")
@@ -104,3 +120,24 @@ def test_an_open_mouth_that_does_not_smile_is_no_grin(tmp_path: Path, rest: NDAr
     assert chosen in (0, 1, len(frames) - 1)
     grinning = opened(smiling(rest, 0.48), 0.12)
     assert choose_neutral_frame(driver(tmp_path, frames), grinning, None) in (3, 4, 5)
+
+
+def test_a_driver_that_is_surprised_most_of_the_time_rests_where_it_is_not(tmp_path: Path, rest: NDArray) -> None:
+    """Neither the mean of the clip nor its usual lids are a face at rest."""
+    ahead = [raised(rest, up) for up in (0, 0.03, 0.06, 0.09)]
+    frames = [*ahead, *[opened(raised(rest, 0.12), 0.2)] * 20, *reversed(ahead)]
+    assert choose_neutral_frame(driver(tmp_path, frames), rest, None) in (0, 1, len(frames) - 2, len(frames) - 1)
+
+
+def test_a_driver_that_frowns_most_of_the_time_rests_where_it_does_not(tmp_path: Path, rest: NDArray) -> None:
+    frames = [rest, *[raised(rest, -0.12)] * 20, raised(rest, -0.06)]
+    assert choose_neutral_frame(driver(tmp_path, frames), rest, None) == 0
+
+
+@pytest.mark.parametrize("name", ["surprise", "surprise-strong", "anger-strong", "fear-strong", "sadness-strong"])
+def test_a_built_in_performance_rests_where_it_begins(name: str, rest: NDArray) -> None:
+    """Each begins and ends with a face that does nothing."""
+    with FaceTracker() as tracker:
+        meshes = np.stack([tracker(frame.rgb)[0] for frame in read_video(video(name), fps=15, longest_side=480)])
+    shown = expression(meshes)
+    assert np.abs(shown[int(neutral_cost(meshes, rest).argmin())] - shown[0]).max() < 0.05

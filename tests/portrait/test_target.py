@@ -15,7 +15,7 @@ from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.faces import find_faces
-from engine.perception.landmarks import eye_distance, fiducials, mouth_opening
+from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.looks import expression
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
@@ -111,7 +111,7 @@ def test_a_slightly_turned_face_is_taken_with_a_warning(scan, yaw: int, warned: 
     write_image(tmp_path / "head.png", picture)
     codes: list[str] = []
     find(tmp_path / "head.png", codes)
-    assert codes == (["target_not_neutral"] if warned else [])
+    assert codes == [*["target_not_neutral"] * warned, "eyes_shut"]  # the scanned man's are
 
 
 @pytest.mark.parametrize(
@@ -149,6 +149,16 @@ def test_a_mouth_open_too_wide_is_refused_unless_placed_by_hand(clip, tmp_path: 
     assert mouth_opening(mesh) > 0.7
     placed_by_hand = [tuple(map(float, point)) for point in fiducials(mesh)[:, :2]]
     assert find(tmp_path / "shout.png", landmarks=placed_by_hand).rgb.shape == shout.shape
+
+
+def test_shut_eyes_are_told(clip, tmp_path: Path) -> None:
+    frames = clip("woman_talk_aoc.mp4", 0.0, 8.0)[::2]
+    opening = [eye_opening(find_faces(frame)[0]).min() for frame in frames]
+    for name, frame in (("blink", frames[int(np.argmin(opening))]), ("open", frames[int(np.argmax(opening))])):
+        write_image(tmp_path / f"{name}.png", frame)
+        codes: list[str] = []
+        find(tmp_path / f"{name}.png", codes)
+        assert ("eyes_shut" in codes) == (name == "blink")
 
 
 def test_a_laugh_is_not_too_wide(small: Small) -> None:
