@@ -1,7 +1,8 @@
 """The skin of upper lids that close: a picture of open eyes shows hardly any of it.
 
 What is seen of it there, a narrow strip with lashes and their shadow, would be drawn out over the whole eye and make a
-shut one black. So a closing lid takes the colours of the skin above it, more the further it closes.
+shut one black. So a closing lid takes the colours and the grain of the skin above it, mirrored at the crease, more the
+further it closes.
 """
 
 from __future__ import annotations
@@ -19,27 +20,33 @@ STRIPS = (
 """Vertices of the skin above the upper lid, and of the lid's edge, from the eye's outer corner on; right eye first."""
 CORNERS = ((33, 133), (263, 362))
 """Where both end."""
-SAMPLE = 0.06
-"""Radius of the neighbourhood whose colour counts, in eye widths."""
+HIGHER = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
+"""Vertices further up, below the brow."""
 BEGINS = 0.35
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
-HIGHER = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
-"""Vertices further up, below the brow: the lighter of both is less of a shadow."""
+LIT = 0.5
+"""Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
+ACROSS = 0.15
+"""Eye widths over which its colours are even from corner to corner ..."""
+GRAIN = 0.1
+"""... and below which what is seen of the skin is its grain ..."""
+FAINT = 12.0
+"""... as far as it is fainter than this, grey levels: the rest are lashes, brows and paint."""
 SHADED = 0.12
 """By how much a lid is darker at its edge."""
 _TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 
-def lid_colours(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
-    """(2, 9, 3) the skin above each lid of a target (H, W, 3) with its face at `mesh` (478, 2 or 3), from corner to corner;
-    right eye first."""
-    return np.stack([_colours(rgb, mesh, side) for side in range(2)])
+def lid_skins(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> list[NDArray[np.float32]]:
+    """The skin of both upper lids, right one first, of a target (H, W, 3) with its face at `mesh` (478, 2 or 3): (h, w, 3)
+    float32 from the crease down to the edge, from the eye's outer corner to the inner one."""
+    return [_skin(rgb, mesh, side) for side in range(2)]
 
 
 def draw_lid(
-    frame: NDArray[np.uint8], colours: NDArray[np.float32], mesh: NDArray[np.floating], side: int, share: float
+    frame: NDArray[np.uint8], skin: NDArray[np.float32], mesh: NDArray[np.floating], side: int, share: float
 ) -> None:
-    """Give the upper lid in a frame (H, W, 3), in place, a `share` of the `colours` (9, 3).
+    """Give the upper lid in a frame (H, W, 3), in place, a `share` of its `skin` (h, w, 3).
 
     Parameters
     ----------
@@ -50,16 +57,19 @@ def draw_lid(
     high = np.minimum(np.ceil(points.max(axis=0)).astype(int) + 1, frame.shape[1::-1])
     if share == 0 or (high - low).min() < 2:
         return
+    along = np.concatenate([[0], np.linspace(0, skin.shape[1] - 1, 7), [skin.shape[1] - 1]])
     field = inverse_map(
         (points - low).astype(np.float32),
-        np.column_stack([np.concatenate([colours, (1 - SHADED) * colours]), np.repeat([0, 1], 9)]).astype(np.float32),
+        np.column_stack([np.tile(along, 2), np.repeat([0, 1], 9)]).astype(np.float32),
         _TRIANGLES,
         (int(high[1] - low[1]), int(high[0] - low[0])),
         outside=-1.0,
     )
-    t = np.clip(field[..., 3:] / BEGINS, 0, 1)
+    down = field[..., 1]
+    seen = cv2.remap(skin, field[..., 0], down * (len(skin) - 1), cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    t = np.clip(down[..., None] / BEGINS, 0, 1)
     part = frame[low[1] : high[1], low[0] : high[0]]
-    part[:] = np.clip(part + share * t * t * (3 - 2 * t) * (field[..., :3] - part) + 0.5, 0, 255).astype(np.uint8)
+    part[:] = np.clip(part + share * t * t * (3 - 2 * t) * (seen - part) + 0.5, 0, 255).astype(np.uint8)
 
 
 def _strip(mesh: NDArray, side: int) -> NDArray:
@@ -68,10 +78,23 @@ def _strip(mesh: NDArray, side: int) -> NDArray:
     return np.asarray(mesh[[v for row in STRIPS[side] for v in (outer, *row, inner)], :2])
 
 
-def _colours(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
-    width = float(np.linalg.norm(mesh[CORNERS[side][0], :2] - mesh[CORNERS[side][1], :2]))
-    blurred = cv2.GaussianBlur(rgb, (0, 0), max(SAMPLE * width, 0.5))
-    at = mesh[np.array([STRIPS[side][0], HIGHER[side]]), :2].round().astype(int).clip(0, np.array(rgb.shape[1::-1]) - 1)
-    seen = blurred[at[..., 1], at[..., 0]].astype(np.float32)
-    lighter = np.where((seen[0].sum(1) > seen[1].sum(1))[:, None], seen[0], seen[1])
-    return np.asarray(cv2.GaussianBlur(lighter[[0, *range(7), 6]], (1, 5), 0, borderType=cv2.BORDER_REPLICATE))
+def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
+    above = _above(rgb, mesh, side)
+    height, width = above.shape[:2]
+    by_light = np.argsort(-above.sum(axis=2), axis=0)[: max(1, round(LIT * height))]
+    colours = np.take_along_axis(above, by_light[..., None], axis=0).mean(axis=0, keepdims=True)
+    colours = cv2.GaussianBlur(colours, (0, 0), ACROSS * width, borderType=cv2.BORDER_REPLICATE)
+    grain = above - cv2.GaussianBlur(above, (0, 0), max(GRAIN * width, 0.5), borderType=cv2.BORDER_REPLICATE)
+    shading = 1 - SHADED * np.linspace(0, 1, height, dtype=np.float32)[:, None, None]
+    return np.asarray(colours * shading + grain.clip(-FAINT, FAINT), np.float32)
+
+
+def _above(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
+    """(h, w, 3) the skin from the crease up towards the brow, straightened, at the picture's own resolution."""
+    rows = mesh[np.array([STRIPS[side][0], HIGHER[side]]), :2].astype(np.float32)
+    width = max(2, round(float(np.linalg.norm(np.diff(rows[0], axis=0), axis=1).sum())))
+    height = max(2, round(float(np.linalg.norm(rows[1] - rows[0], axis=1).mean())))
+    places = cv2.resize(rows, (width, 2), interpolation=cv2.INTER_LINEAR)
+    up = np.linspace(0, 1, height, dtype=np.float32)[:, None, None]
+    x, y = cv2.split(places[:1] * (1 - up) + places[1:] * up)
+    return cv2.remap(rgb, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)

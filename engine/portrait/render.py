@@ -19,7 +19,7 @@ from engine.portrait.eyes import closing, draw_eye, prepare_eyes
 from engine.portrait.fine_details import shade
 from engine.portrait.head_proxy import build_head_proxy
 from engine.portrait.hidden_regions import match_palette, transfer_mouth
-from engine.portrait.lid_skin import draw_lid, lid_colours
+from engine.portrait.lid_skin import draw_lid, lid_skins
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import ControlMotion, carry_motion
 from engine.portrait.options import PortraitOptions
@@ -67,7 +67,7 @@ class Renderer:
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and options.format != "mp4"
         self._eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
-        self._lids = lid_colours(target.rgb, target.mesh)
+        self._lids = lid_skins(target.rgb, target.mesh) if parts.eyes else []
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
         self._landing = rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}

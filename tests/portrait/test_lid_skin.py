@@ -1,4 +1,4 @@
-"""Upper lids that close take the colour of the skin above them."""
+"""Upper lids that close take the colour and the grain of the skin above them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from made_face import SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.portrait.eyes import closing, prepare_eyes
-from engine.portrait.lid_skin import STRIPS, draw_lid, lid_colours
+from engine.portrait.lid_skin import FAINT, HIGHER, SHADED, STRIPS, draw_lid, lid_skins
 
 FACE = placed(160, (250, 200))
 SIZE = (500, 600)
@@ -35,16 +35,17 @@ def lid(face: NDArray[np.float32], side: int, way: float = 0.75) -> tuple[int, i
 
 @pytest.mark.parametrize("side", [0, 1])
 def test_a_lid_that_closes_is_skin_and_no_drawn_out_lashes(side: int) -> None:
-    colours = lid_colours(made_up(FACE), FACE)[side]
-    np.testing.assert_allclose(colours, np.tile(SKIN, (9, 1)), atol=6)
+    skin = lid_skins(made_up(FACE), FACE)[side]
+    np.testing.assert_allclose(skin[0], np.tile(SKIN, (skin.shape[1], 1)), atol=6)
+    np.testing.assert_allclose(skin[-1], (1 - SHADED) * skin[0], atol=6)
     closed = shut(FACE)
     frame = made_up(closed)
     x, y = lid(closed, side)
     assert frame[y, x].max() < 30
     before = frame.copy()
-    draw_lid(frame, colours, closed[:, :2], side, 0.0)
+    draw_lid(frame, skin, closed[:, :2], side, 0.0)
     np.testing.assert_array_equal(frame, before)
-    draw_lid(frame, colours, closed[:, :2], side, 1.0)
+    draw_lid(frame, skin, closed[:, :2], side, 1.0)
     assert np.abs(frame[y, x] - 0.9 * np.array(SKIN)).max() < 12
     other = lid(closed, 1 - side)
     np.testing.assert_array_equal(frame[other[1], other[0]], before[other[1], other[0]])
@@ -54,6 +55,17 @@ def test_a_lid_that_closes_is_skin_and_no_drawn_out_lashes(side: int) -> None:
     right, bottom = strip.max(axis=0) + 25
     ys, xs = np.nonzero(changed)
     assert xs.min() >= left and xs.max() <= right and ys.min() >= top and ys.max() <= bottom
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_its_grain_is_that_of_the_skin_above_without_lashes(side: int) -> None:
+    plain = painted(FACE, SIZE)
+    grain = np.random.default_rng(0).normal(0, 4, (*plain.shape[:2], 1))
+    picture = (plain + grain).round().clip(0, 255).astype(np.uint8)
+    x, y = FACE[[STRIPS[side][0][3], HIGHER[side][3]], :2].mean(axis=0).round().astype(int).tolist()
+    cv2.line(picture, (x, y - 8), (x, y + 8), BLACK, 1)
+    apart = lid_skins(picture, FACE)[side] - lid_skins(plain, FACE)[side]
+    assert 2 < apart.std() < 5 and np.abs(apart).max() < FAINT + 8
 
 
 def test_it_begins_where_the_lid_begins_to_close() -> None:
@@ -69,5 +81,5 @@ def test_a_face_at_the_picture_s_edge_is_drawn_as_far_as_it_goes() -> None:
     face = FACE - np.float32([250, 170, 0])
     frame = np.full((100, 120, 3), 200, np.uint8)
     for side in (0, 1):
-        draw_lid(frame, np.full((9, 3), 50, np.float32), face[:, :2], side, 1.0)
+        draw_lid(frame, np.full((4, 9, 3), 50, np.float32), face[:, :2], side, 1.0)
     assert frame.min() < 100
