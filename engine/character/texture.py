@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.labels import LEGS, complete_labels
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.inpaint import background_plate

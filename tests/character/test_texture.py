@@ -7,7 +7,7 @@ import numpy as np
 
 from engine.body.parts import PARTS
 from engine.character.face_region import face_within
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 from engine.character.sides import FOLDED, FURTHEST, places_on_the_picture
@@ -133,7 +133,7 @@ def cylinder(radius: int = 20) -> tuple[Layer, np.ndarray]:
     deep = np.sqrt(np.maximum(radius**2 - x**2, 0))[None].repeat(64, 0)
     weights = np.ones((64, 64, 1), np.float32)
     sides = [Surface(np.where(mask, sign * deep, np.nan).astype(np.float32), weights) for sign in (1, -1)]
-    return Layer(mask, sides[0], sides[1], np.zeros(mask.shape, np.int8)), mask
+    return Layer(mask, sides[0], sides[1]), mask
 
 
 def test_the_side_of_a_cylinder_takes_colours_nearly_at_the_pace_of_its_surface() -> None:
