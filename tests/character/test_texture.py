@@ -57,17 +57,17 @@ def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     tiles, labels = painted()
     hidden = labels == PARTS.index("right_arm")
     assert np.abs(tiles.body[hidden].astype(int) - GREEN).max() <= 6, "neither arm, nor wall, nor hair"
-    np.testing.assert_array_equal(tiles.arms[hidden], person()[0][hidden])
-    assert np.abs(tiles.arms[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
+    np.testing.assert_array_equal(tiles.limbs[hidden], person()[0][hidden])
+    assert np.abs(tiles.limbs[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
         "where the dress hides it an arm is an arm"
     )
 
 
 def test_a_hand_in_a_pocket_is_of_the_faces_colour() -> None:
     tiles, labels = painted(hand=(100, 114))
-    assert (tiles.arms[140:165, 101:114] == SKIN).all()
+    assert (tiles.limbs[140:165, 101:114] == SKIN).all()
     arm = labels == PARTS.index("right_arm")
-    np.testing.assert_array_equal(tiles.arms[arm], person()[0][arm])
+    np.testing.assert_array_equal(tiles.limbs[arm], person()[0][arm])
     np.testing.assert_array_equal(tiles.body[140:165, 101:114], person()[0][140:165, 101:114])
 
 
