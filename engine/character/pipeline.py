@@ -42,10 +42,11 @@ STAGES = {
     "make_character": 2.0,
     "write_character": 2.0,
     "animate": 8.0,
+    "measure": 0.5,
 }
 """The stages and their usual share of the time."""
 
-EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character")
+EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
 """Those that come once for each person."""
 MOST = 6
 """People who are woken together."""
@@ -111,7 +112,10 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             if index == frames // 3:
                 write_still(out / "poster.jpg", frame, run.mark_synthetic)
             run.tick((index + 1) / frames)
-    quality = [measure(one.figure, one.silhouette, one.fitted, one.character) for one in people]
+    quality = [
+        run.stage("measure", measure, one.figure, one.silhouette, one.fitted, one.character, stored=False)
+        for one in people
+    ]
     write_report(
         out / "report.json",
         "character",
