@@ -224,7 +224,7 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
     """A GLB of at most `MOST_BYTES`; the report says what that took, or that it was not to be had."""
-    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES)
+    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES, check=run.check)
     if written.size > MOST_BYTES:
         run.warn(
             "glb_too_large",
