@@ -3,7 +3,7 @@
     python -m benchmarks.character [PICTURE...] [--seconds 2]
 
 Without pictures: all people of the test media. The process is warmed up first; stages are kept, as the service does. "To
-GLB" is everything but the video, of a revision too: with a joint moved by hand, with a stroke over the labels, with another
+GLB" is everything but the video and the quality, of a revision too: with a joint moved by hand, with a stroke over the labels, with another
 motion. The quality is that of the GLB, read back (`benchmarks.written_character`): "of the mask" is its silhouette, posed
 by `pictured` and drawn by OpenCV, "reported" what the report says; "front" the PSNR against the picture inside the mask;
 "flipped" the share of the pixels in view that show a triangle's back; "stretched" the share of edges that become more than
@@ -77,7 +77,7 @@ def _run(photo: Path, options: CharacterOptions, kept: StageStore, out: Path) ->
 
 
 def _to_glb(report: Mapping[str, Any]) -> float:
-    return sum(seconds for stage, seconds in report["stages"].items() if stage != "animate")
+    return sum(seconds for stage, seconds in report["stages"].items() if stage not in ("animate", "measure"))
 
 
 def _person(photo: Path, options: CharacterOptions, kept: StageStore) -> Person:

@@ -9,7 +9,7 @@ from typing import Any
 
 from benchmarks.shared_media import media
 from engine.character.figure import Choice, Figure, find_figure
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.options import CharacterOptions
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette, cut_out

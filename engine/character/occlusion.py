@@ -1,4 +1,4 @@
-"""Where an arm passes before the rest of the body, and the body completed behind it.
+"""Where a limb passes before the rest of the body, and the body completed behind it.
 
 The paper's occlusion mask (section 4.2.1) and occluded region construction (4.2.2).
 """
@@ -78,10 +78,10 @@ def completed(
 ) -> NDArray[np.bool_]:
     """The region B with its spurious borders replaced by the template's (the paper's figure 5, e to g).
 
-    `visible` (H, W): what is seen of head, trunk and legs; `hidden_by`: the arms before them; `near`: the occlusion
-    mask; `template`: head, trunk and legs of the projected template. Each run of B's border that lies in the occlusion
-    mask beside an arm gives way to the template's border between the partners of its ends, by the similarity transform
-    that takes those to its ends. B never shrinks, and grows only behind the arms.
+    `visible` (H, W): what is seen of the body; `hidden_by`: the limbs before it; `near`: the occlusion mask;
+    `template`: what the body has of the projected template. Each run of B's border that lies in the occlusion
+    mask beside a limb gives way to the template's border between the partners of its ends, by the similarity transform
+    that takes those to its ends. B never shrinks, and grows only behind the limbs.
     """
     body = _one_piece(visible, hidden_by, template)
     border, reference = outline(body), outline(largest(template))
@@ -110,7 +110,7 @@ def completed(
 def _one_piece(
     visible: NDArray[np.bool_], hidden_by: NDArray[np.bool_], template: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """The body in one connected piece: where an arm cuts it in two, the template says what joins them."""
+    """The body in one connected piece: where a limb cuts it in two, the template says what joins them."""
     count, _, stats, _ = cv2.connectedComponentsWithStats(visible.astype(np.uint8))
     if (stats[1:count, cv2.CC_STAT_AREA] > 0.02 * visible.sum()).sum() > 1:
         visible = visible | (hidden_by & template)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from engine.character.figure import Figure
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.motions import choose_motion, posed_by_hand
 from engine.character.options import CharacterOptions
 from engine.character.rigging import Character

@@ -42,10 +42,11 @@ STAGES = {
     "make_character": 2.0,
     "write_character": 2.0,
     "animate": 8.0,
+    "measure": 0.5,
 }
 """The stages and their usual share of the time."""
 
-EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character")
+EACH = ("cut_out", "fit_template", "label_parts", "build_mesh", "make_character", "measure")
 """Those that come once for each person."""
 MOST = 6
 """People who are woken together."""
@@ -111,7 +112,10 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             if index == frames // 3:
                 write_still(out / "poster.jpg", frame, run.mark_synthetic)
             run.tick((index + 1) / frames)
-    quality = [measure(one.figure, one.silhouette, one.fitted, one.character) for one in people]
+    quality = [
+        run.stage("measure", measure, one.figure, one.silhouette, one.fitted, one.character, stored=False)
+        for one in people
+    ]
     write_report(
         out / "report.json",
         "character",
@@ -220,7 +224,7 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
     """A GLB of at most `MOST_BYTES`; the report says what that took, or that it was not to be had."""
-    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES)
+    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES, check=run.check)
     if written.size > MOST_BYTES:
         run.warn(
             "glb_too_large",

@@ -54,15 +54,6 @@ class HandAtHip:
     skin: NDArray[np.float64]
 
 
-def template_hand(
-    vertices: NDArray[np.floating], triangles: NDArray[np.integer], rig: Rig, arm: int, shape: tuple[int, int]
-) -> NDArray[np.bool_]:
-    """The pixels (h, w) of the template's hand, without what is before it. `vertices` (V, 3) in picture space."""
-    side = SIDES[ARMS.index(arm)]
-    own = np.array([name.startswith(f"{side}Hand") for name in rig.names])[rig.bones[:, 0]]
-    return side_maps(vertices, triangles[own[triangles].all(1)], shape, "front").mask
-
-
 @dataclass(frozen=True)
 class PartedHand:
     """What shows around a hand: the `arm`'s and the `cloth`'s pixels (h, w), and those where the hand is `hidden`."""
@@ -94,6 +85,15 @@ def hands_at_hips(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.fl
             knuckles = (at(f"{side}Index") + at(f"{side}Pinky")) / 2
             found.append(HandAtHip(arm, wrist, knuckles, bool(sure < DOUBTFUL), skin))
     return tuple(found)
+
+
+def template_hand(
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer], rig: Rig, arm: int, shape: tuple[int, int]
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the template's hand, without what is before it. `vertices` (V, 3) in picture space."""
+    side = SIDES[ARMS.index(arm)]
+    own = np.array([name.startswith(f"{side}Hand") for name in rig.names])[rig.bones[:, 0]]
+    return side_maps(vertices, triangles[own[triangles].all(1)], shape, "front").mask
 
 
 def parted(
@@ -152,6 +152,28 @@ def with_hand_parted(labels: NDArray[np.intp], found: PartedHand, arm: int) -> N
     return np.where(found.arm, arm, np.where(found.cloth, beneath, labels))
 
 
+def _skin(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The half of the colours (N, 3) of a face (478, 2) that are nearest to its median: no eyes, lips or beard."""
+    inside = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillConvexPoly(inside, cv2.convexHull(np.rint(face).astype(np.int32)), (1,))
+    colours = rgb[inside > 0].astype(np.float64)
+    if not len(colours):
+        return colours
+    off = np.linalg.norm(colours - np.median(colours, axis=0), axis=1)
+    return np.asarray(colours[off <= np.median(off)])
+
+
+def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    return vector / max(float(np.linalg.norm(vector)), 1e-6)
+
+
+def _alike(skin: NDArray[np.float64], cloth: NDArray[np.uint8]) -> bool:
+    """Whether the hue of some skin (N, 3) is that of some cloth (M, 3), as in a picture without colours."""
+    medians = np.stack([np.median(skin, axis=0), np.median(cloth, axis=0)]).astype(np.uint8)
+    lab = cv2.cvtColor(medians[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
+    return bool(np.linalg.norm(lab[0, 1:] - lab[1, 1:]) < HUES)
+
+
 def _around_what_is_sure(likely: NDArray[np.bool_], sure: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The pieces of what is `likely` (h, w) in which some is `sure`."""
     _, pieces = cv2.connectedComponents(likely.astype(np.uint8), connectivity=4)
@@ -165,25 +187,3 @@ def _joined(bare: NDArray[np.bool_], arm: NDArray[np.bool_]) -> NDArray[np.bool_
     both = cv2.morphologyEx((bare | arm).astype(np.uint8), cv2.MORPH_CLOSE, np.ones((SHADOW, SHADOW), np.uint8)) > 0
     near = cv2.dilate(bare.astype(np.uint8), np.ones((SHADOW, SHADOW), np.uint8)) > 0
     return np.asarray(bare | (both & near))
-
-
-def _skin(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[np.float64]:
-    """The half of the colours (N, 3) of a face (478, 2) that are nearest to its median: no eyes, lips or beard."""
-    inside = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillConvexPoly(inside, cv2.convexHull(np.rint(face).astype(np.int32)), (1,))
-    colours = rgb[inside > 0].astype(np.float64)
-    if not len(colours):
-        return colours
-    off = np.linalg.norm(colours - np.median(colours, axis=0), axis=1)
-    return np.asarray(colours[off <= np.median(off)])
-
-
-def _alike(skin: NDArray[np.float64], cloth: NDArray[np.uint8]) -> bool:
-    """Whether the hue of some skin (N, 3) is that of some cloth (M, 3), as in a picture without colours."""
-    medians = np.stack([np.median(skin, axis=0), np.median(cloth, axis=0)]).astype(np.uint8)
-    lab = cv2.cvtColor(medians[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
-    return bool(np.linalg.norm(lab[0, 1:] - lab[1, 1:]) < HUES)
-
-
-def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    return vector / max(float(np.linalg.norm(vector)), 1e-6)

@@ -1,7 +1,7 @@
 """Front and back of each part made into one closed mesh (the paper's sections 4.1.3 and 4.2.3).
 
 Each part is a sheet of pixels: two triangles for each block of four, the front and the back sheet joined along their
-border. Parts are not sewn to one another: they overlap where a limb begins (`engine.character.layers`), and what overlaps
+border. Parts are not sewn to one another: they overlap where a limb begins (`engine.character.regions`), and what overlaps
 moves alike.
 """
 
@@ -23,7 +23,7 @@ INFLUENCES = 4
 THINNEST, EDGE = 0.5, 0.3
 """Pixels between the middle and each side, at least, inside a part; and at its border."""
 FORWARD = 0.2
-"""Pixels by which an arm lies before the body where both have the same depth: about the shoulder they overlap."""
+"""Pixels by which a limb lies before the body where both have the same depth: about the joint they overlap."""
 APART = 0.02
 """Pixels of depth between the two sides of a cut, which are otherwise in one place."""
 OUT = 1.2
@@ -36,13 +36,13 @@ BORDER_SWEEPS = 3
 
 @dataclass(frozen=True)
 class Layer:
-    """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8: where a 1 lies beside a 2 the part is not
-    joined (one leg and the other)."""
+    """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8, if it is cut: where a 1 lies beside a 2 the
+    part is not joined (one leg and the other)."""
 
     mask: NDArray[np.bool_]
     front: Surface
     back: Surface
-    cut: NDArray[np.int8]
+    cut: NDArray[np.int8] | None = None
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ def _sheet(
         number = np.full(layer.mask.shape, -1, np.intp)
         number[layer.mask] = np.arange(len(at))
         blocks = _blocks(number[:-1, :-1], number[:-1, 1:], number[1:, :-1], number[1:, 1:])
-        whole, from_where, parted = _parted(at, layer.cut, blocks)
+        whole, from_where, parted = (at, at, blocks) if layer.cut is None else _parted(at, layer.cut, blocks)
         places.append(whole)
         sources.append(from_where)
         owners.append(np.full(len(whole), k))

@@ -17,7 +17,8 @@ from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import turn_head
-from engine.character.layers import Labels, build_layers, label_parts
+from engine.character.label_map import Labels, label_parts
+from engine.character.layers import build_layers
 from engine.character.measures import pose
 from engine.character.options import LabelStroke
 from engine.character.pockets import hands_at_hips
@@ -108,7 +109,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
         on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
         laid = posed.vertices[human.face[JAW:], :2]
         face = Face(on_grid, laid, labels.labels == PARTS.index("head"))
-    return close(build_layers(silhouette.mask, labels, posed, human.rig, face), silhouette.soft)
+    return close(build_layers(labels, posed, human.rig, face), silhouette.soft)
 
 
 def make_character(

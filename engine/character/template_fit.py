@@ -21,8 +21,8 @@ from engine.body.rig import Rig
 from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
 from engine.character.figure import Figure
-from engine.character.layers import PosedTemplate
 from engine.character.picture_space import PictureCamera
+from engine.character.posed_template import PosedTemplate
 from engine.perception.body import LANDMARKS
 from engine.render.surface import triangulate
 

@@ -1,6 +1,6 @@
 """The character's colours: one texture of the picture's own pixels, of what is hidden, and of the back.
 
-The paper's section 5: the front by projection; front regions behind arms filled by PatchMatch; the back a mirrored copy of
+The paper's section 5: the front by projection; front regions behind limbs filled by PatchMatch; the back a mirrored copy of
 the front, on which the face gives way to what surrounds it (hair, a hat).
 """
 
@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
+from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
-from engine.character.layers import Labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.inpaint import background_plate
@@ -27,7 +27,7 @@ BackTexture = Literal["mirror", "inpaint"]
 SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
 BESIDE = 0.004
-"""How far an arm's edge may lie from that of its label, as a share of the person's height."""
+"""How far a limb's edge may lie from that of its label, as a share of the person's height."""
 CONTRAST = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
 ENOUGH = 0.03
@@ -47,7 +47,7 @@ SEAM_FROM, SEAM_TO = 2.0, 8.0
 HEAD_FROM, HEAD_TO = 1.2, 4.5
 """The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
 SLIVER = 5
-"""Pixels of the grid up to which an arm that shows beside its label is the outline's roughness."""
+"""Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -55,11 +55,11 @@ TILES = 3
 
 @dataclass(frozen=True)
 class Tiles:
-    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `arms`, the `body` without
-    the arms before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
+    """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `limbs` that are apart, the
+    `body` without them before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
     grid's. `shift`: by how many of them x and y are further, so that pixels fall on pixels of the picture."""
 
-    arms: NDArray[np.uint8]
+    limbs: NDArray[np.uint8]
     body: NDArray[np.uint8]
     back: NDArray[np.uint8]
     head: NDArray[np.bool_]
@@ -72,8 +72,8 @@ def paint_tiles(
     alpha: NDArray[np.float32],
     to_grid: NDArray[np.float64],
     labels: Labels,
-    arms_reach: NDArray[np.bool_],
-    arms_shown: NDArray[np.bool_],
+    limbs_reach: NDArray[np.bool_],
+    limbs_shown: NDArray[np.bool_],
     face: NDArray[np.float32] | None,
     back: BackTexture,
 ) -> Tiles:
@@ -84,13 +84,13 @@ def paint_tiles(
     rgb, alpha : the picture (H, W, 3) and the person's mask (H, W).
     to_grid : (2, 3) from the picture's pixels to those of the grid.
     labels : what each pixel of the grid shows.
-    arms_reach, arms_shown : (h, w) all that the arms' surfaces cover, seen or not; and where they are the nearest.
+    limbs_reach, limbs_shown : (h, w) all that the surfaces of limbs that are apart cover, seen or not; and where they are the nearest.
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
     """
-    arms = _own_of_arms(np.isin(labels.labels, labels.apart), arms_shown)
-    shape = arms.shape
+    limbs = _own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
+    shape = limbs.shape
     scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // TILES / shape[1])
     size = (round(shape[1] * scale), round(shape[0] * scale))
     matrix = to_grid * scale
@@ -101,27 +101,27 @@ def paint_tiles(
     flags = cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC
     seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
     own = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR)) > SURE
-    around = _up_to_their_edges(arms, seen)
+    around = _up_to_their_edges(limbs, seen)
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    body = _behind_the_arms(seen, labels, around, own, oval) if arms.any() else seen
+    body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
-    limbs = _filled(seen, _enlarged(arms_reach & ~arms, size), own & around) if arms.any() else seen
+    apart = _filled(seen, _enlarged(limbs_reach & ~limbs, size), own & around) if limbs.any() else seen
     if oval is not None and (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
-        hands, skin = _enlarged(near & ~arms, size), _ellipse(oval, own.shape) & own
+        hands, skin = _enlarged(near & ~limbs, size), _ellipse(oval, own.shape) & own
         if skin.any():
-            limbs = np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), limbs)
-    return Tiles(limbs, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
+            apart = np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), apart)
+    return Tiles(apart, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """One texture (h, 3 w, 3), or two tiles wide where no arm hides anything, and each vertex' place on it (V, 2)."""
-    arms_apart = bool((mesh.layer != body_layer).any())
-    pictures = [tiles.arms, tiles.body, tiles.back] if arms_apart else [tiles.body, tiles.back]
+    """One texture (h, 3 w, 3), or two tiles wide where no limb hides anything, and each vertex' place on it (V, 2)."""
+    limbs_apart = bool((mesh.layer != body_layer).any())
+    pictures = [tiles.limbs, tiles.body, tiles.back] if limbs_apart else [tiles.body, tiles.back]
     tile = np.where(mesh.layer == body_layer, np.where(mesh.front, len(pictures) - 2, len(pictures) - 1), 0)
     height, width = tiles.body.shape[:2]
     apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > OFF
@@ -140,26 +140,26 @@ def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray
     return np.where(own[..., None], rgb, soft).astype(np.uint8)
 
 
-def _behind_the_arms(
+def _behind_the_limbs(
     seen: NDArray[np.uint8],
     labels: Labels,
-    arms: NDArray[np.bool_],
+    limbs: NDArray[np.bool_],
     own: NDArray[np.bool_],
     face: NDArray[np.floating] | None,
 ) -> NDArray[np.uint8]:
-    """The body (h, w, 3) where `arms` (h, w) hide it: the head is filled from the head without its face, a leg behind the
+    """The body (h, w, 3) where `limbs` (h, w) hide it: the head is filled from the head without its face, a leg behind the
     other from that leg, all else from all else, so that no dress is made of hair."""
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
     head = _enlarged(beneath == PARTS.index("head"), size)
-    body = continued_colours(seen, own & ~arms)
-    shown = own & ~arms
+    body = continued_colours(seen, own & ~limbs)
+    shown = own & ~limbs
     if face is not None:
         shown &= ~(head & _ellipse(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
     for part in (head, leg, ~head & ~leg):
-        body = _filled(body, arms & own & part, shown & part)
+        body = _filled(body, limbs & own & part, shown & part)
     return continued_colours(body, own)
 
 
@@ -257,19 +257,19 @@ def _like_skin(
     return np.asarray(grown > 0) & head
 
 
-def _own_of_arms(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The pixels (h, w) whose colours are the arms': those `labelled` so where their surface is `shown`, and what it shows
+def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
     beyond slivers elsewhere. The others are on the body, whatever they are called."""
     near = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
     return np.asarray((labelled & near) | (more > 0))
 
 
-def _up_to_their_edges(arms: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """The arms (h, w) of the grid in the picture (H, W, 3), up to the edges that it has near theirs. By a guided filter
+def _up_to_their_edges(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """The limbs (h, w) of the grid in the picture (H, W, 3), up to the edges that it has near theirs. By a guided filter
     (K. He, J. Sun, X. Tang, ECCV 2010)."""
     size = (rgb.shape[1], rgb.shape[0])
-    large = np.asarray(cv2.resize(arms.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
+    large = np.asarray(cv2.resize(limbs.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
     reach = max(2, round(BESIDE * size[1]))
     likely = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
     close = cv2.dilate((large > 0.5).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=reach)

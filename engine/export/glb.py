@@ -7,8 +7,8 @@ in the comments.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
@@ -32,6 +32,8 @@ QUALITY = 90
 """Of a texture's JPEG, 1 to 100."""
 TIGHTER = ((1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
+PADDING = 3
+"""Bytes after a file within a GLB, at most: what follows begins at a multiple of four."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,7 @@ def write_glb(
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
     most: int | None = None,
+    check: Callable[[], None] = lambda: None,
 ) -> Written:
     """Write a character; the file appears under its name when it is whole.
 
@@ -69,21 +72,24 @@ def write_glb(
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
     most : bytes that the file should have at most, levels included: its texture is written as mildly `TIGHTER` as that
         takes. Where no texture is small enough it stays as it is, and the file is larger.
+    check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
     Raises ValueError where clips or levels do not fit the skeleton, or two clips have one name.
     """
 
-    def packed(smaller: int, quality: int) -> bytes:
-        own = replace(mesh, texture=_reduced(mesh.texture, smaller))
-        gltf = build_glb(own, clips, name=name, quality=quality, unlit=unlit, levels=levels, synthetic=synthetic)
+    def with_texture(texture: bytes) -> bytes:
+        gltf = build_glb(mesh, texture, clips, name=name, unlit=unlit, levels=levels, synthetic=synthetic)
         return b"".join(gltf.save_to_bytes())
 
-    how = (1, quality)
-    data = packed(*how)
-    if most is not None and len(data) > most:
-        for tighter in TIGHTER:
-            if len(fitting := packed(*tighter)) <= most:
-                how, data = tighter, fitting
+    how, texture = (1, quality), jpeg(mesh.texture, quality, synthetic)
+    data = with_texture(texture)
+    rest = len(data) - len(texture) + PADDING  # no more with a smaller one: numbers have no more digits
+    if most is not None and rest < most < len(data):
+        for smaller, lower in TIGHTER:
+            check()
+            texture = jpeg(_reduced(mesh.texture, smaller), lower, synthetic)
+            if rest + len(texture) <= most:
+                how, data = (smaller, lower), with_texture(texture)
                 break
     save_glb(path, data)
     return Written(len(data), *how)
@@ -109,15 +115,15 @@ def _reduced(texture: NDArray[np.uint8], smaller: int) -> NDArray[np.uint8]:
 
 def build_glb(
     mesh: SkinnedMesh,
+    texture: bytes,
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     synthetic: bool = True,
 ) -> gl.GLTF2:
-    """The same as an object, for formats that are GLB with additions (`engine.export.vrm`).
+    """The same as an object, for formats that are GLB with additions (`engine.export.vrm`). `texture`: as `jpeg`.
 
     Node `j` is joint `j` of the skeleton; then come the root of all joints and the meshes.
     """
@@ -129,7 +135,7 @@ def build_glb(
         gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
     _add_skeleton(gltf, buffer, skeleton)
-    _add_material(gltf, buffer, mesh.texture, quality, unlit, synthetic)
+    _add_material(gltf, buffer, texture, unlit)
     shown = [_add_mesh(gltf, buffer, each, name, level) for level, each in enumerate((mesh, *levels))]
     if levels:
         _add_levels(gltf, shown)
@@ -162,14 +168,12 @@ def _add_skeleton(gltf: gl.GLTF2, buffer: Buffer, skeleton: Skeleton) -> None:
     ]
 
 
-def _add_material(
-    gltf: gl.GLTF2, buffer: Buffer, texture: NDArray[np.uint8], quality: int, unlit: bool, synthetic: bool
-) -> None:
+def _add_material(gltf: gl.GLTF2, buffer: Buffer, texture: bytes, unlit: bool) -> None:
     gltf.images = [
         gl.Image(
             name="texture",
             mimeType="image/jpeg",
-            bufferView=buffer.add_file(jpeg(texture, quality, synthetic)),
+            bufferView=buffer.add_file(texture),
         )
     ]
     gltf.samplers = [

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engine.export.glb import QUALITY, build_glb, joint_names, save_glb
+from engine.export.glb import QUALITY, build_glb, joint_names, jpeg, save_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
@@ -86,7 +86,8 @@ def write_vrm(
     """
     if not meta.name or not meta.authors:
         raise ValueError("a VRM needs a name and an author")
-    gltf = build_glb(mesh, clips, name=meta.name, quality=quality, synthetic=synthetic)
+    texture = jpeg(mesh.texture, quality, synthetic)
+    gltf = build_glb(mesh, texture, clips, name=meta.name, synthetic=synthetic)
     shown = next(index for index, node in enumerate(gltf.nodes) if node.mesh is not None)
     gltf.extensions = {
         "VRMC_vrm": {

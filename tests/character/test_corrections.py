@@ -12,7 +12,7 @@ import pytest
 
 from engine.body.parts import PARTS
 from engine.character.figure import Choice, Figure, find_figure
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
 from engine.character.pipeline import cut_all_out, find_figures, wake_up
 from engine.character.posture import check_posture

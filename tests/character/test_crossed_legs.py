@@ -11,8 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.fitting import COEFFICIENTS, Fit
 from engine.body.parts import PARTS, vertex_parts
-from engine.character.layers import PosedTemplate, build_layers, label_parts
+from engine.character.label_map import label_parts
+from engine.character.layers import build_layers
 from engine.character.legs import as_the_template, leg_before
+from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import close
 from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import side_maps
@@ -60,7 +62,7 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
     other = side_maps(template.vertices, leg_of(template, before), SIZE, "front")
     hidden = own[0].mask & other.mask & (other.depth > own[0].depth)
     assert hidden.sum() > 500
-    layers = build_layers(mask, found, template, human.rig)
+    layers = build_layers(found, template, human.rig)
     body, leg = layers[0], layers[1]
     # between hip, where the leg goes over into the trunk, and sole
     rows = np.arange(int(template.joints[human.rig.index("LeftLeg"), 1]), SIZE[0])

@@ -40,7 +40,7 @@ def worn(mask: np.ndarray) -> Layer:
     weights[:CROTCH, :, RIG.index("Hips")] = 1
     weights[CROTCH:, :MIDDLE, RIG.index("RightUpLeg")] = 1
     weights[CROTCH:, MIDDLE:, RIG.index("LeftUpLeg")] = 1
-    return Layer(mask, *(Surface(side, weights) for side in sides), np.zeros(mask.shape, np.int8))
+    return Layer(mask, *(Surface(side, weights) for side in sides))
 
 
 def skirt(shown: np.ndarray) -> np.ndarray:

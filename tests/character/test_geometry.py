@@ -112,7 +112,7 @@ def layer(mask: np.ndarray, depth: float = 8.0) -> Layer:
     sides = [np.where(mask, sign * np.minimum(inside, depth), np.nan).astype(np.float32) for sign in (1, -1)]
     weights = np.zeros((*mask.shape, 52), np.float32)
     weights[..., 0] = 1
-    return Layer(mask, *(Surface(side, weights) for side in sides), np.zeros(mask.shape, np.int8))
+    return Layer(mask, *(Surface(side, weights) for side in sides))
 
 
 @pytest.mark.parametrize("count", [1, 2])

@@ -10,6 +10,8 @@ import pytest
 from template_character import template_character
 
 from engine.character.pipeline import MOST_BYTES, write_small_glb
+from engine.errors import Canceled
+from engine.export.glb import TIGHTER
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.run import Run
 
@@ -42,3 +44,18 @@ def test_a_surface_that_is_too_large_by_itself_is_told_of(tmp_path: Path) -> Non
     write_small_glb(tmp_path / "character.glb", heavy, (), run)
     assert (tmp_path / "character.glb").stat().st_size > MOST_BYTES
     assert [notice.code for notice in run.notices] == ["glb_too_large"]
+
+
+@pytest.mark.parametrize("heard", [1, 3])
+def test_a_cancel_is_heard_before_each_try(tmp_path: Path, heard: int) -> None:
+    """Noise of 4096 x 4096 takes three of them."""
+    asked: list[None] = []
+
+    def canceled() -> bool:
+        asked.append(None)
+        return len(asked) == heard
+
+    with pytest.raises(Canceled):
+        write_small_glb(tmp_path / "character.glb", noisy(4096, 4096), (), Run(canceled=canceled))
+    assert len(asked) == heard <= TIGHTER.index((2, 90)) + 1
+    assert not list(tmp_path.iterdir())

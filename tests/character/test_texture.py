@@ -7,7 +7,7 @@ import numpy as np
 
 from engine.body.parts import PARTS
 from engine.character.face_region import face_within
-from engine.character.layers import Labels
+from engine.character.label_map import Labels
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 from engine.character.sides import FOLDED, FURTHEST, places_on_the_picture
@@ -57,17 +57,17 @@ def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     tiles, labels = painted()
     hidden = labels == PARTS.index("right_arm")
     assert np.abs(tiles.body[hidden].astype(int) - GREEN).max() <= 6, "neither arm, nor wall, nor hair"
-    np.testing.assert_array_equal(tiles.arms[hidden], person()[0][hidden])
-    assert np.abs(tiles.arms[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
+    np.testing.assert_array_equal(tiles.limbs[hidden], person()[0][hidden])
+    assert np.abs(tiles.limbs[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
         "where the dress hides it an arm is an arm"
     )
 
 
 def test_a_hand_in_a_pocket_is_of_the_faces_colour() -> None:
     tiles, labels = painted(hand=(100, 114))
-    assert (tiles.arms[140:165, 101:114] == SKIN).all()
+    assert (tiles.limbs[140:165, 101:114] == SKIN).all()
     arm = labels == PARTS.index("right_arm")
-    np.testing.assert_array_equal(tiles.arms[arm], person()[0][arm])
+    np.testing.assert_array_equal(tiles.limbs[arm], person()[0][arm])
     np.testing.assert_array_equal(tiles.body[140:165, 101:114], person()[0][140:165, 101:114])
 
 
@@ -133,7 +133,7 @@ def cylinder(radius: int = 20) -> tuple[Layer, np.ndarray]:
     deep = np.sqrt(np.maximum(radius**2 - x**2, 0))[None].repeat(64, 0)
     weights = np.ones((64, 64, 1), np.float32)
     sides = [Surface(np.where(mask, sign * deep, np.nan).astype(np.float32), weights) for sign in (1, -1)]
-    return Layer(mask, sides[0], sides[1], np.zeros(mask.shape, np.int8)), mask
+    return Layer(mask, sides[0], sides[1]), mask
 
 
 def test_the_side_of_a_cylinder_takes_colours_nearly_at_the_pace_of_its_surface() -> None:

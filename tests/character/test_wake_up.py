@@ -18,6 +18,7 @@ from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation
 from engine.motion.gltf_motion import read_gltf_motion
+from engine.run import Progress
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "export"))
 from glb_reader import Glb, validate
@@ -236,10 +237,11 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
     wall = np.full((one.shape[0], small.shape[1], 3), one[2, 2], np.uint8)
     wall[-small.shape[0] :] = small
     write_image(tmp_path / "photo.png", np.concatenate([one, wall], 1))
-    out = wake_up(tmp_path / "photo.png", tmp_path / "out", seconds=1, person_index="all")
+    told: list[Progress] = []
+    out = wake_up(tmp_path / "photo.png", tmp_path / "out", on_progress=told.append, seconds=1, person_index="all")
     skeleton = json.loads((out / "skeleton.json").read_text())
     first, second = skeleton["woken"]
-    assert [(told["name"], told["person"]) for told in (first, second)] == [("character", 0), ("character-2", 1)]
+    assert [(one["name"], one["person"]) for one in (first, second)] == [("character", 0), ("character-2", 1)]
     assert first["place"] == [0, 0, 0]
     assert {name: first[name] for name in ("joints", "fitted", "reprojection")} == {
         name: skeleton[name] for name in ("joints", "fitted", "reprojection")
@@ -258,6 +260,11 @@ def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) ->
         there = np.subtract(first["fitted"][joint]["place"], (0, one.shape[0])) * 0.8 + (one.shape[1], one.shape[0])
         assert np.hypot(*(place - there)) < 0.02 * one.shape[0], "as in the first, who is a larger copy"
     report = json.loads((out / "report.json").read_text())
-    assert [told["name"] for told in report["woken"]] == ["character", "character-2"]
+    assert [one["name"] for one in report["woken"]] == ["character", "character-2"]
     assert report["woken"][0]["quality"] == report["quality"] != report["woken"][1]["quality"]
-    assert all(told["quality"]["silhouette_iou"] > 0.98 for told in report["woken"])
+    assert all(one["quality"]["silhouette_iou"] > 0.98 for one in report["woken"])
+    assert list(report["stages"])[-1] == "measure"
+    measuring = [progress.fraction for progress in told if progress.stage == "measure"]
+    first_share, second_share = np.diff([*measuring, 1])
+    assert len(measuring) == 2 and 0 < first_share == pytest.approx(second_share)
+    assert told[-1].stage == "measure", "and the end is where the last of them ends"

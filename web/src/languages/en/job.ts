@@ -162,6 +162,7 @@ export const job = {
     make_character: 'Making the character',
     write_character: 'Setting it in motion',
     fill_background: 'Filling the hole in the picture',
+    measure: 'Measuring how well it fits',
   } as Record<string, string>,
 
   share: {

@@ -1,0 +1,114 @@
+"""The body label map: what each pixel of the person shows, and what that says of limbs that pass before others.
+
+The paper's section 4.2.1. Beyond it, legs that cross, and hands in pockets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS, vertex_parts
+from engine.body.rig import Rig
+from engine.character.labels import (
+    ARMS,
+    LEGS,
+    complete_labels,
+    hair_beside_arms,
+    refined_labels,
+    rough_labels,
+    without_specks,
+)
+from engine.character.legs import LEGS_APART, as_the_template, beside_the_other, leg_before
+from engine.character.occlusion import occlusion_mask, occlusion_pixels, rest_places
+from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
+from engine.character.posed_template import PosedTemplate
+from engine.character.template_maps import side_maps
+from engine.render.attributes import interpolate
+
+
+@dataclass(frozen=True)
+class Labels:
+    """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
+    limbs pass before others; `apart`: those that do, a leg that crosses before the other first, then arms; `parting`
+    (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
+    there, or behind other cloth, -1 elsewhere."""
+
+    labels: NDArray[np.int8]
+    occlusion: NDArray[np.bool_]
+    apart: NDArray[np.int8]
+    parting: NDArray[np.bool_]
+    hidden: NDArray[np.int8]
+
+
+def label_parts(
+    rgb: NDArray[np.uint8],
+    mask: NDArray[np.bool_],
+    template: PosedTemplate,
+    rig: Rig,
+    given: NDArray[np.int8] | None = None,
+    corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
+    sure: NDArray[np.int8] | None = None,
+    at_hips: Sequence[HandAtHip] = (),
+) -> Labels:
+    """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
+    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands `at_hips`
+    that were not found are looked for there; `corrected` has the last word."""
+    part_of = vertex_parts(rig)[template.triangles[:, 0]]
+    seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
+    projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
+    rest = interpolate(template.rest, template.triangles, seen.raster)
+    hidden = np.full(mask.shape, -1, np.int8)
+
+    def before(labels: NDArray[np.integer]) -> int | None:
+        return leg_before(labels, template.joints, rig, template.pixels_per_metre)
+
+    if given is not None:
+        rough = complete_labels(mask, given)
+    else:
+        known = np.full(mask.shape, -1, np.int8) if sure is None else np.where(mask, sure, -1)
+        rough = rough_labels(mask, np.where(known >= 0, known, projected))
+        rough = np.where(known >= 0, known, rough)
+        rough = hair_beside_arms(rgb, rough, projected, known)
+        around = _with_occlusion(rough, projected, rest, hidden).occlusion
+        rough = refined_labels(rgb, rough, around)
+        if (leg := before(rough)) is not None:
+            rough = as_the_template(rough, projected, leg)
+        rough = without_specks(rough, known)
+        for hand in at_hips:
+            own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
+            if (found := parted(rgb, rough, own, hand)) is not None:
+                rough = without_specks(with_hand_parted(rough, found, hand.arm), known)
+                hidden[found.hidden] = hand.arm
+    labels = corrected(rough.astype(np.int8))
+    hidden[labels != rough] = -1  # whoever paints there has seen what is there
+    return _with_occlusion(labels, projected, rest, hidden, before(labels))
+
+
+def _with_occlusion(
+    labels: NDArray[np.integer],
+    projected: NDArray[np.integer],
+    rest: NDArray[np.float32],
+    hidden: NDArray[np.int8],
+    before: int | None = None,
+) -> Labels:
+    """Labels with what they say of limbs before others, and where hands are `hidden` (h, w); `before`: the leg that passes
+    before the other."""
+    places = [rest_places(labels, part, projected, rest) for part in range(len(PARTS))]
+    pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
+    parting = np.zeros(labels.shape, np.bool_)
+    for leg in LEGS:
+        only = [where if part in LEGS else np.full_like(where, np.nan) for part, where in enumerate(places)]
+        parting |= occlusion_pixels(np.where(np.isin(labels, LEGS), labels, -1), leg, only, LEGS_APART)
+    if before is not None:
+        pixels = {before: beside_the_other(labels, before)} | pixels
+    return Labels(
+        labels.astype(np.int8),
+        occlusion_mask(np.logical_or.reduce(list(pixels.values()))),
+        np.array([limb for limb, where in pixels.items() if where.any() or (hidden == limb).any()], np.int8),
+        parting,
+        hidden,
+    )

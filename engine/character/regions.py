@@ -1,0 +1,146 @@
+"""Which pixels are the body's, and which those of a limb that passes before it, also where one hides the other.
+
+The paper's occluded region construction (section 4.2.2). Around the joint limb and body both have what is there, of the
+template and of the picture: as the limb is lifted, neither shows a gap. Beyond the paper, so does a leg that crosses before
+the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS, vertex_parts
+from engine.body.rig import Rig
+from engine.character.label_map import Labels
+from engine.character.labels import ARMS, LEGS
+from engine.character.occlusion import completed, largest
+from engine.character.posed_template import PosedTemplate
+
+SHOULDER, HIP = 0.105, 0.125
+"""Metres around the joint in which arm or leg and the body overlap."""
+UNDER = 3
+"""Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
+FLESH = 0.02
+"""Metres from the outline of the template's leg, within which it may be wider than the person's."""
+WHOLE = 0.9
+"""Share of a limb in one piece, below which another is taken to pass before it."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """What a part of the person covers: its pixels `mask` (h, w), in one piece, and the template's `triangles` (T,) bool."""
+
+    mask: NDArray[np.bool_]
+    triangles: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class LimbRegion(Region):
+    """That of a `limb`, an index of `PARTS`. Around its shoulder or hip it overlaps with the body: the template's triangles
+    `overlap` (T,) and the pixels `joint` (h, w)."""
+
+    limb: int
+    overlap: NDArray[np.bool_]
+    joint: NDArray[np.bool_]
+
+
+def find_regions(
+    labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig
+) -> tuple[Region, list[LimbRegion]]:
+    """The body's region and those of the limbs that are `apart` (indices of `PARTS`), in their order."""
+    part = vertex_parts(rig)[template.triangles]
+    limbs = [_limb_region(labels, limb, apart, template, rig, part) for limb in apart]
+    own = np.logical_or.reduce([(~np.isin(part, apart)).any(1), *(limb.overlap for limb in limbs)])
+    return Region(_body(labels, limbs, template, part, own), own), limbs
+
+
+def limb_in_one_piece(
+    labels: Labels,
+    limb: int,
+    apart: Sequence[int],
+    template: PosedTemplate,
+    triangles: NDArray[np.bool_],
+    joint: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and,
+    where another that is `apart` passes before it or it does not reach its joint, what the template has there (`triangles`
+    (T,)); and its hidden hand."""
+    own, person = labels.labels == limb, labels.labels >= 0
+    seen = own | (person & joint & _grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
+    piece = largest(seen)
+    torn, lost = piece.sum() < WHOLE * seen.sum(), not (piece & joint).any()
+    if torn or lost:
+        between = _grown(template.covers(triangles, own.shape), UNDER)
+        seen = seen | (between & (person if lost else np.isin(labels.labels, apart)))
+    return largest(seen | (labels.hidden == limb))
+
+
+def _limb_region(
+    labels: Labels, limb: int, apart: Sequence[int], template: PosedTemplate, rig: Rig, part: NDArray[np.intp]
+) -> LimbRegion:
+    """`part` (T, 3): that of each corner of the template's triangles."""
+    overlap, joint = _around_joint(limb, template, rig, labels.labels.shape)
+    mask = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
+    if limb in LEGS:
+        mask = largest(mask & (_inner(labels) | (labels.labels == limb)))
+    return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint)
+
+
+def _body(
+    labels: Labels,
+    limbs: Sequence[LimbRegion],
+    template: PosedTemplate,
+    part: NDArray[np.intp],
+    triangles: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the body in one piece, completed behind the limbs. `part` (T, 3): that of each corner of the template's
+    triangles; `triangles` (T,): which of them are the body's."""
+    before = np.isin(labels.labels, [one.limb for one in limbs])
+    hides = before & np.logical_or.reduce([np.zeros_like(before), *(one.mask for one in limbs)])
+    body = (labels.labels >= 0) & ~hides
+    if not limbs:
+        return largest(body)
+    crossing = np.zeros_like(before)
+    for leg in (one.limb for one in limbs if one.limb in LEGS):
+        crossing = labels.labels == leg
+        body = body | (crossing & _bone(template, (part == sum(LEGS) - leg).all(1), before.shape))
+    body = completed(body, hides, labels.occlusion | crossing, template.covers(triangles, before.shape))
+    body = body | (before & np.where(crossing, _grown(body, 1), _grown(body, UNDER)))
+    for one in limbs:
+        body = largest(body | (before & one.joint & (_inner(labels) | ~crossing)))
+    return body
+
+
+def _bone(template: PosedTemplate, leg: NDArray[np.bool_], shape: Sequence[int]) -> NDArray[np.bool_]:
+    """The pixels (h, w) surely inside of a leg of the template, its triangles `leg` (T,), whatever is before it: what joins the
+    leg's pieces. Its outline is left to what is seen above and below."""
+    depth = np.asarray(cv2.distanceTransform(template.covers(leg, shape).astype(np.uint8), cv2.DIST_L2, 5))
+    return depth > FLESH * template.pixels_per_metre
+
+
+def _around_joint(
+    limb: int, template: PosedTemplate, rig: Rig, shape: Sequence[int]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder or a leg's hip."""
+    side = "Left" if PARTS[limb].startswith("left") else "Right"
+    bone, reach = ("Arm", SHOULDER) if limb in ARMS else ("UpLeg", HIP)
+    joint = rig.index(f"{side}{bone}")
+    close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < reach
+    y, x = np.mgrid[: shape[0], : shape[1]]
+    distance = np.hypot(x - template.joints[joint, 0], y - template.joints[joint, 1])
+    return close[template.triangles].all(1), distance < reach * template.pixels_per_metre
+
+
+def _inner(labels: Labels) -> NDArray[np.bool_]:
+    """The person's pixels (h, w) away from the outline: at the sides of the hips one of body and leg alone is seen."""
+    person = (labels.labels >= 0).astype(np.uint8)
+    return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=UNDER) > 0)
+
+
+def _grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=pixels) > 0)

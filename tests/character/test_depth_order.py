@@ -1,0 +1,115 @@
+"""Which of two surfaces lies beneath the other: a limb's, and that of the body which it passes before or behind."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from engine.character.depth_order import (
+    BENEATH,
+    FOREARM,
+    THIN,
+    body_behind,
+    body_within,
+    hand_beneath,
+    limb_before,
+    overlap_beneath,
+)
+from engine.character.part_surface import Surface
+from engine.character.sheets import Layer
+
+SHAPE = (60, 120)
+
+
+def rectangle(rows: tuple[int, int], columns: tuple[int, int]) -> np.ndarray:
+    mask = np.zeros(SHAPE, np.bool_)
+    mask[slice(*rows), slice(*columns)] = True
+    return mask
+
+
+def slab(mask: np.ndarray, front: float, back: float) -> Layer:
+    weights = np.ones((*SHAPE, 1), np.float32)
+    sides = [Surface(np.where(mask, depth, np.nan).astype(np.float32), weights) for depth in (front, back)]
+    return Layer(mask, sides[0], sides[1])
+
+
+def inner(mask: np.ndarray) -> np.ndarray:
+    """What is far enough from the border of a mask for its border not to count: there both sides meet."""
+    return np.asarray(cv2.erode(mask.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0)
+
+
+def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
+    body, shared = slab(rectangle((5, 55), (5, 60)), 10.0, -10.0), rectangle((20, 30), (40, 60))
+    arm, own = slab(rectangle((20, 30), (40, 100)), 14.0, -12.0), rectangle((20, 30), (60, 100))
+    sunk = overlap_beneath(arm, body, own)
+    deep = shared & inner(body.mask)
+    assert np.allclose(sunk.front.depth[deep], 10 - BENEATH) and np.allclose(sunk.back.depth[deep], BENEATH - 10)
+    assert (sunk.front.depth[shared & ~deep] <= 0 - BENEATH).all(), (
+        "at its border the body is no higher than its middle"
+    )
+    assert (sunk.front.depth[shared] > sunk.back.depth[shared]).all()
+    np.testing.assert_array_equal(sunk.front.depth[own], arm.front.depth[own])
+    np.testing.assert_array_equal(sunk.back.depth[own], arm.back.depth[own])
+
+
+def test_an_arm_bends_to_the_pocket_that_its_hand_is_in() -> None:
+    body, hidden = slab(rectangle((5, 55), (5, 115)), 10.0, -10.0), rectangle((20, 30), (15, 30))
+    arm = slab(rectangle((20, 30), (15, 110)), 16.0, 12.0)
+    bent = hand_beneath(arm, body, hidden)
+    assert np.allclose(bent.front.depth[hidden], 10 - BENEATH)
+    assert np.allclose((bent.front.depth - bent.back.depth)[arm.mask], 4), "as thick as it was"
+    along = bent.front.depth[25, 29 : 30 + int(FOREARM)]
+    assert (np.diff(along) >= 0).all() and np.diff(along).max() < 0.25
+    np.testing.assert_array_equal(bent.front.depth[25, 30 + int(FOREARM) : 110], 16)
+    assert hand_beneath(arm, body, np.zeros_like(hidden)) is arm
+
+
+def test_a_limb_behind_the_body_stays_there() -> None:
+    body = slab(rectangle((5, 55), (5, 60)), 10.0, 4.0)
+    arm = slab(rectangle((20, 30), (40, 60)), -5.0, -9.0)
+    sunk = overlap_beneath(arm, body, np.zeros(SHAPE, np.bool_))
+    np.testing.assert_array_equal(sunk.front.depth, arm.front.depth)
+    np.testing.assert_array_equal(sunk.back.depth, arm.back.depth)
+
+
+def test_what_an_arm_hides_lies_behind_it() -> None:
+    mask, arm_mask = rectangle((5, 55), (5, 115)), rectangle((20, 30), (40, 80))
+    arm = slab(arm_mask, 6.0, 2.0)
+    seen = rectangle((20, 30), (40, 60))  # of the rest the body hides the arm
+    body = body_behind(slab(mask, 10.0, -10.0), arm, seen)
+    deep = seen & inner(arm_mask)
+    assert np.allclose(body.front.depth[deep], 6 - BENEATH)
+    assert np.allclose(body.front.depth[seen & ~deep], 4 - BENEATH), (
+        "at its border the arm is no higher than its middle"
+    )
+    assert np.allclose(body.front.depth[mask & ~seen], 10), "nothing else moves"
+    assert np.allclose(body.back.depth[mask], -10)
+    lower = body_behind(slab(mask, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), seen)
+    assert np.allclose(lower.front.depth[seen], 20 * THIN - 10), "the body keeps some of its depth"
+    raised = limb_before(slab(arm_mask, -10.0, -14.0), lower, seen)
+    assert (raised.front.depth[seen] >= 20 * THIN - 10 + BENEATH).all(), "and what is seen is before what is not"
+    assert np.allclose((raised.front.depth - raised.back.depth)[arm_mask], 4)
+    far = slab(arm_mask, -30.0, -40.0)
+    np.testing.assert_array_equal(limb_before(far, lower, seen).front.depth[arm_mask], far.front.depth[arm_mask])
+    before = body_behind(slab(mask, 1.0, -1.0), arm, seen)
+    assert np.allclose(before.front.depth[mask], 1), "an arm that is before it anyway changes nothing"
+
+
+def test_a_body_does_not_go_on_before_an_arm_that_comes_out_from_behind_it() -> None:
+    mask, arm_mask = rectangle((5, 55), (5, 80)), rectangle((20, 30), (40, 110))
+    shown = rectangle((20, 30), (60, 110))  # from the trunk's outline on
+    trunk = mask & ~rectangle((5, 55), (60, 80)) | (mask & rectangle((20, 30), (60, 80)))
+    body = body_behind(slab(trunk, 10.0, -10.0), slab(arm_mask, -30.0, -40.0), shown)
+    assert not body.mask[:, 61:].any(), "but for a pixel, so that nothing gapes"
+    np.testing.assert_array_equal(body.mask[:, :61], trunk[:, :61])
+
+
+def test_where_both_have_the_hip_the_body_is_within_the_leg() -> None:
+    mask, shared = rectangle((5, 55), (5, 80)), rectangle((20, 30), (40, 60))
+    leg = slab(rectangle((20, 30), (40, 110)), 6.0, -6.0)
+    body = body_within(body_behind(slab(mask, 10.0, -10.0), leg, shared), leg, shared)
+    deep = shared & inner(leg.mask)
+    assert np.allclose(body.front.depth[deep], 6 - BENEATH) and np.allclose(body.back.depth[deep], BENEATH - 6)
+    assert np.allclose(body.back.depth[mask & ~shared], -10), "nothing else moves"
+    thin = body_within(body, slab(leg.mask, 30.0, 20.0), shared)
+    assert (thin.back.depth < thin.front.depth)[mask].all(), "it keeps a front and a back"
