@@ -1,4 +1,4 @@
-import { another, changesOf, isChanged, notesFor, type Wishes, wishesOf } from '@web/character/changes';
+import { another, changesOf, isChanged, isEverybody, notesFor, type Wishes, wishesOf } from '@web/character/changes';
 import { choicesOf, optionsOf, usual } from '@web/character/choices';
 import { enlarged, frameBetween, movedFrame } from '@web/character/framing';
 import { jointsOf, labelOf, limbs, middleOf, needed, placedJoints, sharesOf, skeletonIn, swapped } from '@web/character/skeleton';
@@ -104,6 +104,25 @@ describe('a revision', () => {
       options: { pose: null },
     });
     expect(after(another({ box: [5, 6, 7, 8] }), made).corrections).toEqual({ person_box: [5, 6, 7, 8], joints: null });
+  });
+
+  it('of a box that is taken away is of whoever was chosen before it was drawn', () => {
+    const boxed = (wishes: Wishes): Wishes => ({ ...wishes, ...another({ box: [5, 6, 7, 8] }) });
+    const second = wishesOf(of({ person_index: 1 }));
+    expect(changesOf(second, boxed(second), {}).corrections).toEqual({ person_box: [5, 6, 7, 8] });
+    const made = wishesOf(of({ person_index: 1, person_box: [5, 6, 7, 8] }));
+    expect(after(another({ box: null }), made).corrections).toEqual({ person_box: null });
+    for (const person of [0, 1, 'all', null] as const) {
+      const before = { ...plain, person };
+      expect({ ...boxed(before), ...another({ box: null }) }).toEqual(before);
+    }
+  });
+
+  it('of a box is of one person, whoever was chosen', () => {
+    const everybody = wishesOf(of({ person_index: 'all' }));
+    expect(isEverybody(everybody)).toBe(true);
+    expect(isEverybody({ ...everybody, box: [5, 6, 7, 8] })).toBe(false);
+    expect(after(another({ box: [5, 6, 7, 8] }), everybody).corrections).toEqual({ person_index: 0, person_box: [5, 6, 7, 8] });
   });
 });
 
