@@ -15,8 +15,8 @@ const after = (part: Partial<Wishes>, before = plain) => changesOf(before, { ...
 describe('the options of a character', () => {
   it('sends only what differs from the usual', () => {
     expect(optionsOf(usual)).toEqual({});
-    expect(optionsOf({ ...usual, keep: ['right_arm', 'head'], back: 'inpaint', vrm: true })).toEqual({
-      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', vrm: true },
+    expect(optionsOf({ ...usual, keep: ['right_arm', 'head'], back: 'inpaint', lit: true, vrm: true })).toEqual({
+      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', lit: true, vrm: true },
     });
     expect(optionsOf({ ...usual, vrm: true, author: ' Ada ' })).toEqual({ vrm: true, vrm_author: 'Ada' });
     expect(optionsOf({ ...usual, author: '  ' })).toEqual({});
@@ -25,6 +25,7 @@ describe('the options of a character', () => {
   it('shows what a job was made with, names for two parts included', () => {
     expect(choicesOf({})).toEqual(usual);
     expect(choicesOf({ keep: ['legs', 'head'], camera: 'orbit' }).keep).toEqual(['head', 'left_leg', 'right_leg']);
+    expect(choicesOf({ lit: true })).toEqual({ ...usual, lit: true });
     expect(choicesOf({ vrm: true, vrm_author: 'Ada' })).toEqual({ ...usual, vrm: true, author: 'Ada' });
   });
 });
@@ -42,9 +43,9 @@ describe('a revision', () => {
     expect(after({ joints: { LeftElbow: [3, 4] }, mask }).corrections).toEqual({
       ...{ joints: { LeftElbow: [3, 4] }, mask_strokes: mask },
     });
-    const painted = wishesOf(of({ mask_strokes: mask, person_box: [1, 2, 3, 4], camera: 'orbit', keep: ['head'] }));
-    expect(after({ mask: [], box: null, camera: 'fixed', keep: [] }, painted)).toEqual({
-      ...{ corrections: { mask_strokes: null, person_box: null }, options: { camera: null, keep: null } },
+    const painted = wishesOf(of({ mask_strokes: mask, person_box: [1, 2, 3, 4], camera: 'orbit', keep: ['head'], lit: true }));
+    expect(after({ mask: [], box: null, camera: 'fixed', keep: [], lit: false }, painted)).toEqual({
+      ...{ corrections: { mask_strokes: null, person_box: null }, options: { camera: null, keep: null, lit: null } },
     });
   });
 
