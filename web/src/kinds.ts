@@ -51,6 +51,8 @@ export interface Report {
     driver_chosen?: string | null;
     /** The faces found in the picture, the largest first: x, y, width and height in pixels of the picture. */
     faces: Frame[];
+    /** Likewise those of the performance; earlier versions did not say it. */
+    driver_faces?: Frame[];
     /** The people found in the picture of a character, the largest first; and which of them was taken. */
     people?: Frame[];
     person?: number | 'all' | null;

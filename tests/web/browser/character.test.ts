@@ -124,12 +124,13 @@ describe('ordering a character', () => {
     await page.getByLabel('Head').check();
     await page.getByLabel('Camera').selectOption('Goes around');
     await page.getByLabel('Length of the video').fill('2');
+    await page.getByLabel('picture under lamps').check();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
     const sent = request.postDataJSON();
     expect(sent).toEqual({
       kind: 'character',
       inputs: { photo: expect.stringMatching(/^[0-9a-f-]{36}$/), motion: 'dance' },
-      options: { keep: ['head'], camera: 'orbit', seconds: 2 },
+      options: { keep: ['head'], camera: 'orbit', seconds: 2, lit: true },
       metadata: { photo: 'Somebody' },
     });
     expect(request.headers()['idempotency-key']).toMatch(/./);
@@ -365,7 +366,7 @@ describe('corrections of a character', () => {
     expect(await view()).toBe(near);
   });
 
-  it('choose somebody else by a click, or everybody', async () => {
+  it('choose somebody else by a click, or everybody; who was chosen before a box is again after it', async () => {
     const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, joints: { LeftElbow: [300, 270] } });
     const page = await corrections(id);
     await page.getByText('2 people were found.').waitFor();
@@ -384,6 +385,16 @@ describe('corrections of a character', () => {
     const together = await revised(everybody);
     expect(together.postDataJSON().corrections).toEqual({ person_index: 'all', joints: null });
     await accepted(together);
+
+    const boxed = await corrections(id);
+    const chosen = boxed.getByRole('button', { name: /^Person/, pressed: true });
+    await boxed.getByRole('button', { name: 'Person 2 of 2' }).click();
+    await boxed.getByRole('button', { name: 'Frame the person' }).click();
+    await use(boxed).click();
+    await boxed.getByText('The person is framed by hand.').waitFor();
+    expect(await chosen.count()).toBe(0);
+    await boxed.getByRole('button', { name: 'Look everywhere' }).click();
+    expect(await chosen.getAttribute('aria-label')).toBe('Person 2 of 2');
   });
 
   it('frame the person', async () => {

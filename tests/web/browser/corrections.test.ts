@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { canonical } from '@web/landmarks/template';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { accepted, revised } from './character_kit';
 import { ask, complaints, faceless, inPython, jobOf, launch, LONG, open, order, played, portrait } from './page';
 
 type Points = [number, number][];
@@ -70,6 +71,42 @@ describe('corrections by hand', () => {
     await page.waitForURL((url) => !url.hash.endsWith(done));
     await played(page);
     expect(Math.min(...xs((await landmarks(jobOf(page))).landmarks))).toBeGreaterThan(border);
+  });
+
+  it('use a part of the performance, whose calm frame is then found by itself, and make another kind of video', async () => {
+    const page = await open(browser, `#/jobs/${done}`);
+    await again(page).click({ timeout: LONG });
+    await page.getByLabel('Repeats without a jump').check();
+    await page.getByLabel('Turn the head in 3D').uncheck();
+    const calm = page.getByRole('slider', { name: 'Calm frame' });
+    await calm.fill('3');
+    await page.getByRole('spinbutton', { name: 'From' }).fill('0.5');
+    await page.keyboard.press('Tab');
+    await calm.waitFor({ state: 'detached' });
+    await page.getByRole('button', { name: 'Make it again' }).click();
+    const to = page.getByRole('spinbutton', { name: 'To' });
+    expect(await to.evaluate((input: HTMLInputElement) => input.validity.valueMissing)).toBe(true);
+    await to.fill('1.25');
+    await page.keyboard.press('Tab');
+    await page.getByLabel('Frames a second').selectOption('25');
+    await page.getByLabel('Kind of video').selectOption('WebM');
+    expect(await page.getByLabel('Whose performance').count()).toBe(0); // it shows one face alone
+    const request = await revised(page);
+    const { options } = request.postDataJSON();
+    expect(Object.fromEntries(Object.entries(options).filter(([, value]) => value !== null))).toEqual({
+      ...{ loop: true, head_3d: false, trim: [0.5, 1.25], fps: 25, format: 'webm' },
+    });
+    await accepted(request);
+  });
+
+  it('name another face of the performance, where it has not so many', async () => {
+    const id = await order(portrait, 'idle', { driver_face_index: 1 });
+    const page = await open(browser, `#/jobs/${id}`);
+    await page.getByText('The performance has not so many faces').waitFor({ timeout: LONG });
+    await page.getByLabel('Whose performance').selectOption('That of the largest face');
+    const request = await revised(page);
+    expect(request.postDataJSON().options.driver_face_index).toBe(null);
+    await accepted(request);
   });
 
   it('move a feature by a drag, and a point by the keyboard, and are undone', async () => {

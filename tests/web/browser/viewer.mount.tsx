@@ -35,6 +35,8 @@ declare global {
     picture: () => Promise<[number, number, number, number] | null>;
     /** Where the hips of everybody on the stage are, in metres of the world. */
     hips: () => [number, number, number][];
+    /** Where their hips are as a clip begins. */
+    begins: (clip: string) => Promise<[number, number, number]>;
     leave: () => void;
   }
 }
@@ -76,6 +78,12 @@ window.picture = async () => {
 };
 
 const load = () => loadCharacter(job.artifacts['character.glb']?.url ?? '', new AbortController().signal);
+
+window.begins = async (clip) => {
+  const character = await load();
+  character.show(character.clip(clip)!, 0);
+  return character.joints.get('Hips')!.getWorldPosition(new Vector3()).toArray();
+};
 
 /** By three's own loader and mixer: where clips bring the mesh. */
 window.measure = async () => {

@@ -22,8 +22,18 @@ both.paste(one.resize((one.width * 4 // 5, one.height * 4 // 5)), (one.width, on
 both.save(sys.argv[1])
 `;
 
+/** Somebody in a deep bend of the knees: all the body is lower, and the feet are where they were. */
+const CROUCHING = Object.fromEntries(
+  ['Left', 'Right'].flatMap((side) => [
+    [`${side}UpLeg`, [-70, 0, 0]],
+    [`${side}Leg`, [110, 0, 0]],
+    [`${side}Foot`, [-30, 0, 0]],
+  ]),
+);
+const OPTIONS = { one: {}, two: { person_index: 'all' }, crouching: { pose: CROUCHING } };
+
 /** What a file of tests has: called once in it, it sets up a browser and a job, one for all files that ask for the same. */
-export function aViewer(of: 'one' | 'two' = 'one') {
+export function aViewer(of: keyof typeof OPTIONS = 'one') {
   const picture = join(tmpdir(), `galatea-viewer-${process.pid}-${of}.png`);
   const complaints: string[] = [];
   let browser: Browser;
@@ -31,9 +41,9 @@ export function aViewer(of: 'one' | 'two' = 'one') {
   let job: string;
 
   beforeAll(async () => {
-    if (of === 'one') samplePerson(picture);
-    else inPython(TWO, picture);
-    job = await ordered(picture, of === 'two' ? { person_index: 'all' } : {}, `viewer-${of}`);
+    if (of === 'two') inPython(TWO, picture);
+    else samplePerson(picture);
+    job = await ordered(picture, OPTIONS[of], `viewer-${of}`);
     [browser, files] = await Promise.all([launch(['--enable-unsafe-swiftshader']), buildViewerPage()]);
     await succeeded(job);
   }, LONG);

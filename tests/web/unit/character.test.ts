@@ -1,4 +1,4 @@
-import { another, changesOf, isChanged, notesFor, type Wishes, wishesOf } from '@web/character/changes';
+import { another, changesOf, isChanged, isEverybody, notesFor, type Wishes, wishesOf } from '@web/character/changes';
 import { choicesOf, optionsOf, usual } from '@web/character/choices';
 import { enlarged, frameBetween, movedFrame } from '@web/character/framing';
 import { jointsOf, labelOf, limbs, middleOf, needed, placedJoints, sharesOf, skeletonIn, swapped } from '@web/character/skeleton';
@@ -15,8 +15,8 @@ const after = (part: Partial<Wishes>, before = plain) => changesOf(before, { ...
 describe('the options of a character', () => {
   it('sends only what differs from the usual', () => {
     expect(optionsOf(usual)).toEqual({});
-    expect(optionsOf({ ...usual, keep: ['right_arm', 'head'], back: 'inpaint', vrm: true })).toEqual({
-      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', vrm: true },
+    expect(optionsOf({ ...usual, keep: ['right_arm', 'head'], back: 'inpaint', lit: true, vrm: true })).toEqual({
+      ...{ keep: ['head', 'right_arm'], back_texture: 'inpaint', lit: true, vrm: true },
     });
     expect(optionsOf({ ...usual, vrm: true, author: ' Ada ' })).toEqual({ vrm: true, vrm_author: 'Ada' });
     expect(optionsOf({ ...usual, author: '  ' })).toEqual({});
@@ -25,6 +25,7 @@ describe('the options of a character', () => {
   it('shows what a job was made with, names for two parts included', () => {
     expect(choicesOf({})).toEqual(usual);
     expect(choicesOf({ keep: ['legs', 'head'], camera: 'orbit' }).keep).toEqual(['head', 'left_leg', 'right_leg']);
+    expect(choicesOf({ lit: true })).toEqual({ ...usual, lit: true });
     expect(choicesOf({ vrm: true, vrm_author: 'Ada' })).toEqual({ ...usual, vrm: true, author: 'Ada' });
   });
 });
@@ -42,9 +43,9 @@ describe('a revision', () => {
     expect(after({ joints: { LeftElbow: [3, 4] }, mask }).corrections).toEqual({
       ...{ joints: { LeftElbow: [3, 4] }, mask_strokes: mask },
     });
-    const painted = wishesOf(of({ mask_strokes: mask, person_box: [1, 2, 3, 4], camera: 'orbit', keep: ['head'] }));
-    expect(after({ mask: [], box: null, camera: 'fixed', keep: [] }, painted)).toEqual({
-      ...{ corrections: { mask_strokes: null, person_box: null }, options: { camera: null, keep: null } },
+    const painted = wishesOf(of({ mask_strokes: mask, person_box: [1, 2, 3, 4], camera: 'orbit', keep: ['head'], lit: true }));
+    expect(after({ mask: [], box: null, camera: 'fixed', keep: [], lit: false }, painted)).toEqual({
+      ...{ corrections: { mask_strokes: null, person_box: null }, options: { camera: null, keep: null, lit: null } },
     });
   });
 
@@ -104,6 +105,25 @@ describe('a revision', () => {
       options: { pose: null },
     });
     expect(after(another({ box: [5, 6, 7, 8] }), made).corrections).toEqual({ person_box: [5, 6, 7, 8], joints: null });
+  });
+
+  it('of a box that is taken away is of whoever was chosen before it was drawn', () => {
+    const boxed = (wishes: Wishes): Wishes => ({ ...wishes, ...another({ box: [5, 6, 7, 8] }) });
+    const second = wishesOf(of({ person_index: 1 }));
+    expect(changesOf(second, boxed(second), {}).corrections).toEqual({ person_box: [5, 6, 7, 8] });
+    const made = wishesOf(of({ person_index: 1, person_box: [5, 6, 7, 8] }));
+    expect(after(another({ box: null }), made).corrections).toEqual({ person_box: null });
+    for (const person of [0, 1, 'all', null] as const) {
+      const before = { ...plain, person };
+      expect({ ...boxed(before), ...another({ box: null }) }).toEqual(before);
+    }
+  });
+
+  it('of a box is of one person, whoever was chosen', () => {
+    const everybody = wishesOf(of({ person_index: 'all' }));
+    expect(isEverybody(everybody)).toBe(true);
+    expect(isEverybody({ ...everybody, box: [5, 6, 7, 8] })).toBe(false);
+    expect(after(another({ box: [5, 6, 7, 8] }), everybody).corrections).toEqual({ person_index: 0, person_box: [5, 6, 7, 8] });
   });
 });
 

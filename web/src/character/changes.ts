@@ -67,11 +67,20 @@ export function wishesOf(job: Job): Wishes {
   };
 }
 
-/** Somebody else in the picture: what was put right of the one before is no longer wanted. */
+/**
+ * Somebody else in the picture: what was put right of the one before is no longer wanted. A box stands for whoever is chosen;
+ * they are again once it is taken away.
+ */
 export const another = (who: { person: number | 'all' } | { box: Frame | null }): Partial<Wishes> => ({
-  ...('person' in who ? { person: who.person, box: null } : { person: 0, box: who.box }),
+  ...('person' in who ? { person: who.person, box: null } : who),
   ...{ joints: {}, mask: [], labels: [], maskFile: null, labelsFile: null, pose: {} },
 });
+
+/** Whether all of the people are wanted. */
+export const isEverybody = ({ person, box }: Wishes): boolean => person === 'all' && !box;
+
+/** A box holds one person: beside it there is a number, of whoever is chosen when it goes. */
+const indexOf = ({ person, box }: Wishes): Wishes['person'] => (box && typeof person !== 'number' ? 0 : person);
 
 const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
@@ -81,7 +90,7 @@ export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterCha
   const { motion } = now;
   const renamed = motion.by === 'name' && !same(before.motion, motion);
   const corrections = {
-    ...(!same(before.person, now.person) && { person_index: now.person }),
+    ...(!same(indexOf(before), indexOf(now)) && { person_index: indexOf(now) }),
     ...(!same(before.box, now.box) && { person_box: now.box }),
     ...(!same(before.joints, now.joints) && { joints: filled(now.joints) }),
     ...(before.maskFile && !now.maskFile && { mask: null }),

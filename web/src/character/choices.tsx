@@ -23,6 +23,8 @@ export interface Choices {
   seconds: number;
   back: (typeof backs)[number];
   partial: boolean;
+  /** A picture of the character under lamps. */
+  lit: boolean;
   vrm: boolean;
   /** Whose the character is, for its VRM file; empty where nobody says. */
   author: string;
@@ -34,6 +36,7 @@ export const usual: Choices = {
   seconds: 4,
   back: 'mirror',
   partial: false,
+  lit: false,
   vrm: false,
   author: '',
 };
@@ -51,6 +54,7 @@ export function changedOptions(before: Choices, now: Choices): { [Name in keyof 
     ...(now.seconds !== before.seconds && { seconds: now.seconds === usual.seconds ? null : now.seconds }),
     ...(now.back !== before.back && { back_texture: now.back === usual.back ? null : now.back }),
     ...(now.partial !== before.partial && { partial: now.partial || null }),
+    ...(now.lit !== before.lit && { lit: now.lit || null }),
     ...(now.vrm !== before.vrm && { vrm: now.vrm || null }),
     ...(now.author.trim() !== before.author && { vrm_author: now.author.trim() || null }),
   };
@@ -65,6 +69,7 @@ export function choicesOf(options: CharacterOptions): Choices {
     seconds: options.seconds ?? usual.seconds,
     back: options.back_texture ?? usual.back,
     partial: options.partial ?? usual.partial,
+    lit: options.lit ?? usual.lit,
     vrm: options.vrm ?? usual.vrm,
     author: options.vrm_author ?? usual.author,
   };
@@ -147,6 +152,7 @@ export function VideoFields({ value, onChange }: Props) {
       </div>
       <div class="field">
         <Check label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
+        <Check label={words.lit} checked={value.lit} onChange={(lit) => onChange({ lit })} />
         <Check label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
       </div>
       {value.vrm && (

@@ -9,7 +9,7 @@ import { usePicture } from '../corrections/picture';
 import { randomKey } from '../key';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
-import { another, isChanged, type Wishes, wishesOf } from './changes';
+import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
 import { KeepField, VideoFields } from './choices';
 import { MotionField } from './motionfield';
 import { Paintings } from './paintings';
@@ -58,11 +58,12 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
   const again = isChanged(before, wishes) || job.status !== 'succeeded';
   /** Whether the person is still the one that the job found. */
   const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
+  const together = isEverybody(wishes);
   /** Whether there is an outline to be put right, or one was wanting. */
   const outlined = 'mask.png' in job.artifacts || mendable.some((name) => /^(mask|label)/.test(name));
   const found = useMemo<Joints | null>(
-    () => (skeleton && samePerson && wishes.person !== 'all' ? jointsOf(skeleton) : null),
-    [skeleton, samePerson, wishes.person],
+    () => (skeleton && samePerson && !together ? jointsOf(skeleton) : null),
+    [skeleton, samePerson, together],
   );
   const placed = Object.keys(wishes.joints).length;
   const shown = found || placed ? { ...found, ...wishes.joints } : null;
@@ -90,14 +91,14 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
           <People
             picture={picture}
             people={people}
-            chosen={wishes.person}
+            chosen={wishes.box ? null : wishes.person}
             box={wishes.box}
             joints={shown}
             onChoose={(person) => wish(another({ person }))}
           />
         )}
         {picture === false && <p class="hint">{words.noPicture}</p>}
-        {wishes.person !== 'all' && (
+        {!together && (
           <>
             <div class="actions">
               {picture && (
@@ -148,7 +149,7 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
         {Object.keys(wishes.pose).length > 0 && (
           <div class="actions">
             <p class="hint" role="status">
-              {words.posed(Object.keys(wishes.pose).length)} {wishes.person === 'all' && words.posedAll}
+              {words.posed(Object.keys(wishes.pose).length)} {together && words.posedAll}
             </p>
             <button type="button" class="button quiet" onClick={() => wish({ pose: {} })}>
               {words.poseBack}
@@ -158,7 +159,7 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
         <h3>{words.video}</h3>
         <VideoFields value={wishes} onChange={wish} />
       </section>
-      {picture && samePerson && wishes.person !== 'all' && outlined && (
+      {picture && samePerson && !together && outlined && (
         <Paintings
           job={job}
           picture={picture}

@@ -11,8 +11,9 @@ const words = strings.correct;
 interface Props {
   picture: Shown;
   people: readonly Frame[];
+  /** Null where nobody is yet, or a box stands for them. */
   chosen: number | 'all' | null;
-  /** Drawn by hand; it stands for those that were found. */
+  /** Drawn by hand. */
   box: Frame | null;
   joints: Joints | null;
   onChoose: (person: number | 'all') => void;
@@ -25,7 +26,7 @@ export function People({ picture, people, chosen, box, joints, onChoose }: Props
       <BoxedPicture
         picture={picture}
         boxes={people}
-        isChosen={(person) => !box && (chosen === 'all' || person === chosen)}
+        isChosen={(person) => chosen === 'all' || person === chosen}
         nameOf={(person) => words.personNumber(person + 1, people.length)}
         onChoose={onChoose}
       >
@@ -38,7 +39,7 @@ export function People({ picture, people, chosen, box, joints, onChoose }: Props
           <button
             type="button"
             class="toggle"
-            aria-pressed={!box && chosen === 'all'}
+            aria-pressed={chosen === 'all'}
             onClick={() => onChoose(chosen === 'all' ? 0 : 'all')}
           >
             {words.everybody}

@@ -35,6 +35,7 @@ export default function CharacterResult({ job, onPose }: Props) {
         ))}
         <Download job={job} name="character.usdz" label={words.usdz} />
         <Download job={job} name="character.vrm" label={words.vrm1} />
+        <Download job={job} name="lit.png" label={words.litPicture} />
         {film && <Download job={job} name={film[0]} label={words.video} />}
         <Files job={job} open={!film} />
         <Sharing job={job} />

@@ -11,9 +11,11 @@ export interface Choices {
   strength: number;
   follow: readonly Part[];
   sound: boolean;
+  /** Whether the end leads back to the beginning. */
+  loop: boolean;
 }
 
-export const usual: Choices = { strength: 1, follow: parts, sound: false };
+export const usual: Choices = { strength: 1, follow: parts, sound: false, loop: false };
 
 /** The options to send: what differs from the usual, so that the service's own defaults hold elsewhere. */
 export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions {
@@ -21,6 +23,7 @@ export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions 
     ...(choices.strength !== usual.strength && { strength: choices.strength }),
     ...(choices.follow.length < parts.length && { follow: [...choices.follow] }),
     ...(choices.sound && hasSound && { sound: true }),
+    ...(choices.loop && { loop: true }),
   };
 }
 
@@ -30,6 +33,7 @@ export function choicesOf(options: PortraitOptions): Choices {
     strength: options.strength ?? usual.strength,
     follow: options.follow ? parts.filter((part) => options.follow?.includes(part)) : usual.follow,
     sound: options.sound ?? usual.sound,
+    loop: options.loop ?? usual.loop,
   };
 }
 
@@ -91,11 +95,12 @@ export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
           ))}
         </div>
       </fieldset>
-      {mayHaveSound && (
-        <div class="field">
+      <div class="field">
+        <Check label={words.loop} checked={value.loop} onChange={(loop) => onChange({ ...value, loop })} />
+        {mayHaveSound && (
           <Check label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
-        </div>
-      )}
+        )}
+      </div>
     </>
   );
 }

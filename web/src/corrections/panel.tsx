@@ -2,18 +2,20 @@
 
 import { useMemo, useRef, useState } from 'preact/hooks';
 import { foundFaces, getLandmarks, getReport, type Job, portraitOptions, type PortraitChanges, type Problem, reviseJob } from '../api';
-import { ChoiceFields, choicesOf } from '../components/choices';
+import { Check } from '../components/check';
+import { ChoiceFields } from '../components/choices';
 import { later } from '../components/later';
 import { randomKey } from '../key';
 import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
 import { asProblem, useLoaded } from '../loading';
-import { isFileId, performanceUrl } from '../names';
+import { AUTO, isFileId, performanceUrl } from '../names';
 import { jobLink } from '../route';
 import { strings } from '../strings';
-import { revisionOptions, type Wishes } from './changes';
-import { CropField, SizeField } from './framing';
+import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
+import { CropField, FormatField, RateField, SizeField } from './framing';
 import { NeutralFrame } from './neutral';
+import { DriverFaceField, TrimField } from './performance';
 import { FaceChoice, usePicture } from './picture';
 import '../styles/corrections.css';
 
@@ -27,14 +29,8 @@ interface Props {
 
 export default function CorrectionPanel({ job, onProblem }: Props) {
   const made = portraitOptions(job);
-  const [wishes, setWishes] = useState<Wishes>(() => ({
-    ...choicesOf(made),
-    neutral: made.neutral_frame ?? null,
-    face: made.face_index ?? 0,
-    crop: made.crop ?? 'none',
-    size: made.size ?? null,
-    landmarks: made.landmarks ?? null,
-  }));
+  const asMade = useMemo(() => wishesOf(made), [job.id]);
+  const [wishes, setWishes] = useState<Wishes>(asMade);
   const [editing, setEditing] = useState(false);
   const [sending, setSending] = useState(false);
   const key = useRef(randomKey());
@@ -54,7 +50,10 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
 
   const wish = (part: Partial<Wishes>): void => {
     key.current = randomKey(); // another wish is another order
-    setWishes((known) => ({ ...known, ...part }));
+    setWishes((known) => {
+      const next = { ...known, ...part };
+      return sameFrames(known, next) ? next : { ...next, neutral: null }; // its number would be another frame's
+    });
   };
   const send = async (options: PortraitChanges): Promise<void> => {
     setSending(true);
@@ -117,7 +116,23 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
       <section class="panel" aria-label={words.motion}>
         <h3>{words.motion}</h3>
         <ChoiceFields value={wishes} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
-        {job.inputs.driver && (
+        <div class="field">
+          <div class="checks">
+            <Check label={words.solid} checked={wishes.solid} onChange={(solid) => wish({ solid })} />
+          </div>
+          <small>{words.solidHint}</small>
+        </div>
+        {job.inputs.driver && job.inputs.driver !== AUTO && (
+          <>
+            <DriverFaceField
+              faces={Math.max(report?.inputs.driver_faces?.length ?? 1, asMade.driverFace + 1)}
+              value={wishes.driverFace}
+              onChange={(driverFace) => wish({ driverFace, neutral: null })}
+            />
+            <TrimField value={wishes.trim} onChange={(trim) => wish({ trim })} />
+          </>
+        )}
+        {job.inputs.driver && sameFrames(wishes, asMade) && (
           <NeutralFrame
             video={performanceUrl(job, report?.inputs.driver_chosen)}
             report={report}
@@ -131,6 +146,8 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
         <h3>{words.framing}</h3>
         <CropField value={wishes.crop} onChange={(crop) => wish({ crop })} />
         <SizeField value={wishes.size} onChange={(size) => wish({ size })} />
+        <RateField value={wishes.rate} onChange={(rate) => wish({ rate })} />
+        {!made.reactive && <FormatField value={wishes.format} onChange={(format) => wish({ format })} />}
       </section>
       <button type="submit" class="button primary large" disabled={sending}>
         {words.send}

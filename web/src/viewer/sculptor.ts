@@ -4,11 +4,14 @@ import { MeshBasicMaterial, type Quaternion, type SkinnedMesh } from 'three';
 import { type Character, PICTURED } from './character';
 import { Dots, moved } from './dots';
 import { follow, type Handle } from './handles';
+import { lowest } from './lowest';
 import { degreesBetween, type Pose, turnedOn } from './pose';
 import { placeOf } from './reach';
 import type { Stage } from './stage';
 
 const OPACITY = 0.55;
+/** The joint that carries all others. */
+const ROOT = 'Hips';
 
 interface Told {
   /** A joint has been taken hold of. */
@@ -21,6 +24,9 @@ export class Sculptor {
   private readonly dots: Dots;
   private readonly veil: SkinnedMesh;
   private readonly pictured = new Map<string, Quaternion>();
+  /** Heights in the pictured pose, in metres: of the lowest point, and of the hips. */
+  private readonly ground: number;
+  private readonly hips: number;
   private readonly ending = new AbortController();
   private readonly leave: () => void;
   private pose: Pose = {};
@@ -35,6 +41,8 @@ export class Sculptor {
     const clip = character.clip(PICTURED);
     if (clip) character.show(clip, 0);
     for (const [name, joint] of joints) this.pictured.set(name, joint.quaternion.clone());
+    this.ground = lowest(mesh);
+    this.hips = joints.get(ROOT)?.position.y ?? 0;
     this.dots = new Dots(joints);
     // drawn first, unseen: behind the nearest surface nothing of the body shines through
     this.veil = mesh.clone();
@@ -47,7 +55,7 @@ export class Sculptor {
     this.listen();
   }
 
-  /** Stand in a pose. */
+  /** Stand in a pose, on the ground. */
   show(pose: Pose): void {
     this.pose = pose;
     for (const [name, joint] of this.character.joints) {
@@ -56,7 +64,7 @@ export class Sculptor {
       const degrees = pose[name];
       joint.quaternion.copy(degrees ? turnedOn(pictured, degrees) : pictured);
     }
-    this.character.root.updateMatrixWorld(true);
+    this.stand();
     this.stage.invalidate();
   }
 
@@ -70,6 +78,16 @@ export class Sculptor {
     this.dots.dispose();
     this.stage.controls.enabled = true;
     this.character.unbend();
+  }
+
+  /** The lowest point as high as in the pictured pose, as the engine does it. */
+  private stand(): void {
+    const { root, joints, mesh } = this.character;
+    const hips = joints.get(ROOT);
+    if (hips) hips.position.y = this.hips;
+    root.updateMatrixWorld(true);
+    if (hips) hips.position.y += this.ground - lowest(mesh);
+    root.updateMatrixWorld(true);
   }
 
   private setOpacity(opacity: number): void {
@@ -126,9 +144,8 @@ export class Sculptor {
       const [bone, pictured] = [joints.get(name), this.pictured.get(name)];
       return bone && pictured ? [[name, degreesBetween(pictured, bone.quaternion)] as const] : [];
     });
-    this.pose = { ...drag.pose, ...Object.fromEntries(turned) };
+    this.show({ ...drag.pose, ...Object.fromEntries(turned) });
     this.told.onPose(this.pose, drag.moved);
     drag.moved = true;
-    this.stage.invalidate();
   }
 }

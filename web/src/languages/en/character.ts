@@ -45,6 +45,7 @@ export const character = {
     back: 'The back',
     backs: { mirror: 'The front, mirrored', inpaint: 'Painted to match' },
     partial: 'Accept a person who is cut off or hidden below the chest',
+    lit: 'Also a picture under lamps, which shows the surface',
     vrm: 'Also as VRM, for avatars in games and chats',
     author: 'Whose the character is, as its VRM file says',
     usualAuthor: 'Galatea',
@@ -59,6 +60,7 @@ export const character = {
     video: 'Video',
     usdz: 'USDZ for iPhone and iPad',
     vrm1: 'VRM',
+    litPicture: 'Picture under lamps',
   },
 
   motionJoints: {

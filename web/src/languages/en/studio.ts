@@ -53,6 +53,7 @@ export const studio = {
     strength: 'Strength',
     strengthHint: 'How far the expression goes: 100% is as performed.',
     follow: 'What follows the performance',
+    loop: 'Repeats without a jump',
     sound: 'Keep the sound of the video',
     start: 'Bring it to life',
     needPortrait: 'First choose a portrait.',
