@@ -13,6 +13,7 @@ import json
 import threading
 import time
 import weakref
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
@@ -84,9 +85,11 @@ class Run:
         self.mark_synthetic = mark_synthetic
         self._keys: dict[int, tuple[Callable[[], Any], str]] = {}
         self._weights: dict[str, float] = {}
+        self._ended: Counter[str] = Counter()
         self._done = 0.0
         self._current = ""
         self._last_report = (0.0, "")
+        self._furthest = 0.0
         self._broken = False
         self._here = _Here()
         self.seconds: dict[str, float] = {}
@@ -95,10 +98,11 @@ class Run:
 
     def plan(self, weights: Mapping[str, float], times: Mapping[str, int] | None = None) -> None:
         """Announce the stages to come and their usual share of the time, for the progress fraction; `times` says how
-        often a stage comes, where that is more than once."""
+        often a stage comes, where that is more than once. A run that learns this later plans anew, and goes on from where
+        it is: a fraction never falls."""
         total = sum(weight * (times or {}).get(name, 1) for name, weight in weights.items())
         self._weights = {name: weight / total for name, weight in weights.items()}
-        self._done = 0.0
+        self._done = sum(self._weights.get(name, 0.0) * count for name, count in self._ended.items())
 
     def stage(
         self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False, stored: bool = True
@@ -167,6 +171,7 @@ class Run:
             self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started
             self._broken = turn == "broke"
             self._on_stage(name, turn)
+        self._ended[name] += 1
         self._done += self._weights.get(name, 0.0)
         self._current = name
 
@@ -226,7 +231,8 @@ class Run:
             return
         self._last_report = (now, self._current)
         share = self._weights.get(self._current, 0.0)
-        self._on_progress(Progress(self._current, min(self._done + share * fraction, 1.0), message))
+        self._furthest = max(self._furthest, min(self._done + share * fraction, 1.0))
+        self._on_progress(Progress(self._current, self._furthest, message))
 
 
 class Beside(Generic[T]):
