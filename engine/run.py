@@ -102,7 +102,9 @@ class Run:
         it is: a fraction never falls."""
         total = sum(weight * (times or {}).get(name, 1) for name, weight in weights.items())
         self._weights = {name: weight / total for name, weight in weights.items()}
-        self._done = sum(self._weights.get(name, 0.0) * count for name, count in self._ended.items())
+        self._done = sum(
+            self._weights.get(name, 0.0) * min(count, (times or {}).get(name, 1)) for name, count in self._ended.items()
+        )
 
     def stage(
         self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False, stored: bool = True

@@ -54,7 +54,7 @@ def rehearse(settings: Settings) -> None:
 
 
 def load_compiled(kinds: Sequence[str]) -> None:
-    """Load what was compiled then, so that the jobs that are forked from this process find it there."""
+    """Load what was compiled then, and ready the compiler, so that the jobs that are forked from this process find both."""
     mark = _mark(kinds)
     if not mark.exists():
         return
@@ -62,6 +62,10 @@ def load_compiled(kinds: Sequence[str]) -> None:
         if module in sys.modules:
             for signature in signatures:
                 getattr(sys.modules[module], name).compile(signature)
+    if "numba" in sys.modules:
+        from numba.core.registry import cpu_target
+
+        cpu_target.target_context.refresh()
 
 
 def _mark(kinds: Sequence[str]) -> Path:

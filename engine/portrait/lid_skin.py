@@ -94,7 +94,8 @@ def _above(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDA
     rows = mesh[np.array([STRIPS[side][0], HIGHER[side]]), :2].astype(np.float32)
     width = max(2, round(float(np.linalg.norm(np.diff(rows[0], axis=0), axis=1).sum())))
     height = max(2, round(float(np.linalg.norm(rows[1] - rows[0], axis=1).mean())))
-    places = cv2.resize(rows, (width, 2), interpolation=cv2.INTER_LINEAR)
-    up = np.linspace(0, 1, height, dtype=np.float32)[:, None, None]
-    x, y = cv2.split(places[:1] * (1 - up) + places[1:] * up)
+    along = np.linspace(0, 6, width)
+    low, high = (np.column_stack([np.interp(along, range(7), row[:, k]) for k in range(2)]) for row in rows)
+    up = np.linspace(0, 1, height)[:, None, None]
+    x, y = cv2.split(((1 - up) * low + up * high).astype(np.float32))
     return cv2.remap(rgb, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)

@@ -20,9 +20,10 @@ because the frame with the right opening smiles and the target does not."""
 USUAL = 0.05
 """Eye distances by which mouths differ between people who do nothing."""
 
-CALM = {"inner_brows_up": (0.31, 0.41), "eyes_open": (0.24, 0.40)}
-"""Where the brows' inner ends and the lids of two dozen people who do nothing were. They differ by as much as an expression
-moves them: a target's alone do not tell what it shows, and are taken to be at rest."""
+CALM = {"inner_brows_up": (0.28, 0.31, 0.41), "eyes_open": (0.18, 0.24, 0.40)}
+"""Where people who do nothing have the brows' inner ends and the lids: most of two dozen from the second value to the third,
+and a driver down to the first that has them there most of the time. They differ by as much as an expression moves them: a
+target's alone do not tell what it shows, and are taken to be at rest."""
 
 CALMEST = 0.2
 """Share of a driver's frames that stand for its face at rest: over a whole clip it may be surprised most of the time."""
@@ -77,6 +78,7 @@ def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> N
     return np.asarray(cost + EYES * closing + MEAN * far, float)
 
 
-def _outside(shown: NDArray[np.floating], wanted: float, low: float, high: float) -> NDArray[np.floating]:
-    """(N,) how far values (N,) lie outside of a range that is widened to what is wanted."""
-    return np.maximum(np.maximum(min(low, wanted) - shown, shown - max(high, wanted)), 0)
+def _outside(shown: NDArray[np.floating], wanted: float, least: float, low: float, high: float) -> NDArray[np.floating]:
+    """(N,) how far values (N,) lie outside of a range that is widened to what is wanted, and towards what is usual."""
+    low = min(low, wanted, max(float(np.median(shown)), least))
+    return np.maximum(np.maximum(low - shown, shown - max(high, wanted)), 0)

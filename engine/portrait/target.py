@@ -43,8 +43,9 @@ NEUTRAL = (12.0, 12.0, 0.08, 0.03)
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
-SHUT = 0.1
-"""Gap between an eye's lids, over its width, below which it is shut: calm people have 0.22 to 0.43, a laugh 0.2."""
+SHUT = 0.13
+"""Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.portrait.eyes`): calm
+people have 0.22 to 0.43, a laugh 0.2."""
 
 
 @dataclass(frozen=True)

@@ -141,3 +141,11 @@ def test_a_built_in_performance_rests_where_it_begins(name: str, rest: NDArray) 
         meshes = np.stack([tracker(frame.rgb)[0] for frame in read_video(video(name), fps=15, longest_side=480)])
     shown = expression(meshes)
     assert np.abs(shown[int(neutral_cost(meshes, rest).argmin())] - shown[0]).max() < 0.05
+
+
+@pytest.mark.parametrize("low", [-0.05, -0.03])
+def test_a_driver_of_low_brows_rests_where_it_usually_is(tmp_path: Path, rest: NDArray, low: float) -> None:
+    """Calm people's brows lie higher; its own do not while it does nothing."""
+    calm, up = raised(rest, low), raised(rest, low + 0.08)
+    frames = [up, *[calm] * 20, up, up]
+    assert 1 <= choose_neutral_frame(driver(tmp_path, frames), rest, None) <= 20

@@ -48,11 +48,13 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
     return box ? faceInBox(box) : null;
   }, [wishes.landmarks, wishes.face, found, report]);
 
+  const again = (next: Wishes): boolean => sameFrames(asMade, next) && asMade.driverFace === next.driverFace;
   const wish = (part: Partial<Wishes>): void => {
     key.current = randomKey(); // another wish is another order
     setWishes((known) => {
       const next = { ...known, ...part };
-      return sameFrames(known, next) ? next : { ...next, neutral: null }; // its number would be another frame's
+      if (sameFrames(known, next)) return next;
+      return { ...next, neutral: again(next) ? asMade.neutral : null }; // its number would be another frame's
     });
   };
   const send = async (options: PortraitChanges): Promise<void> => {

@@ -34,7 +34,7 @@ export function TrimField({ value: [start, end], onChange }: TrimProps) {
           {words.trimTo}
           <input
             type="number"
-            min={(start ?? 0) + SHORTEST}
+            min={Math.round(((start ?? 0) + SHORTEST) * 1000) / 1000}
             step="any"
             required={start !== null}
             value={end ?? ''}
