@@ -86,8 +86,9 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         for name, person in zip(character_names(people), people, strict=True):
             write_character(out, name, person, options, run)
         write_findings(out, people)
-    plate, cast = background().rgb, background().shadow
-    shadow = ground_shadow(cast, people[0].character, people[0].fitted)
+    filled = background()
+    plate = filled.rgb
+    shadow = ground_shadow(filled.shadow, people[0].character, people[0].fitted)
     write_image(out / "background.png", plate)
     height, width = figure.rgb.shape[:2]
     camera = picture_camera(people[0].character, people[0].fitted, (height, width))

@@ -28,8 +28,8 @@ from engine.motion.skeleton import Skeleton
 COVERAGE = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""
 
-QUALITY = 90
-"""Of a texture's JPEG, 1 to 100."""
+QUALITY = 95
+"""Of a texture's JPEG, 1 to 100: a finely patterned dress loses 0.5 dB by it, 1.2 dB at 90, and files are a tenth smaller there."""
 TIGHTER = ((1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
 PADDING = 3
