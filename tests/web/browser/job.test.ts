@@ -77,7 +77,7 @@ describe('a job that succeeds', () => {
     const page = await open(browser, `#/jobs/${done}`);
     await page.getByText('Change something and make it again').click();
     await page.getByLabel('Strength').fill('0.5');
-    await page.getByLabel('Head').uncheck();
+    await page.getByLabel('Head', { exact: true }).uncheck();
     await page.getByLabel('Calm frame of the performance').fill('3');
     await page.getByRole('button', { name: 'Make it again' }).click();
     await page.waitForURL((url) => !url.hash.endsWith(done));
