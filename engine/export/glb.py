@@ -30,7 +30,7 @@ COVERAGE = 0.5
 
 QUALITY = 95
 """Of a texture's JPEG, 1 to 100: a finely patterned dress loses 0.5 dB by it, 1.2 dB at 90, and files are a tenth smaller there."""
-TIGHTER = ((1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
+TIGHTER = ((1, 90), (1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
 PADDING = 3
 """Bytes after a file within a GLB, at most: what follows begins at a multiple of four."""

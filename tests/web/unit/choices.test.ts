@@ -50,6 +50,7 @@ describe('options', () => {
     expect(sameFrames(wishes, { ...wishesOf({ trim: [1, 4] }), strength: 0.5 })).toBe(true);
     expect(sameFrames(wishes, { ...wishes, trim: [2, 4] })).toBe(false);
     expect(sameFrames(wishes, { ...wishes, rate: 25 })).toBe(false);
+    expect(sameFrames(wishes, { ...wishes, driverFace: 1 })).toBe(false);
   });
 
   it('asks for no sound of a performance that has none', () => {

@@ -38,9 +38,9 @@ export const wishesOf = (made: PortraitOptions): Wishes => ({
   landmarks: made.landmarks ?? null,
 });
 
-/** Whether the performance has the same frames, by the same numbers. */
+/** Whether the same is seen of the performance, by the same numbers: what makes a frame of it the calm one. */
 export const sameFrames = (one: Wishes, other: Wishes): boolean =>
-  one.rate === other.rate && one.trim.every((second, index) => second === other.trim[index]);
+  one.driverFace === other.driverFace && one.rate === other.rate && one.trim.every((second, index) => second === other.trim[index]);
 
 /** The options of a revision: null where the default is wanted, whatever the job had. */
 export function revisionOptions(wishes: Wishes): PortraitChanges {

@@ -48,13 +48,12 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
     return box ? faceInBox(box) : null;
   }, [wishes.landmarks, wishes.face, found, report]);
 
-  const again = (next: Wishes): boolean => sameFrames(asMade, next) && asMade.driverFace === next.driverFace;
   const wish = (part: Partial<Wishes>): void => {
     key.current = randomKey(); // another wish is another order
     setWishes((known) => {
       const next = { ...known, ...part };
       if (sameFrames(known, next)) return next;
-      return { ...next, neutral: again(next) ? asMade.neutral : null }; // its number would be another frame's
+      return { ...next, neutral: sameFrames(asMade, next) ? asMade.neutral : null }; // its number would be another frame's
     });
   };
   const send = async (options: PortraitChanges): Promise<void> => {
@@ -129,7 +128,7 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
             <DriverFaceField
               faces={Math.max(report?.inputs.driver_faces?.length ?? 1, asMade.driverFace + 1)}
               value={wishes.driverFace}
-              onChange={(driverFace) => wish({ driverFace, neutral: null })}
+              onChange={(driverFace) => wish({ driverFace })}
             />
             <TrimField value={wishes.trim} onChange={(trim) => wish({ trim })} />
           </>
