@@ -13,13 +13,14 @@ from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.fine_details import RatioImages, keep_ratio_images
+from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer, draw_in_order
 from engine.portrait.rig import Rig, rig_target
 from engine.portrait.second_look import glance_at_driver, look_again
-from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
+from engine.portrait.target import TargetFace, find_target_face
 
 
 @dataclass(frozen=True)
@@ -38,12 +39,11 @@ class Acting:
     def frames(self, parts: Parts = ALL_PARTS, refined: bool = True, step: int = 1) -> Iterator[NDArray[np.uint8]]:
         """Every `step`-th frame of the animation; the others are not drawn."""
         given = self.track, self.neutral
-        setting = self.target, self.layers, self.rig, self.options
         misfit = None
         if self.looked:
             glances, strip = glance_at_driver(*given), keep_ratio_images(*given)
-            misfit = look_again(*given, glances, strip, *setting)
-        renderer = Renderer(*given, *setting, misfit=misfit, parts=parts)
+            misfit = look_again(*given, glances, strip, self.target, self.rig.details, self.options)
+        renderer = Renderer(*given, self.target, self.layers, self.rig, self.options, misfit, parts)
         ratios = RatioImages(*given, outliers=refined, refined=refined)
         moments = zip(renderer.motions(), ratios, strict=True)
         yield from draw_in_order(renderer, (moment for moment in moments if moment[0].frame % step == 0))

@@ -19,7 +19,7 @@ from engine.imaging.mesh_warp import inverse_map
 from engine.media.image import read_image
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
-from engine.perception.person import believed_person
+from engine.perception.segmentation import believed_person
 from engine.portrait.alignment import align
 from engine.portrait.control_points import carry_fiducials
 from engine.portrait.options import PortraitOptions
@@ -105,9 +105,9 @@ def pair(pictures: Path | None) -> None:
     for label, driver in (("disguised", tool("disguise").disguise(true, landmarks)), ("itself", true)):
         with TemporaryDirectory() as folder:
             options = PortraitOptions(neutral_frame=0)
-            target, layers, rig = read_target(Path(folder), neutral, options)
+            target, *ready = read_target(Path(folder), neutral, options)
             track, chosen = read_driver(write_clip(Path(folder) / "driver.mp4", driver), target, 0)
-            made = list(Acting(track, chosen, target, layers, rig, options).frames())[-1]
+            made = list(Acting(track, chosen, target, *ready, options).frames())[-1]
         kept = [neutral, smile]
         still, ours = (_measures(kept, [neutral, frame], last=True) for frame in (neutral, made))
         rows.append([label, *_shown([*still, *ours], (4, 2, 4, 4, 2, 4))])
@@ -124,13 +124,13 @@ def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[n
     true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
     disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))
     options = PortraitOptions(neutral_frame=0, size=(width, height) if max(width, height) > 64 else None)
-    target, layers, rig = read_target(folder, true[0], options)
+    target, *ready = read_target(folder, true[0], options)
     track, neutral = read_driver(write_clip(folder / "disguised.mp4", disguised), target, 0)
-    acting = Acting(track, neutral, target, layers, rig, options)
+    acting = Acting(track, neutral, target, *ready, options)
     if not with_self:
         return true, acting, acting
     track, neutral = read_driver(write_clip(folder / "itself.mp4", true), target, 0)
-    return true, acting, Acting(track, neutral, target, layers, rig, options)
+    return true, acting, Acting(track, neutral, target, *ready, options)
 
 
 def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:

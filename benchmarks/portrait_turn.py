@@ -14,8 +14,8 @@ from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.head_scan import read_head_scan, render_head
 from benchmarks.shared_media import media, tool, write_clip
 from benchmarks.tables import table
+from engine.portrait.layers import Layers
 from engine.portrait.options import PortraitOptions
-from engine.portrait.target import Layers
 
 SIZE = (480, 576)
 ZOOM = 1.5
@@ -40,9 +40,9 @@ def turn(pictures: Path | None) -> None:
         driver = write_clip(Path(folder) / "turn.mp4", disguised)
         for label, head_3d in (("2D", False), ("3D", True)):
             options = PortraitOptions(neutral_frame=0, head_3d=head_3d)
-            target, layers, rig = read_target(Path(folder), true[0], options)
+            target, *ready = read_target(Path(folder), true[0], options)
             track, neutral = read_driver(driver, target, 0)
-            acting = Acting(track, neutral, target, layers, rig, options)
+            acting = Acting(track, neutral, target, *ready, options)
             made[label] = list(acting.frames())
         lines = grid_deviation(acting, rendered[0][1])
     rows = []

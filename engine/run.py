@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import threading
 import time
 import weakref
@@ -20,6 +21,7 @@ from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, is_dataclass
 from pathlib import Path
+from types import TracebackType
 from typing import Any, Generic, Literal, TypeVar, get_type_hints
 
 import numpy as np
@@ -49,7 +51,7 @@ class Progress:
 
 
 class Run:
-    """One run of a system.
+    """One run of a system. Used as a context manager, it is over when its last stage is, those that run beside included.
 
     Parameters
     ----------
@@ -92,6 +94,8 @@ class Run:
         self._furthest = 0.0
         self._broken = False
         self._here = _Here()
+        self._others: set[Future[Any]] = set()
+        self._at_work: set[Beside[Any]] = set()
         self.seconds: dict[str, float] = {}
         self.reused: list[str] = []
         self.notices: list[Notice] = []
@@ -131,12 +135,32 @@ class Run:
         def work() -> T:
             ready = [other.output.result() if isinstance(other, Beside) else other for other in arguments]
             self._here.beside = one
-            return self._output(name, function, ready, self._shared if shared else self._store)
+            self._at_work.add(one)
+            try:
+                return self._output(name, function, ready, self._shared if shared else self._store)
+            finally:
+                self._at_work.discard(one)
 
         pool = ThreadPoolExecutor(1, thread_name_prefix=name)
         one.output = pool.submit(work)
+        self._others.add(one.output)
+        one.output.add_done_callback(self._others.discard)
         pool.shutdown(wait=False)
         return one
+
+    def idle_cores(self) -> int:
+        """How many cores no stage beside this one is at work on; one at least, which is this one's own."""
+        return max(1, (os.cpu_count() or 1) - len(self._at_work - {self._here.beside}))
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Left when nothing works beside any more: after an error, when all have come to their next `tick`."""
+        self._broken = self._broken or error is not None
+        wait_for(tuple(self._others))
 
     def _output(self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None) -> T:
         """The output from the store, or made and stored together with the notices given while it was made."""

@@ -26,6 +26,8 @@ ROOT = Path(__file__).parent.parent
 FOLDER = ROOT / "demo"
 START_SECONDS = 120
 STOP_SECONDS = 20
+PREPARE_ENGINE = "prepare_engine"
+"""The stage of a job that waits for the engine to be compiled."""
 
 console = Console(highlight=False, soft_wrap=True)
 
@@ -165,15 +167,15 @@ def answer(response: httpx.Response) -> httpx.Response:
 
 def follow(client: httpx.Client, job: dict[str, Any]) -> dict[str, Any]:
     """Show the job's progress until it is finished; the job as it then is."""
-    bar = Progress(
-        TextColumn("{task.description:<28}"), BarColumn(), TaskProgressColumn(), TextColumn("{task.fields[eta]}")
-    )
-    with bar:
+    columns = TextColumn("{task.description:<28}"), BarColumn(), TaskProgressColumn(), TextColumn("{task.fields[eta]}")
+    with Progress(*columns, console=console) as bar:
         task = bar.add_task("Waiting", total=1.0, eta="")
         for kind, data in events(client, job["id"]):
             if kind == "progress":
+                if data["stage"] == PREPARE_ENGINE:
+                    console.print(data["message"])
                 eta = data.get("eta_seconds")
-                stage = (data["stage"] or "Working").replace("_", " ")
+                stage = (data["stage"] or "Waiting").replace("_", " ")
                 bar.update(
                     task,
                     completed=data["fraction"],

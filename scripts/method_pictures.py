@@ -18,12 +18,13 @@ from engine.media.limits import Limits
 from engine.performances import video
 from engine.portrait.driver import track_driver
 from engine.portrait.fine_details import keep_ratio_images
+from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer
 from engine.portrait.rig import Rig, rig_target
-from engine.portrait.target import Layers, TargetFace, find_target_face, separate_layers
+from engine.portrait.target import TargetFace, find_target_face
 
 OUT = Path(__file__).parent.parent / "docs" / "pictures"
 PERFORMANCE, SECONDS = "surprise", 1.25

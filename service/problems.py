@@ -20,6 +20,7 @@ from starlette.routing import Match
 from starlette.types import Scope
 
 from service.database import database_unavailable
+from service.kinds.unknown_options import explained
 from service.postgresql import UNTRANSLATABLE, error_code
 from service.storage import StorageUnavailable
 from service.traces.current import current_request
@@ -110,9 +111,12 @@ def field_errors(errors: Sequence[Any], prefix: str = "") -> list[FieldError]:
     return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors]
 
 
-def invalid(error: ValidationError, code: str, prefix: str = "") -> Problem:
-    """The 422 problem for a pydantic error."""
-    errors = field_errors(error.errors(include_url=False, include_context=False, include_input=False), prefix)
+def invalid(error: ValidationError, code: str, prefix: str = "", options: type[BaseModel] | None = None) -> Problem:
+    """The 422 problem for a pydantic error; of an option that is none of a job kind's `options`, with those that are."""
+    told = error.errors(include_url=False, include_context=False, include_input=False)
+    if options is not None:
+        told = explained(told, options)
+    errors = field_errors(told, prefix)
     first = errors[0]
     return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}", errors)
 

@@ -109,6 +109,9 @@ def _machine(settings: Settings) -> Iterator[Finding]:
 
 
 def _packages(settings: Settings) -> Iterator[Finding]:
+    from engine.perception.solutions import know_old_ways
+
+    know_old_ways()
     for distribution, module in PACKAGES.items():
         try:
             importlib.import_module(module)

@@ -22,10 +22,13 @@ from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from service.kinds import library
+from service.kinds.unknown_options import explained
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced
 from shell.settings import read_settings
+
+EXAMPLE = """'{"fps": 24}'"""
 
 
 def kind_command(kind: Kind) -> click.Command:
@@ -92,11 +95,11 @@ def _options(kind: Kind, text: str, named: Mapping[str, str]) -> BaseModel:
     except OSError as error:
         raise Complaint(f"--options: {text[1:]} cannot be read: {error.strerror}") from error
     except ValidationError as error:
-        first = error.errors()[0]
+        first = explained(error.errors(), kind.options)[0]
         place = ".".join(str(part) for part in first["loc"])
         raise Complaint(f"--options: {place or 'the whole'}: {first['msg']}") from error
     except ValueError as error:
-        raise Complaint(f"--options: this is not valid JSON: {error}") from error
+        raise Complaint(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error
 
 
 def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path, settings: Settings) -> None:
@@ -107,8 +110,8 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
             tempfile.TemporaryDirectory(prefix=".galatea-", dir=out) as draft,
             libraries_silenced() as shown,
             _bar(kind.name, shown) as report,
+            Run(cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic) as run,
         ):
-            run = Run(store=cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic)
             kind.work(inputs, options, Path(draft), run)
             results = [Path(shutil.move(made, out / made.name)) for made in sorted(Path(draft).iterdir())]
     except InputError as error:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import atexit
 import gc
+import os
 
 import click
 
 import engine
 
+os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
+"""Threads of linear algebra sleep between products. By default they spin for a tenth of a second, on a core that
+somebody needs: asked for before NumPy is imported, for all that is started from here."""
 atexit.register(gc.freeze)
 """Python looks for rubbish once more when it ends, in all that the numeric libraries hold: half a second for nothing."""
 

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -420,3 +421,57 @@ def test_what_works_beside_ends_where_another_stage_breaks_off() -> None:
         run.stage("heavy", _heavy, Points(np.ones(1)), -1.0)
     with pytest.raises(Canceled):
         wait.output.result(timeout=20)
+
+
+def test_a_run_is_over_when_nothing_works_beside_any_more() -> None:
+    go_on, ended = threading.Event(), threading.Event()
+
+    def slow(points: Points) -> Points:
+        go_on.wait(30)
+        ended.set()
+        return points
+
+    with Run() as run:
+        last = run.beside("later", _heavy, run.beside("slow", slow, Points(np.ones(1))), 1.0)
+        threading.Timer(0.1, go_on.set).start()
+    assert ended.is_set() and last.output.done()
+
+
+def test_what_works_beside_ends_where_the_run_is_left_by_an_error() -> None:
+    began = threading.Event()
+
+    def endless(points: Points, tick) -> Points:
+        began.set()
+        for _ in range(3000):
+            tick(0.5)
+            time.sleep(0.01)
+        return points
+
+    with pytest.raises(ValueError, match="between two stages"), Run() as run:
+        wait = run.beside("endless", endless, Points(np.ones(1)), run.tick)
+        began.wait(30)
+        raise ValueError("between two stages")
+    with pytest.raises(Canceled):
+        wait.output.result(timeout=0)
+
+
+def test_cores_are_idle_where_no_stage_works_beside() -> None:
+    cores = os.cpu_count() or 1
+    begun, go = threading.Event(), threading.Event()
+    seen: list[int] = []
+
+    def slow(points: Points) -> Points:
+        begun.set()
+        go.wait(10)
+        seen.append(run.idle_cores())
+        return points
+
+    with Run() as run:
+        assert run.idle_cores() == cores
+        later = run.beside("heavy", _heavy, run.beside("slow", slow, Points(np.ones(1))), 1.0)
+        begun.wait(10)
+        assert run.idle_cores() == max(cores - 1, 1)  # what waits for another stage does not work
+        go.set()
+        later()
+        assert seen == [cores]  # its own is not another's
+        assert run.idle_cores() == cores

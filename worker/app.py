@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
+import sys
 import threading
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import structlog
@@ -22,10 +24,12 @@ from service.jobs.models import Job
 from service.queue import TASK, queue_name
 from service.storage import StorageUnavailable
 from service.traces.current import origin_logged
+from worker.announcement import announced
 from worker.attempt import Attempt
 from worker.children import Child, WarmChildren
 from worker.housekeeping import keep_house
 from worker.privileges import user_id
+from worker.rehearsal import rehearse, rehearsed
 from worker.spans import AttemptSpans
 from worker.sweep import sweep
 from worker.webhooks import Courier
@@ -44,7 +48,7 @@ class Worker:
         self.context = context
         self.stopping = threading.Event()
         self.user = user_id(context.settings.job_user)
-        self.children = WarmChildren(context.settings, self.user)
+        self.children: WarmChildren
         self.courier = Courier(context)
         self.owner = f"{socket.gethostname()}:{os.getpid()}"
         context.queue.celery.task(name=TASK)(self.run_job)
@@ -88,6 +92,8 @@ class Worker:
         for task in (self._sweep, self._keep_house, self._deliver_webhooks):
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
         kinds = self.context.settings.worker_kinds or list(self.context.kinds)
+        self._rehearse(kinds)
+        self.children = WarmChildren(self.context.settings, self.user)
         queues = [queue_name(kind) for kind in kinds]
         structlog.get_logger().info("worker_started", kinds=kinds, owner=self.owner)
         worker = self.context.queue.celery.Worker(
@@ -96,6 +102,19 @@ class Worker:
         worker.start()
         self._stop()
         self.children.close()
+
+    def _rehearse(self, kinds: Sequence[str]) -> None:
+        """Have the engine compiled where it is not, and tell the jobs that wait for it. No message is taken meanwhile:
+        those that wait are not lost."""
+        for number in (signal.SIGTERM, signal.SIGINT):  # Celery listens only later
+            signal.signal(number, self._quit)
+        if not rehearsed(self.context.settings):
+            with announced(self.context, kinds):
+                rehearse(self.context.settings)
+
+    def _quit(self, *_: Any) -> None:
+        self._stop()
+        sys.exit()
 
     def _stop(self, *_: Any, **__: Any) -> None:
         if not self.stopping.is_set():

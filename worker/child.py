@@ -23,7 +23,7 @@ from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
 from service.kinds.registry import load_kinds
 from worker.confinement import Limits, confine, limit, of_the_program
-from worker.rehearsal import load_compiled
+from worker.rehearsal import kept_in, load_compiled
 from worker.tether import die_with_parent
 from worker.work import Wire, failed, files_of, local, perform
 
@@ -182,7 +182,7 @@ def main() -> None:
     load_compiled(sys.argv[5:])
     _compile_without_keeping()
     models = [Path(os.environ[MATTING_SETTING])] if MATTING_SETTING in os.environ else []
-    ready = Ready(kinds, limits, [*of_the_program(), *models])
+    ready = Ready(kinds, limits, [*of_the_program(), *kept_in(), *models])
     wire.send("ready")
     while True:
         for job in commands.read():

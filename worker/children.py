@@ -22,7 +22,6 @@ from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
 from worker.confinement import Limits
 from worker.niceness import give_way
-from worker.rehearsal import rehearse
 
 LONGEST_LINE = 1_000_000
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -221,7 +220,6 @@ class WarmChildren:
             self._changed.notify_all()
 
     def _keep_warm(self) -> None:
-        rehearse(self._settings)
         while True:
             with self._changed:
                 self._changed.wait_for(

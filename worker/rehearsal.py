@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -34,10 +34,13 @@ FORGOTTEN = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
+def rehearsed(settings: Settings) -> bool:
+    """Whether it was done already."""
+    return _mark(settings.kinds).exists()
+
+
 def rehearse(settings: Settings) -> None:
-    """Have it done where it was not done yet. Where it fails, jobs compile for themselves, each anew."""
-    if _mark(settings.kinds).exists():
-        return
+    """Have it done. Where it fails, jobs compile for themselves, each anew."""
     log = structlog.get_logger()
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
     command = [sys.executable, "-m", "worker.rehearsal", *settings.kinds]
@@ -76,9 +79,15 @@ def _mark(kinds: Sequence[str]) -> Path:
     state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()} {rehearsing}".encode())
     for path in sorted(package.rglob("*.py")):
         state.update(f"{path} {path.stat().st_mtime_ns}".encode())
+    return _folder(package) / f"{NAME}-{state.hexdigest()[:16]}"
+
+
+def _folder(package: Path) -> Path:
+    """Where that file lies: with what was compiled where that has a place of its own, so that they come and go together."""
+    if kept := os.environ.get("NUMBA_CACHE_DIR"):
+        return Path(kept)
     beside = package / "__pycache__"
-    folder = beside if os.access(beside, os.W_OK) else Path.home() / ".cache" / "galatea"
-    return folder / f"{NAME}-{state.hexdigest()[:16]}"
+    return beside if os.access(beside, os.W_OK) else Path.home() / ".cache" / "galatea"
 
 
 def _processor() -> str:
@@ -102,20 +111,32 @@ def main() -> None:
             other.unlink(missing_ok=True)
 
 
+def kept_in() -> set[Path]:
+    """The folders under which lies what was compiled of the engine's loaded modules: jobs read it when they use it."""
+    return {Path(function._cache.cache_path).parent for _, _, function in _functions()}
+
+
 def _compiled() -> list[tuple[str, str, list[Any]]]:
     """The functions that were compiled, by module and name, with the types of their arguments. Those that run on
     several threads are left out: loading them starts the threads, and a process with threads must not fork."""
+    return [
+        (module, name, list(function.signatures))
+        for module, name, function in _functions()
+        if not function.targetoptions.get("parallel")
+    ]
+
+
+def _functions() -> Iterator[tuple[str, str, Any]]:
+    """The functions of the engine's loaded modules that are compiled at their first use, by module and name."""
+    if "numba" not in sys.modules:
+        return
     from numba.core.dispatcher import Dispatcher
 
-    return [
-        (module, name, list(value.signatures))
-        for module, loaded in list(sys.modules.items())
-        if module.startswith("engine.")
-        for name, value in vars(loaded).items()
-        if isinstance(value, Dispatcher)
-        and value.py_func.__module__ == module
-        and not value.targetoptions.get("parallel")
-    ]
+    for module, loaded in list(sys.modules.items()):
+        if module.startswith("engine."):
+            for name, value in vars(loaded).items():
+                if isinstance(value, Dispatcher) and value.py_func.__module__ == module:
+                    yield module, name, value
 
 
 if __name__ == "__main__":

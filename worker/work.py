@@ -62,7 +62,7 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, order
 
     try:
         kind = kinds[job["kind"]]
-        run = Run(
+        with Run(
             store=ReportingStore(Path(job["stages"]), wire),
             shared=ReportingStore(Path(job["shared"]), wire),
             on_progress=report,
@@ -71,9 +71,9 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, order
             on_artifact=lambda path: wire.send("artifact", name=path.name),
             limits=Limits(**job["limits"]),
             mark_synthetic=job["mark_synthetic"],
-        )
-        inputs = {name: local(source) for name, source in job["inputs"].items()}
-        kind.work(inputs, kind.options.model_validate(job["options"]), out, run)
+        ) as run:
+            inputs = {name: local(source) for name, source in job["inputs"].items()}
+            kind.work(inputs, kind.options.model_validate(job["options"]), out, run)
     except Canceled:
         return {"outcome": "canceled"}
     except InputError as error:

@@ -23,21 +23,21 @@ def first_guess(
     viewer.
     """
     turns = np.zeros((len(TURNED), 3))
-    facing = _facing(trunk)
-    turns[0] = _vector(facing)
+    hips = facing(trunk)
+    turns[0] = _vector(hips)
     for (first, _), direction in zip(LIMBS, seen.directions, strict=True):
         if not np.linalg.norm(direction):
             continue
         side = "Left" if first.startswith("Left") else "Right"
         upper = f"{side}Arm" if "Arm" in first else f"{side}UpLeg"
-        frame = facing
+        frame = hips
         if first != upper:
             frame = frame @ cv2.Rodrigues(turns[TURNED.index(upper)])[0]
         turns[TURNED.index(first)] = _vector(shortest_turn(np.array(STRAIGHT[first]), frame.T @ direction))
     return np.concatenate([_place(space, landmarks, seen), turns.ravel(), np.zeros(COEFFICIENTS)])
 
 
-def _facing(trunk: Mapping[str, NDArray[np.floating]]) -> NDArray[np.float64]:
+def facing(trunk: Mapping[str, NDArray[np.floating]]) -> NDArray[np.float64]:
     """The trunk's axes as columns: its left, its up, its front."""
     across = trunk["LeftArm"] - trunk["RightArm"] + trunk["LeftUpLeg"] - trunk["RightUpLeg"]
     up = trunk["LeftArm"] + trunk["RightArm"] - trunk["LeftUpLeg"] - trunk["RightUpLeg"]

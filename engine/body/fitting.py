@@ -61,9 +61,12 @@ ROBUST = 4.0
 DIRECTION = np.array([[0.25, 0.25, 0.35]] * 4 + [[0.25, 0.25, 1.2]] * 4)
 """How far the directions of `LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
 the viewer, by half a right angle at times: only where they bend much is it to be believed."""
-UPRIGHT, LEVEL = 0.12, 0.2
-"""How much trunks, and legs, lean towards the viewer or away, usually (the z of unit vectors): cameras look level at people
-who stand. From the picture alone somebody who leans is somebody with shorter legs."""
+UPRIGHT, LEVEL = 0.12, 0.14
+"""How much trunks, and both legs together, lean towards the viewer or away, usually (the z of unit vectors): cameras look
+level at people who stand. From the picture alone somebody who leans is somebody with shorter legs."""
+APART = 0.2
+"""How far perception is off, usually, in how much one leg leads before the other (the difference of their z): what it has both
+lean too much cancels out."""
 BALANCE = 0.07
 """Metres by which the ankles' middle is before or behind the hips, usually: else one would fall."""
 WORN, BARE = 0.02, 0.01
@@ -245,18 +248,20 @@ def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.fl
     starts, ends = ([names.index(limb[end]) for limb in LIMBS] for end in (0, 1))
     limbs = joints[:, ends] - joints[:, starts]
     limbs /= np.linalg.norm(limbs, axis=-1, keepdims=True)
+    legs = limbs[:, 4:, 2].reshape(-1, 2, 2)  # sides, thigh and shin
+    seen_apart = (seen.directions[4:6, 2] - seen.directions[6:, 2]) * np.minimum(seen.sureness[4:6], seen.sureness[6:])
+    apart = (legs[:, 0] - legs[:, 1] - seen_apart) / APART
     limbs = (limbs - seen.directions) * np.sqrt(seen.sureness)[:, None] / DIRECTION
     trunk = joints[:, names.index("Neck")] - joints[:, names.index("Hips")]
     lean = trunk[:, 2] / np.linalg.norm(trunk, axis=-1) / UPRIGHT
-    legs = joints[:, ends[4:], 2] - joints[:, starts[4:], 2]
-    legs = legs / np.linalg.norm(joints[:, ends[4:]] - joints[:, starts[4:]], axis=-1) / LEVEL
     ankles = [names.index(f"{side}Foot") for side in ("Left", "Right")]
     stance = (joints[:, ankles, 2].mean(1) - joints[:, names.index("Hips"), 2]) / BALANCE
     count = len(parameters)
     data = [off.reshape(count, -1), limbs.reshape(count, -1)]
     if body.met is not None:
         data.append(_behind_the_outline(body.met, posed, seen, height))
-    return np.concatenate([*data, lean[:, None], stance[:, None], legs, _prior(turns), _beyond(turns), shape], axis=1)
+    stands = [lean[:, None], stance[:, None], legs.mean(1) / LEVEL, apart]
+    return np.concatenate([*data, *stands, _prior(turns), _beyond(turns), shape], axis=1)
 
 
 def _behind_the_outline(met: Met, posed: Posed, seen: Seen, height: float) -> NDArray[np.float64]:

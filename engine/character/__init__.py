@@ -46,6 +46,7 @@ def wake_up(
     ------
     engine.errors.InputError : the input cannot be used; its code and sentence say why and what to do.
     pydantic.ValidationError : an option is wrong.
+    FileNotFoundError : there is no such picture or motion file.
     """
     folder = Path(out)
     folder.mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.character.measures import picture_camera
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
-from engine.export.video import even_size
+from engine.imaging.resample import even_size
 from engine.motion.clip import Clip
 from engine.render.backdrop import Backdrop
 from engine.render.camera import Camera

@@ -70,11 +70,12 @@ def label_parts(
         rough = complete_labels(mask, given)
     else:
         known = np.full(mask.shape, -1, np.int8) if sure is None else np.where(mask, sure, -1)
-        rough = rough_labels(mask, np.where(known >= 0, known, projected))
+        shown = np.where(known >= 0, known, projected)
+        rough = rough_labels(mask, shown)
         rough = np.where(known >= 0, known, rough)
         rough = hair_beside_arms(rgb, rough, projected, known)
         around = _with_occlusion(rough, projected, rest, hidden).occlusion
-        rough = refined_labels(rgb, rough, around)
+        rough = refined_labels(rgb, rough, around, shown)
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
         rough = without_specks(rough, known)

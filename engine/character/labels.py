@@ -38,6 +38,9 @@ ASIDE = 0.25
 """Share of an arm's largest piece below which another one is not the arm's."""
 BARE_ARM = 0.008
 """How far beyond the template's arm no hair is looked for, as a share of the height."""
+ASTRAY = 0.25
+"""What a pixel that the template covers costs with the label of a part of it that is one pixel away, in units of equation 16: too
+little where colours differ, as those of hand and trousers, but those of a sleeve and the trunk beside it say nothing."""
 NOWHERE = 1e3
 """The cost, in pixels, of a label that the template does not show."""
 
@@ -163,12 +166,16 @@ class Colours:
 
 
 def refined_labels(
-    rgb: NDArray[np.uint8], rough: NDArray[np.integer], occlusion: NDArray[np.bool_]
+    rgb: NDArray[np.uint8],
+    rough: NDArray[np.integer],
+    occlusion: NDArray[np.bool_],
+    template: NDArray[np.integer],
 ) -> NDArray[np.intp]:
-    """L: the labels where limbs pass before others, moved to where colours change. Equations 15 to 19.
+    """L: the labels where limbs pass before others, moved to where colours change. Equations 15 to 19; beyond them, where
+    colours say little, what the template covers keeps its label.
 
     `rgb` (H, W, 3); `rough` (H, W) labels, -1 outside the person; `occlusion` (H, W) the mask O within which labels may
-    change. Those outside of it hold their neighbours.
+    change; `template` (H, W) the projected template's labels, -1 where it is not. Those outside of O hold their neighbours.
     """
     labels = rough.astype(np.intp).copy()
     inside = occlusion & (labels >= 0)
@@ -178,11 +185,13 @@ def refined_labels(
     _, regions = cv2.connectedComponents(inside.astype(np.uint8))
     colours = rgb.astype(np.float64)
     for region in range(1, regions.max() + 1):
-        _refine(colours, labels, inside & (regions == region))
+        _refine(colours, labels, inside & (regions == region), template)
     return labels
 
 
-def _refine(colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_]) -> None:
+def _refine(
+    colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_], template: NDArray[np.integer]
+) -> None:
     """Refine the labels within one region, in place."""
     around = cv2.dilate(region.astype(np.uint8), np.ones((15, 15), np.uint8)) > 0
     near = around & (labels >= 0)
@@ -194,6 +203,8 @@ def _refine(colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDAr
     difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
     beta = 1 / (2 * max(float(difference.mean()), 1.0))  # equation 19
     weights = GAMMA_FINE * np.exp(-beta * difference) / lengths  # equations 17 and 18
+    astray = ASTRAY * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
+    astray[template[near] < 0] = 0
     current = first
     for _ in range(ROUNDS):
         shown = [pixels[current == label] for label in meeting]
@@ -201,7 +212,7 @@ def _refine(colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDAr
             break
         unary = np.stack([Colours.of(own).unlikely(pixels) for own in shown], 1)
         held = np.array([[label != one for one in meeting] for label in first]) * NOWHERE
-        unary = np.where(inner[:, None], unary, held)
+        unary = np.where(inner[:, None], unary + astray, held)
         start = np.array([meeting.index(label) if label in meeting else 0 for label in current])
         found = np.array(meeting)[alpha_expansion(unary, edges, weights, start)]
         fresh = np.where(inner, found, first)

@@ -19,9 +19,12 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 
-LEAST_VOLUME = 0.35
-"""What blending turns may leave of a volume. Where they would leave less, as between the two sides of a bent elbow, the
-way back to T-pose is no longer one: such a vertex goes with its strongest joint alone."""
+LEAST_VOLUME, KEPT_VOLUME = 0.35, 0.6
+"""What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a
+sharply bent elbow, the way back to T-pose is no longer one: there the vertex goes with the strongest, as much more as
+it takes to keep the second."""
+HALVINGS = 7
+"""Of the share that is asked for how much more."""
 
 
 @dataclass(frozen=True)
@@ -88,13 +91,37 @@ def at_rest(
     weights (V, 4) by which they do: some are changed where there is no way back (`LEAST_VOLUME`); and what these blend
     for each vertex, (V, 4, 4)."""
     turned = transforms.astype(np.float64)
-    blended = np.einsum("vk,vkij->vij", weights.astype(np.float64), turned[bones])
-    crushed = np.linalg.det(blended[:, :3, :3]) < LEAST_VOLUME
+    blended = _blended(weights, turned[bones])
+    halfway = _volume((turned[bones[:, 0]] + turned[bones[:, 1]]) / 2)
+    least = np.where(halfway < LEAST_VOLUME, KEPT_VOLUME, LEAST_VOLUME)
+    crushed = np.flatnonzero(_volume(blended) < least)
     kept = weights.copy()
-    kept[crushed] = [1, 0, 0, 0]
-    blended[crushed] = turned[bones[crushed, 0]]
+    own, mixed = turned[bones[crushed, 0]], blended[crushed]
+    more, step = np.ones(len(crushed)), 0.5
+    for _ in range(HALVINGS):
+        enough = _volume(_between(mixed, own, more - step)) >= least[crushed]
+        more -= np.where(enough, step, 0)
+        step /= 2
+    kept[crushed] *= (1 - more[:, None]).astype(np.float32)
+    kept[crushed, 0] += more.astype(np.float32)
+    blended[crushed] = _blended(kept[crushed], turned[bones[crushed]])
     back = np.linalg.solve(blended[:, :3, :3], (posed - blended[:, :3, 3])[..., None])[..., 0]
     return np.asarray(back), kept, blended
+
+
+def _blended(weights: NDArray[np.float32], transforms: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What weights (V, 4) make of transforms (V, 4, 4, 4): (V, 4, 4)."""
+    return np.asarray(np.einsum("vk,vkij->vij", weights.astype(np.float64), transforms))
+
+
+def _volume(blended: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What transforms (V, 4, 4) leave of a volume, (V,)."""
+    return np.asarray(np.linalg.det(blended[:, :3, :3]))
+
+
+def _between(some: NDArray[np.float64], others: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Transforms (V, 4, 4) a share (V,) of the way from some to others."""
+    return np.asarray(some + share[:, None, None] * (others - some))
 
 
 def _feet(mesh: ClosedMesh, names: Sequence[str]) -> NDArray[np.intp]:

@@ -17,10 +17,12 @@ from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
 from engine.character.strokes import read_mask, repaint_mask
 from engine.errors import InputError
+from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
 from engine.perception.models import MattingModel
-from engine.perception.person import DOUBT, person_mask
+from engine.perception.person import DOUBT, LIKELY, person_mask
+from engine.perception.segmentation import people_in
 
 HEIGHT = 400
 """Pixels of the person's height on the grid."""
@@ -37,6 +39,8 @@ FOREARM, PALM, FINGER, JOINT = 0.02, 0.02, 0.006, 0.7
 a joint is seen ..."""
 NEAR = 0.043
 """... and how far around them the rest of forearm and hand may be."""
+ARM_AND_HAND = 0.25
+"""From the elbow to the fingertips, as a share of the person's height: so far from it may a hand be that is not seen closely."""
 LIMB = 0.03
 """Width of a limb that is known to be the person's, as a share of its skeleton's height."""
 
@@ -121,41 +125,41 @@ def _own_piece(mask: NDArray[np.bool_], limbs: NDArray[np.bool_]) -> tuple[NDArr
 
 def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     """The mask that is found of itself, (H, W). Where others are in the picture, the networks look at this one alone."""
-    alpha = _cut(figure, _seen(figure) if figure.spatial else _limbs(figure), model)
-    if model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any()):
+    part = _looked_at(figure)
+    rgb = np.ascontiguousarray(figure.rgb[part])
+    seed = _seen(figure) if figure.spatial else _limbs(figure)
+    known = model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any())
+    people = None if known else people_in(rgb, whole=True)
+    own = None if figure.alpha is None else figure.alpha[part]
+    alpha = np.zeros(figure.rgb.shape[:2], np.float32)
+    alpha[part] = person_mask(rgb, seed[part], own, model, figure.others[part], whole=True, people=people)
+    if people is None:
         return alpha
-    return np.asarray(alpha * (1 - gaps(figure.rgb, alpha, figure.point)), np.float32)
+    belief = np.zeros_like(alpha)
+    belief[part] = resized(people, (rgb.shape[1], rgb.shape[0]))
+    return np.asarray(alpha * (1 - gaps(figure.rgb, alpha, belief, figure.point)), np.float32)
 
 
-def _cut(figure: Figure, seed: NDArray[np.float32], model: MattingModel | None) -> NDArray[np.float32]:
-    """What the networks find around a seed (H, W)."""
-    if len(figure.people) < 2 or not figure.spatial:
-        return person_mask(figure.rgb, seed, figure.alpha, model, figure.others, whole=True)
-    x, y, wide, high = figure.people[figure.index]
+def _looked_at(figure: Figure) -> tuple[slice, slice]:
+    """The rows and columns that the networks look at: all, or where others are, those around this one."""
     height, width = figure.rgb.shape[:2]
-    rows = slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1))
-    columns = slice(max(0, int(x - AROUND * wide)), min(width, int(x + (1 + AROUND) * wide) + 1))
-    part = rows, columns
-    alpha = np.zeros((height, width), np.float32)
-    alpha[part] = person_mask(
-        np.ascontiguousarray(figure.rgb[part]),
-        seed[part],
-        None if figure.alpha is None else figure.alpha[part],
-        model,
-        figure.others[part],
-        whole=True,
+    if len(figure.people) < 2 or not figure.spatial:
+        return slice(0, height), slice(0, width)
+    x, y, wide, high = figure.people[figure.index]
+    return (
+        slice(max(0, int(y - AROUND * high)), min(height, int(y + (1 + AROUND) * high) + 1)),
+        slice(max(0, int(x - AROUND * wide)), min(width, int(x + (1 + AROUND) * wide) + 1)),
     )
-    return alpha
 
 
 def _seen(figure: Figure) -> NDArray[np.float32]:
-    """Where the person surely is by the joints that are seen: along forearms, and in hands. The network that cuts people
+    """Where the person is (`LIKELY`) by the joints that are seen: along arms, and in hands. The network that cuts people
     out misses them, the one that finds their joints does not, and by colour a hand is not like the sleeve beside it."""
-    seed = np.zeros(figure.rgb.shape[:2], np.uint8)
+    seed, beyond = (np.zeros(figure.rgb.shape[:2], np.uint8) for _ in range(2))
     height = float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))
 
-    def line(points: NDArray[np.floating], width: float) -> None:
-        cv2.polylines(seed, [np.rint(points).astype(np.int32)], False, (1,), max(1, round(width * height)))
+    def line(points: NDArray[np.floating], width: float, on: NDArray[np.uint8] = seed) -> None:
+        cv2.polylines(on, [np.rint(points).astype(np.int32)], False, (1,), max(1, round(width * height)))
 
     for side, hand in zip(("Left", "Right"), figure.hands, strict=True):
         names = [f"{side}{joint}" for joint in ("Elbow", "Wrist", "Index", "Pinky")]
@@ -163,6 +167,9 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
         sure = figure.confidence[[LANDMARKS.index(name) for name in names]]
         if min(sure[:2]) > JOINT:
             line(np.stack([elbow, wrist]), FOREARM)
+            if hand is None:
+                along = (wrist - elbow) / max(float(np.linalg.norm(wrist - elbow)), 1.0)
+                line(np.stack([wrist, elbow + ARM_AND_HAND * height * along]), FOREARM, beyond)
         if hand is not None:
             cv2.fillConvexPoly(seed, np.rint(hand[[0, 1, 5, 9, 13, 17], :2]).astype(np.int32), (1,))
             for first in (1, 5, 9, 13, 17):
@@ -170,8 +177,12 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
         elif min(sure[1:]) > JOINT:
             line(np.stack([wrist, np.mean(fingers, axis=0)]), PALM)
     reach = max(1, round(NEAR * height))
-    near = cv2.dilate(seed, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
-    return np.asarray(np.maximum(seed, DOUBT * near), np.float32)
+    near = cv2.dilate(np.maximum(seed, beyond), np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
+    for side in ("Left", "Right"):
+        names = [f"{side}Shoulder", f"{side}Elbow"]
+        if min(figure.confidence[[LANDMARKS.index(name) for name in names]]) > JOINT:
+            line(np.stack([figure.point(name) for name in names]), FOREARM)
+    return np.asarray(np.maximum(LIKELY * seed, DOUBT * near), np.float32)
 
 
 def _limbs(figure: Figure) -> NDArray[np.float32]:

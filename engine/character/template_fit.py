@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.body import load_template
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.face_points import face_points
-from engine.body.first_guess import first_guess
+from engine.body.first_guess import facing, first_guess
 from engine.body.fitting import LIMBS, Fit, Seen, fit_body
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
@@ -44,6 +44,9 @@ of its face points."""
 BEFORE, NARROWER, SEEN = 0.2, 0.9, 0.5
 """Metres from the trunk's middle to an arm before it; the share of the trunk's outline that is surely the trunk's; the
 confidence from which a joint is seen and not hidden."""
+FLATTENED, UNSURE = 3.0, 0.12
+"""How much further one leg is before the other than perception has it, measured on renders; and the difference (of unit
+vectors) below which what it has is rather noise."""
 JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip", "Leg": "Knee", "Foot": "Ankle"}
 """Landmarks at which limbs begin and end, by the joint."""
 
@@ -107,7 +110,9 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     }
     world = _arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
     limbs = np.stack([world[places[b]] - world[places[a]] for a, b in LIMBS])
-    limbs /= np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
+    trunk = {joint: world[place] for joint, place in places.items()}
+    limbs = limbs / np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
+    limbs = legs_apart(limbs, facing(trunk)[:, 2])
     sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
     seen = Seen(
         figure.points[at],
@@ -117,7 +122,7 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
         focal,
         centre,
     )
-    start = first_guess(human.space, landmarks, seen, {joint: world[place] for joint, place in places.items()})
+    start = first_guess(human.space, landmarks, seen, trunk)
     fit = fit_body(human.space, landmarks, seen, start, trace(mask), human.skin)
     kept = np.zeros(len(human.space.names), np.bool_)
     return FittedBody(fit, focal, centre, kept)
@@ -151,6 +156,17 @@ def _arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
             if figure.confidence[at] > SEEN and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
                 world[at, 2] = max(world[at, 2], float(depths.mean()) + BEFORE)
     return world
+
+
+def legs_apart(limbs: NDArray[np.floating], front: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Directions (8, 3) of `LIMBS` with one leg as far before the other, along the trunk's `front` (3,), as it is where
+    perception sees it so: it has strides too short. What both legs have in common stays, and how far they are spread."""
+    legs = limbs[4:].reshape(2, 2, 3)  # sides, thigh and shin
+    before = (legs[0] - legs[1]) @ front
+    power = before @ before
+    more = (FLATTENED * power / (power + UNSURE**2) - 1) * before / 2
+    moved = legs + np.array([1, -1])[:, None, None] * more[:, None] * front
+    return np.concatenate([limbs[:4], moved.reshape(4, 3)])
 
 
 def _in_the_plane(points: NDArray[np.float32]) -> NDArray[np.float32]:

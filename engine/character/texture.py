@@ -48,6 +48,9 @@ HEAD_FROM, HEAD_TO = 1.2, 4.5
 """The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
 SLIVER = 5
 """Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
+NEARBY = 0.04
+"""How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
+printed on a shirt's middle is not on its sides, too."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -147,14 +150,15 @@ def _behind_the_limbs(
     own: NDArray[np.bool_],
     face: NDArray[np.floating] | None,
 ) -> NDArray[np.uint8]:
-    """The body (h, w, 3) where `limbs` (h, w) hide it: the head is filled from the head without its face, a leg behind the
-    other from that leg, all else from all else, so that no dress is made of hair."""
+    """The body (h, w, 3) where `limbs` (h, w) hide it, filled from what is nearby: the head from the
+    head without its face, a leg behind the other from that leg, all else from all else, so that no dress is made of hair."""
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
     head = _enlarged(beneath == PARTS.index("head"), size)
+    away = np.asarray(cv2.distanceTransform((~limbs).astype(np.uint8), cv2.DIST_L2, 5)) / size[1]
     body = continued_colours(seen, own & ~limbs)
-    shown = own & ~limbs
+    shown = own & ~limbs & (away < NEARBY)
     if face is not None:
         shown &= ~(head & _ellipse(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)

@@ -41,6 +41,7 @@ class Target:
     sound: Path | None
     sound_trim: tuple[float, float] | None
     loop: bool
+    frames: int | None
     entries: frozenset[int] | None
     synthetic: bool
 
@@ -98,6 +99,51 @@ parts, so that the grain of one video goes on in the next: at a jump to a frame 
 levels in the mean) 0.98 were seen, with the usual settings 1.8; and no frame is sharper than the one before."""
 
 
+_SEAM_QUANTISER = 6
+"""Of the first frame of an H.264 video that loops, and of its last."""
+_SEAM_FRAMES = 12
+"""Over so many at its end the quantiser goes down to it from `_SEAM_START`, about the usual one."""
+_SEAM_START = 20
+
+_LOOPED_WEBM = {"crf": "14", "cpu-used": "4"}
+"""What coding takes from a frame differs from the first to the last: videos that repeat are coded more finely.
+
+Measured on a portrait at 474x474 that idles for 150 frames and comes to rest where it began (the mean difference between
+the last frame and the first: 0.01 grey levels; largest step 1.85, median 0.39), decoded again:
+
+| coding | seam | largest step | median | kB | ms a frame |
+| --- | --- | --- | --- | --- | --- |
+| mp4 as usual | 1.07 | 1.68 | 0.41 | 237 | 2 |
+| mp4, crf 12, all frames alike (as `ENTERED`) | 0.70 | 1.91 | 0.45 | 1014 | 2 |
+| mp4, quantiser down to 10 over the last 10 frames | 0.54 | 1.66 | 0.40 | 309 | 2 |
+| mp4, down to 6 over the last 12, which is used | 0.37 | 1.69 | 0.40 | 356 | 2 |
+| mp4, down to 4 over the last 18 | 0.27 | 1.68 | 0.40 | 427 | 2 |
+| webm as usual | 0.87 | 1.92 | 0.45 | 215 | 3 |
+| webm, crf 10 | 0.68 | 1.95 | 0.53 | 637 | 3 |
+| webm, crf 14, `cpu-used` 4, which is used | 0.67 | 1.90 | 0.50 | 301 | 7 |
+| webm, crf 14, deadline `good` | 0.59 | 1.86 | 0.45 | 226 | 18 |
+| webp as usual | 1.74 | 2.42 | 0.48 | 2148 | 7 |
+| webp, quality 95 | 1.26 | 2.22 | 0.52 | 3340 | 8 |
+| webp, quality 98 | 0.84 | 2.07 | 0.59 | 5324 | 9 |
+
+libvpx takes no quantiser for single frames. A WebP is left as it is: each picture is coded on its own, and what helps more
+than doubles the file.
+"""
+
+
+def _looped(target: Target, usual: dict[str, str]) -> dict[str, str]:
+    """Options of a video that loops, in place of the `usual` ones."""
+    if target.format == "webm":
+        return _LOOPED_WEBM
+    if target.format == "webp" or target.frames is None:
+        return {}
+    ending = min(_SEAM_FRAMES, target.frames // 2)
+    fall = np.linspace(_SEAM_START, _SEAM_QUANTISER, ending + 1)[1:].round().astype(int)
+    places = [0, *range(target.frames - ending, target.frames)]
+    zones = "/".join(f"{k},{k},q={q}" for k, q in zip(places, [_SEAM_QUANTISER, *fall], strict=True))
+    return {"x264-params": f"{usual['x264-params']}:zones={zones}"}
+
+
 class StreamEncoder:
     """MP4 (H.264), WebM (VP9) and animated WebP, by FFmpeg."""
 
@@ -116,7 +162,8 @@ class StreamEncoder:
         self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
         self._stream.width, self._stream.height = target.size
         crf = {} if target.crf is None or self._webp else {"crf": str(target.crf)}
-        self._stream.options = {**coding.options, **(ENTERED if target.entries else {}), **crf}
+        special = ENTERED if target.entries else _looped(target, coding.options) if target.loop else {}
+        self._stream.options = {**coding.options, **special, **crf}
         self._stream.codec_context.thread_count = coding.threads
         if self._webp:
             self._stream.pix_fmt = "bgra"

@@ -20,11 +20,6 @@ _WAITING = 4
 """Frames that may wait for the encoder: enough to even out its pace, few enough that memory stays flat."""
 
 
-def even_size(width: float, height: float) -> tuple[int, int]:
-    """The nearest even width and height (at least 2), as 4:2:0 video wants them."""
-    return max(2, 2 * round(width / 2)), max(2, 2 * round(height / 2))
-
-
 class VideoWriter:
     """Writes a video; a context manager. The file appears under its name when the block ends without an error, and
     not at all otherwise.
@@ -42,7 +37,9 @@ class VideoWriter:
     crf : constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none.
     sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
     sound_trim : (start, end) seconds of that file's video that the frames stand for.
-    loop : whether an animated WebP repeats for ever (of the others, the player decides).
+    loop : whether the video is to be played again and again: the end is coded for leading into the beginning, and an
+        animated WebP repeats for ever (of the others, the player decides).
+    frames : how many there will be, where that is known; an "mp4" that loops needs it.
     entries : "mp4" alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from
         other videos of the same picture without a jump in its grain; between the entries it is slow to search.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes.
@@ -61,6 +58,7 @@ class VideoWriter:
         sound: Path | None = None,
         sound_trim: tuple[float, float] | None = None,
         loop: bool = False,
+        frames: int | None = None,
         entries: Iterable[int] | None = None,
         synthetic: bool = True,
         warn: Warn | None = None,
@@ -70,7 +68,7 @@ class VideoWriter:
         if entries is not None and format != "mp4":
             raise ValueError("only an MP4 has entries")
         whole = None if entries is None else frozenset(entries)
-        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, whole, synthetic)
+        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, frames, whole, synthetic)
         self._draft = path.with_name(f".{path.name}.draft")
         self._warn = warn or (lambda code, message: None)
         self._encoder: Encoder | None = None

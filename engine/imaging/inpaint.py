@@ -177,18 +177,17 @@ def _start(
     coarse: NDArray[np.int32] | None, targets: NDArray[np.bool_], sources: NDArray[np.bool_], seed: int
 ) -> NDArray[np.int32]:
     """A first field: that of the coarser picture where it points to a source, else anywhere."""
-    random = np.random.default_rng(seed)
-    height, width = targets.shape
+    field = np.zeros((*targets.shape, 2), np.int32)
     rows, columns = np.nonzero(targets)
-    ys, xs = np.nonzero(sources)
-    pick = random.integers(0, len(ys), len(rows))
-    points_to = np.column_stack([ys[pick], xs[pick]])
+    lost = np.ones(len(rows), bool)
     if coarse is not None:
         up_y, up_x = np.minimum(rows // 2, coarse.shape[0] - 1), np.minimum(columns // 2, coarse.shape[1] - 1)
-        found = coarse[up_y, up_x] * 2 + np.column_stack([rows - 2 * up_y, columns - 2 * up_x])
-        found = np.clip(found, 0, [height - 1, width - 1])
-        fits = sources[found[:, 0], found[:, 1]]
-        points_to = np.where(fits[:, None], found, points_to)
-    field = np.zeros((height, width, 2), np.int32)
-    field[rows, columns] = points_to
+        found = coarse[up_y, up_x]
+        y = np.clip(2 * found[:, 0] + rows - 2 * up_y, 0, targets.shape[0] - 1)
+        x = np.clip(2 * found[:, 1] + columns - 2 * up_x, 0, targets.shape[1] - 1)
+        field[rows, columns, 0], field[rows, columns, 1] = y, x
+        lost = ~sources[y, x]
+    anywhere = np.argwhere(sources)
+    pick = np.random.default_rng(seed).integers(0, len(anywhere), lost.sum())
+    field[rows[lost], columns[lost]] = anywhere[pick]
     return field

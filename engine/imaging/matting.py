@@ -19,6 +19,9 @@ SMOOTHNESS = 5e-3
 SMOOTHNESS_AT_EDGES = 0.1
 """... and by how much it grows with the step of alpha between neighbours (the paper: 1, and 1e-5)."""
 
+LEAST_SETTLED = 256
+"""Longest side of a picture from which pixels amid wholly opaque or transparent ones are settled already."""
+
 RESERVE = 0.1
 """How reluctantly transparent pixels take up what the composition at rest misses."""
 
@@ -43,16 +46,16 @@ def estimate_layers(
     front = np.full((1, 1, 3), image[matte > 0.9].mean(0) if (matte > 0.9).any() else image.mean((0, 1)), np.float32)
     back = np.full((1, 1, 3), image[matte < 0.1].mean(0) if (matte < 0.1).any() else image.mean((0, 1)), np.float32)
     levels = max(1, int(np.ceil(np.log2(max(height, width)))))
-    for level in range(levels + 1):
-        share = level / levels
-        size = (max(1, round(width**share)), max(1, round(height**share)))
-        small_image, small_matte = resized(image, size), resized(matte, size)
+    sizes = [(max(1, round(width ** (k / levels))), max(1, round(height ** (k / levels)))) for k in range(levels + 1)]
+    pyramid = [(image, matte)]
+    for size in reversed(sizes[:-1]):
+        pyramid.append((resized(pyramid[-1][0], size), resized(pyramid[-1][1], size)))
+    for size, (small_image, small_matte) in zip(sizes, reversed(pyramid), strict=True):
         front, back = resized(front, size, smooth=False).copy(), resized(back, size, smooth=False).copy()
-        _relax(small_image, small_matte, front, back, 10 if max(size) <= 32 else 2)
-    opaque = matte[..., None]
-    front = np.where(opaque >= 1, image, front)
-    back = np.where(opaque <= 0, image, back)
-    return front.astype(np.float32), back.astype(np.float32)
+        _relax(small_image, small_matte, front, back, 10 if max(size) <= 32 else 2, max(size) > LEAST_SETTLED)
+    np.copyto(front, image, where=matte[..., None] >= 1)
+    np.copyto(back, image, where=matte[..., None] <= 0)
+    return front, back
 
 
 def reconcile_with_plate(
@@ -74,13 +77,15 @@ def reconcile_with_plate(
 
 
 @njit(fastmath=True, nogil=True)
-def _relax(image, alpha, front, back, sweeps):  # type: ignore[no-untyped-def]
+def _relax(image, alpha, front, back, sweeps, some_settled):  # type: ignore[no-untyped-def]
     """Gauss-Seidel sweeps over the 2x2 systems of each pixel's front and back colour, in place."""
     height, width = alpha.shape
     for _ in range(sweeps):
         for y in range(height):
             for x in range(width):
                 a = alpha[y, x]
+                if some_settled and (a == 0 or a == 1) and _amid_equals(alpha, y, x):
+                    continue
                 b = 1 - a
                 weights = np.float32(0)
                 f0 = f1 = f2 = b0 = b1 = b2 = np.float32(0)
@@ -106,3 +111,16 @@ def _relax(image, alpha, front, back, sweeps):  # type: ignore[no-untyped-def]
                     right_f, right_b = a * colour + sum_f, b * colour + sum_b
                     front[y, x, c] = min(max((m11 * right_f - m01 * right_b) * scale, 0.0), 255.0)
                     back[y, x, c] = min(max((m00 * right_b - m01 * right_f) * scale, 0.0), 255.0)
+
+
+@njit(fastmath=True, nogil=True, inline="always")
+def _amid_equals(alpha, y, x):  # type: ignore[no-untyped-def]
+    """Whether a pixel is as opaque as each of its neighbours."""
+    height, width = alpha.shape
+    a = alpha[y, x]
+    return (
+        alpha[max(y - 1, 0), x] == a
+        and alpha[min(y + 1, height - 1), x] == a
+        and alpha[y, max(x - 1, 0)] == a
+        and alpha[y, min(x + 1, width - 1)] == a
+    )

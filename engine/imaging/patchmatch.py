@@ -38,7 +38,10 @@ BAND, MOST_BANDS = 6000, 4
 
 def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:
     """`image` (H, W, 3) as (3, H, W + 1): a row of a patch is then eight numbers in a row, the last unused."""
-    return np.ascontiguousarray(np.pad(image, ((0, 0), (0, 1), (0, 0))).transpose(2, 0, 1), np.float32)
+    height, width = image.shape[:2]
+    planes = np.zeros((3, height, width + 1), np.float32)
+    planes[:, :, :-1] = image.transpose(2, 0, 1)
+    return planes
 
 
 @njit(fastmath=True, nogil=True, inline="always")

@@ -33,3 +33,8 @@ def size_within(shape: tuple[int, ...], longest: int) -> tuple[int, int]:
     height, width = shape[:2]
     scale = min(1.0, longest / max(height, width))
     return max(1, round(width * scale)), max(1, round(height * scale))
+
+
+def even_size(width: float, height: float) -> tuple[int, int]:
+    """The nearest even width and height (at least 2), as 4:2:0 video wants them."""
+    return max(2, 2 * round(width / 2)), max(2, 2 * round(height / 2))

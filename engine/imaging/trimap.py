@@ -30,6 +30,8 @@ NOISE = 4.0
 """Grey levels (over three channels) of noise that even the plainest background has."""
 PLAIN = 14.0
 """Largest standard deviation of a background (same unit) against which strands can be told."""
+FINE = 3.0
+"""Pixels of a Gaussian's scale that are fine enough for it."""
 CONTRAST = 60.0
 """Grey levels a channel by which a sliver must differ from the layer around it."""
 
@@ -60,6 +62,18 @@ def outline_trimap(rgb: NDArray[np.uint8], belief: Mask, prior_weight: float = 0
     weight = prior_weight * np.maximum(np.square(2 * belief - 1), 0.05)
     weight[strands | slivers] = 0.02 * prior_weight
     return Trimap(known, np.clip(4 * belief - 1.5, 0, 1).astype(np.float32), weight.astype(np.float32))
+
+
+def like_plain_background(rgb: NDArray[np.uint8], background: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where (H, W) the colours of `rgb` (H, W, 3) uint8 are those of the plain `background` (H, W) nearby."""
+    height, width = background.shape
+    half = (max(1, width // 2), max(1, height // 2))
+    known = resized(background.astype(np.float32), half) > 0.99
+    mean, spread = _plain_background(resized(rgb.astype(np.float32), half), known)
+    near = cv2.GaussianBlur(known.astype(np.float32), (0, 0), 1.5 * SCALE) > 1e-3
+    noise = resized(np.where(near, spread, 2 * PLAIN**2).astype(np.float32), (width, height))
+    miss = _squared(rgb - resized(mean, (width, height)))
+    return np.asarray((noise < PLAIN**2) & (miss < 9 * (noise + NOISE**2)))
 
 
 def _distance(mask: NDArray[np.bool_]) -> Mask:
@@ -118,7 +132,7 @@ def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_])
     odd = np.zeros(background.shape, bool)
     for _ in range(3):
         weight = (background & ~odd).astype(np.float32)
-        near = np.asarray(cv2.GaussianBlur(weight, (0, 0), SCALE / 2), np.float32)
+        near = _blurred(weight, SCALE / 2)
         mean = _local_mean(image, weight, SCALE / 2)
         mean = np.where(near[..., None] > 1e-3, mean, _local_mean(image, weight, 1.5 * SCALE)).astype(np.float32)
         miss = _squared(image - mean)
@@ -128,10 +142,21 @@ def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_])
 
 
 def _local_mean(values: NDArray[np.float32], weight: Mask, scale: float) -> NDArray[np.float32]:
-    mass = np.maximum(cv2.GaussianBlur(weight, (0, 0), scale), 1e-9)
+    mass = np.maximum(_blurred(weight, scale), 1e-9)
     if values.ndim == 2:
-        return np.asarray(cv2.GaussianBlur(values * weight, (0, 0), scale) / mass, np.float32)
-    return np.asarray(cv2.GaussianBlur(values * weight[..., None], (0, 0), scale) / mass[..., None], np.float32)
+        return np.asarray(_blurred(values * weight, scale) / mass, np.float32)
+    return np.asarray(_blurred(values * weight[..., None], scale) / mass[..., None], np.float32)
+
+
+def _blurred(values: NDArray[np.float32], scale: float) -> NDArray[np.float32]:
+    """Blurred by a Gaussian of `scale` pixels; a wide one is done on a smaller picture, which shows no less."""
+    step = int(scale // FINE)
+    if step < 2:
+        return np.asarray(cv2.GaussianBlur(values, (0, 0), scale), np.float32)
+    height, width = values.shape[:2]
+    small = resized(values, (max(1, width // step), max(1, height // step)))
+    scales = scale * small.shape[1] / width, scale * small.shape[0] / height
+    return resized(np.asarray(cv2.GaussianBlur(small, (0, 0), *scales), np.float32), (width, height))
 
 
 def _squared(difference: NDArray[np.float32]) -> Mask:

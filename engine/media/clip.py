@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 
@@ -64,8 +64,12 @@ def open_clip(path: Path, limits: Limits) -> Clip:
     if len(timetable.times) < 2:
         raise too_short()
     rate = rate_of(timetable.times, [header.fps] if header.fps else [])
+    if not rate.constant:  # the last frame is shown, too
+        timetable = replace(timetable, last=max(timetable.last, 1 / rate.fps))
     size = round(header.width * header.pixel_aspect), header.height
-    check_video(*size, rate.fps, timetable.seconds, len(timetable.times), limits)
+    count = len(timetable.times)
+    decoded = (count - 1) / float(timetable.times[-1] - timetable.times[0])  # a second, in the mean
+    check_video(*size, decoded, timetable.seconds, count, limits)
     first = next(decode(path, media_type, timetable, limits, 0.0, Damage()), None)
     if first is None:
         raise unreadable()

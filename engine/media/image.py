@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import io
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pi_heif
 from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
-_FORMATS = ("JPEG", "PNG", "WEBP", "AVIF", "GIF")
+_FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
+"""Pillow's name of what a file begins like: its other decoders are neither asked nor loaded."""
 
 
 @dataclass(frozen=True)
@@ -42,12 +43,12 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
         if media_type == "image/heic":
             image = _read_heic(path, limits)
         else:
-            with Image.open(path, formats=_FORMATS) as opened:
+            with _opened(path, media_type) as opened:
                 _check_size(opened.size, limits)
                 opened.load()
                 image = ImageOps.exif_transpose(opened)
-    except Image.DecompressionBombError as error:
-        raise _too_large(str(error), limits) from None
+    except Image.DecompressionBombError:
+        raise _too_large("", limits) from None
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, RuntimeError, UnidentifiedImageError) as error:
         raise _broken(error) from error
     rgb, alpha = _to_srgb(image)
@@ -86,7 +87,16 @@ def _admit(path: Path, limits: Limits) -> str:
     return media_type
 
 
+def _opened(path: Path, media_type: str) -> Image.Image:
+    """The picture before it is decoded. Pillow's warning of large ones is not for users: they get our own limit."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        return Image.open(path, formats=[_FORMATS[media_type]])
+
+
 def _read_heic(path: Path, limits: Limits) -> Image.Image:
+    import pi_heif  # few pictures need it: it is loaded for those alone
+
     heif = pi_heif.open_heif(path, convert_hdr_to_8bit=True)
     _check_size(heif.size, limits)
     return heif.to_pillow()
@@ -95,13 +105,13 @@ def _read_heic(path: Path, limits: Limits) -> Image.Image:
 def _check_size(size: tuple[int, int], limits: Limits) -> None:
     width, height = size
     if width * height > limits.image_megapixels * 1e6:
-        raise _too_large(f"{width} x {height} pixels", limits)
+        raise _too_large(f" ({width} x {height} pixels)", limits)
 
 
-def _too_large(what: str, limits: Limits) -> InputError:
+def _too_large(size: str, limits: Limits) -> InputError:
     return InputError(
         "image_too_large",
-        f"The picture is too large ({what}): scale it down to at most {limits.image_megapixels:g} megapixels.",
+        f"The picture is too large{size}: scale it down to at most {limits.image_megapixels:g} megapixels.",
     )
 
 

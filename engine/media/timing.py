@@ -21,6 +21,12 @@ _SHORTEST_STEP = 1e-9
 _LOWEST = 1.0
 """Frames a second: a slower clip is a row of stills, whose rate is made up."""
 
+_SPAN = 16
+"""Frames: a changing rate is measured over so many at once (over a quarter of a clip that has few), in which the
+trembling of single timestamps is lost."""
+_FASTER = 0.1
+"""Share of a clip of changing rate that may be faster than the rate it is given."""
+
 _HOLES = 0.1
 """Share of frames that may be missing on the grid (dropped by the camera, lost with a broken tail)."""
 
@@ -56,8 +62,10 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
             offsets = even - places
             if np.ptp(offsets) / 2 < _JITTER and np.diff(places).min() >= 1 and places[-1] < count * (1 + _HOLES):
                 return Rate(float(fps), float((offsets.max() + offsets.min()) / 2 / fps), True)
-    mean = (count - 1) / float(times[-1] - times[0])
-    return Rate(float(next((rate for rate in _USUAL_RATES if rate >= 0.97 * mean), _USUAL_RATES[-1])), 0.0, False)
+    span = max(1, min(_SPAN, count // 4))
+    quick = span / max(float(np.quantile(times[span:] - times[:-span], _FASTER)), _SHORTEST_STEP)
+    enough = [rate for rate in _USUAL_RATES if rate >= 0.95 * quick] or _USUAL_RATES[-1:]
+    return Rate(float(min(enough, key=lambda rate: abs(rate - quick))), 0.0, False)
 
 
 def without_echoes(times: np.ndarray) -> np.ndarray:

@@ -16,6 +16,8 @@ SIZE = 400
 """Longest side, in pixels, at which strokes are looked for."""
 STROKE = 18.0
 """Grey levels by which a stroke is darker, or of another colour, than the paper around it."""
+PAPER = 100.0
+"""Grey levels; darker ground is no paper, on which lines are darker still."""
 PLAIN = 0.15
 """Largest share of the border that the figure may touch."""
 SURE = 0.4
@@ -23,10 +25,13 @@ SURE = 0.4
 picture is theirs. On photographs, paintings and cartoons it was 0.7 and more, on a child's drawing 0.05."""
 
 
-def figure_on_plain_ground(rgb: NDArray[np.uint8], belief: NDArray[np.float32]) -> NDArray[np.float32] | None:
+def figure_on_plain_ground(
+    rgb: NDArray[np.uint8], belief: NDArray[np.float32], known: NDArray[np.bool_] | None = None
+) -> NDArray[np.float32] | None:
     """The figure's mask (H, W) in [0, 1], or None if this is no drawing on plain paper that networks miss.
 
-    `belief` (H, W) is what the networks saw. If they are sure, they are believed.
+    `belief` (H, W) is what the networks saw. If they are sure, they are believed. `known` (H, W) is what belongs to the
+    figure although they may see nothing, as the face of one that they take for none.
     """
     if (belief > 0.9).sum() > SURE * (belief > 0.3).sum():
         return None
@@ -34,13 +39,20 @@ def figure_on_plain_ground(rgb: NDArray[np.uint8], belief: NDArray[np.float32]) 
     small = resized(np.ascontiguousarray(rgb), size).astype(np.float32)
     rough = resized(belief, size)
     strokes = _strokes(small)
-    frame = np.concatenate([strokes[2, 2:-2], strokes[-3, 2:-2], strokes[2:-2, 2], strokes[2:-2, -3]])
-    if frame.mean() > PLAIN:
+    if _border(strokes).mean() > PLAIN or np.median(_border(small)) < PAPER:
         return None
     figure = _enclosed(strokes)
-    if figure is None or not (rough[figure] > 0.3).any():
+    if figure is None:
+        return None
+    meant = rough > 0.3 if known is None else (rough > 0.3) | resized(known.astype(np.uint8), size, False).astype(bool)
+    if not meant[figure].any():
         return None
     return np.clip(resized(figure.astype(np.float32), (rgb.shape[1], rgb.shape[0])), 0, 1)
+
+
+def _border(image: NDArray) -> NDArray:
+    """What lies just within the border of an image (H, W, ...)."""
+    return np.concatenate([image[2, 2:-2], image[-3, 2:-2], image[2:-2, 2], image[2:-2, -3]])
 
 
 def _strokes(image: NDArray[np.float32]) -> NDArray[np.bool_]:

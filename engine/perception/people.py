@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.body import LANDMARKS, Body, find_body
+from engine.perception.body import FAINT, LANDMARKS, Body, find_body
 from engine.perception.faces import find_faces
 
 MOST = 12
@@ -33,6 +33,9 @@ WIDE = 1.4
 """Width over height from which a picture is wide."""
 COVERED = 0.5
 """Share of a further body's points that may lie on one found before."""
+CLOSER = 0.35
+"""How much more than the box of somebody faint is looked at again, as a share of its sides: a body is found there once more, a
+rocket is not."""
 
 
 def find_people(rgb: NDArray[np.uint8], most: int = MOST) -> list[Body]:
@@ -50,7 +53,23 @@ def find_people(rgb: NDArray[np.uint8], most: int = MOST) -> list[Body]:
     for another in closer:
         if len(found) < most and another is not None and _is_another(another, found, None):
             found.append(another)
+    if not found and most > 0 and (body := _faint(rgb)) is not None:
+        found.append(body)
     return sorted(found, key=lambda body: -float(np.prod(person_box(body, rgb.shape)[2:])))
+
+
+def _faint(rgb: NDArray[np.uint8]) -> Body | None:
+    """Somebody who hardly stands out, in camouflage for instance: whom two looks find at the same place."""
+    body = find_body(rgb, FAINT)
+    if body is None:
+        return None
+    x, y, wide, high = person_box(body, rgb.shape)
+    box = (x - CLOSER * wide, y - CLOSER * high, (1 + 2 * CLOSER) * wide, (1 + 2 * CLOSER) * high)
+    again = find_body_within(rgb, box, FAINT)
+    size = float(np.ptp(body.points, axis=0).max())
+    if again is None or np.median(np.linalg.norm(body.points - again.points, axis=1)) > SAME * size:
+        return None
+    return body
 
 
 def person_box(body: Body, shape: tuple[int, ...]) -> NDArray[np.float32]:
@@ -138,12 +157,14 @@ def _below(rgb: NDArray[np.uint8], face: NDArray[np.float32]) -> Body | None:
     return body if body is not None and np.linalg.norm(body.landmark("Nose") - middle) < size else None
 
 
-def find_body_within(rgb: NDArray[np.uint8], box: tuple[float, float, float, float]) -> Body | None:
+def find_body_within(
+    rgb: NDArray[np.uint8], box: tuple[float, float, float, float], confidence: float = 0.5
+) -> Body | None:
     """The most prominent body of a part of a picture: x, y, width and height in pixels. In pixels of the whole."""
     x, y, wide, high = box
     left, top = int(max(0, x)), int(max(0, y))
     part = rgb[top : int(np.ceil(y + high)), left : int(np.ceil(x + wide))]
     if min(part.shape[:2]) < 16:
         return None
-    body = find_body(np.ascontiguousarray(part))
+    body = find_body(np.ascontiguousarray(part), confidence)
     return None if body is None else Body(body.points + np.array([left, top], np.float32), body.world, body.confidence)

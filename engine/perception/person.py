@@ -1,9 +1,8 @@
 """The mask of the people in a picture, soft at hair and sharp at cloth, at the picture's own resolution.
 
-Two networks look first: MediaPipe's selfie segmentation (256 px; straight and mirrored, and again at the
-part that holds a person) and the mask that comes with its body pose. Neither sees edges finely, and they
-miss different things. Where both are sure the matter is settled; elsewhere colours have a say (GrabCut);
-and along the outline an alpha matte is solved (`engine.imaging.trimap`, `engine.imaging.alpha_matte`).
+Two networks look first (`engine.perception.segmentation`). Where both are sure the matter is settled; elsewhere colours
+have a say (GrabCut); and along the outline an alpha matte is solved (`engine.imaging.trimap`,
+`engine.imaging.alpha_matte`).
 """
 
 from __future__ import annotations
@@ -15,15 +14,10 @@ from numpy.typing import NDArray
 from engine.imaging.alpha_matte import alpha_matte
 from engine.imaging.guided_upsample import upsample_guided
 from engine.imaging.resample import resized, size_within
-from engine.imaging.trimap import SURE, outline_trimap
+from engine.imaging.trimap import SURE, like_plain_background, outline_trimap
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel
-from engine.perception.solutions import solution
-
-Mask = NDArray[np.float32]
-
-WORKING_SIZE = 800
-"""Longest side, in pixels, at which the matte is solved; larger pictures get it by guided upsampling."""
+from engine.perception.segmentation import WORKING_SIZE, Mask, people_in
 
 CUT_SIZE = 480
 """Longest side at which colours have their say."""
@@ -34,15 +28,14 @@ KEPT = 0.6
 DOUBT = 0.35
 """Belief of what the networks may have missed: colours decide."""
 
+LIKELY = 0.99
+"""Belief of what joints tell to be a person's: settled, unless it has the colours of a plain background."""
+
 EDGE = np.ones((9, 9), np.uint8)
 """The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
 
 LEFT_OUT = 0.1
 """Share of what is known to be the person's that a matting model may leave out: fingers are thin, outlines differ."""
-
-SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
-"""Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
-pictures that show somebody whole, who are what the body pose's network knows best."""
 
 
 def person_mask(
@@ -52,6 +45,7 @@ def person_mask(
     model: MattingModel | None = None,
     others: NDArray[np.bool_] | None = None,
     whole: bool = False,
+    people: Mask | None = None,
 ) -> Mask:
     """Soft mask (H, W) in [0, 1] of the people in a picture; all zero where nobody is seen.
 
@@ -59,7 +53,8 @@ def person_mask(
     ----------
     rgb : (H, W, 3) uint8.
     seed : (H, W) float32, 1 where a person is known to be (a face's region): helps in drawings, where
-        the networks see little. `DOUBT` where one may be, although the networks see nothing.
+        the networks see little. `LIKELY` where joints that were found say so, which may be misplaced; `DOUBT` where one may
+        be, although the networks see nothing.
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
         out it is taken as the truth, less the others; a channel that is opaque throughout says nothing.
     model : a matting network of the operator's (`engine.perception.models`), used instead of all that
@@ -68,6 +63,7 @@ def person_mask(
     others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
         people, colours say whose it is.
     whole : the picture shows people whole, not portraits.
+    people : what `people_in` said of the picture, if it was asked before.
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
@@ -84,14 +80,16 @@ def person_mask(
             return found
         return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
-    belief = believed_person(small, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
-    figure = figure_on_plain_ground(small, belief)
+    belief = resized(people_in(rgb, whole) if people is None else people, (small.shape[1], small.shape[0]))
+    sure = np.zeros(rgb.shape[:2], np.float32) if seed is None else seed.astype(np.float32)
+    sure = resized(sure, (small.shape[1], small.shape[0])).copy()
+    figure = figure_on_plain_ground(small, belief, sure > SURE)
     if figure is not None:
         belief = figure
-    sure = np.zeros(belief.shape, np.float32)
-    if seed is not None:
-        sure = resized(seed.astype(np.float32), (small.shape[1], small.shape[0]))
-        belief = np.maximum(belief, sure)
+    misplaced = (belief < DOUBT) & (sure > DOUBT) & (sure < 1)
+    if misplaced.any():
+        sure[misplaced & like_plain_background(small, (belief < 1 - SURE) & (sure == 0))] = DOUBT
+    belief = np.maximum(belief, sure)
     if others is not None:
         apart = resized(others.astype(np.float32), (small.shape[1], small.shape[0]))
         belief = np.asarray(belief * (1 - apart), np.float32)
@@ -112,46 +110,6 @@ def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
     inside = cv2.erode((channel > SURE).astype(np.uint8), EDGE, borderValue=1)
     own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE)))
     return np.where(shared, np.minimum(channel, own), channel).astype(np.float32)
-
-
-def believed_person(rgb: NDArray[np.uint8], share: float = SELFIE_SHARE) -> Mask:
-    """What the networks believe to be a person, (H, W) in [0, 1]; `share` is the selfie network's."""
-    posed = _pose_mask(rgb)
-    selfie = selfie_mask(rgb, posed)
-    return selfie if posed is None else (share * selfie + (1 - share) * posed).astype(np.float32)
-
-
-def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
-    """What the selfie network believes to be a person, (H, W) in [0, 1]: it looks closer where people, also those that
-    `posed` shows, take up a small part of the picture."""
-    height, width = rgb.shape[:2]
-    with solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
-
-        def look(part: NDArray[np.uint8]) -> Mask:
-            straight = network.process(np.ascontiguousarray(part)).segmentation_mask
-            mirrored = network.process(np.ascontiguousarray(part[:, ::-1])).segmentation_mask[:, ::-1]
-            return np.asarray((straight + mirrored) / 2, np.float32)
-
-        whole = look(rgb)
-        ys, xs = np.nonzero((whole if posed is None else np.maximum(whole, posed)) > 0.5)
-        if len(ys) < 16:
-            return whole
-        margin = 0.15 * max(np.ptp(ys), np.ptp(xs)) + 4
-        top, bottom = max(0, int(ys.min() - margin)), min(height, int(ys.max() + margin))
-        left, right = max(0, int(xs.min() - margin)), min(width, int(xs.max() + margin))
-        if (bottom - top) * (right - left) > 0.7 * height * width:
-            return whole
-        closer = np.zeros_like(whole)
-        closer[top:bottom, left:right] = look(rgb[top:bottom, left:right])
-        return closer
-
-
-def _pose_mask(rgb: NDArray[np.uint8]) -> Mask | None:
-    """The body pose's belief; None where it sees no body."""
-
-    with solution("pose").Pose(static_image_mode=True, model_complexity=1, enable_segmentation=True) as network:
-        mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask
-    return None if mask is None else np.asarray(mask, np.float32)
 
 
 def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:

@@ -4,34 +4,56 @@ from __future__ import annotations
 
 import importlib
 import sys
+from threading import Lock
 from types import ModuleType
 from typing import Any
 
 from google.protobuf import message_factory
 
+HELD = (
+    *("matplotlib", "matplotlib.pyplot", "mediapipe.tasks", "mediapipe.tasks.python"),
+    *("mediapipe.python.solutions.objectron", "mediapipe.python.solutions.download_utils"),
+)
+"""What MediaPipe imports for others alone."""
+
+_ONE_AT_A_TIME = Lock()
+"""MediaPipe's modules import each other in circles: threads that begin at once would find them half made."""
+
 
 def solution(name: str) -> ModuleType:
     """The module `mediapipe.python.solutions.NAME`.
 
-    MediaPipe imports matplotlib for drawings that nobody here asks for, most of a second in every process: its
-    place is held while MediaPipe is imported, and it is loaded when somebody does draw.
+    MediaPipe imports matplotlib for drawings that nobody here asks for, most of a second in every process, and more of its
+    own: their places are held while MediaPipe is imported, and they are loaded when somebody does use them.
     """
-    full = f"mediapipe.python.solutions.{name}"
-    _know_old_ways()
-    if "mediapipe" in sys.modules or "matplotlib" in sys.modules:
+    with _ONE_AT_A_TIME:
+        return _imported(f"mediapipe.python.solutions.{name}")
+
+
+def _imported(full: str) -> ModuleType:
+    know_old_ways()
+    if "mediapipe" in sys.modules:
         return importlib.import_module(full)
-    held = _Later("matplotlib"), _Later("matplotlib.pyplot")
-    held[0].pyplot = held[1]  # type: ignore[attr-defined]
+    held = [_Later(name) for name in HELD if name not in sys.modules]
     for place in held:
         sys.modules[place.__name__] = place
+        _attach(place)
     try:
         return importlib.import_module(full)
     finally:
         for place in held:
+            _attach(place)
             del sys.modules[place.__name__]
 
 
-def _know_old_ways() -> None:
+def _attach(module: ModuleType) -> None:
+    """Make it an attribute of the package it is in, as importing it does."""
+    package, _, name = module.__name__.rpartition(".")
+    if package in sys.modules:
+        vars(sys.modules[package]).setdefault(name, module)
+
+
+def know_old_ways() -> None:
     """Give Protocol Buffers back the method by which MediaPipe's native part looks up messages (gone since release 5):
     without it each process prints an error, and goes on."""
     factory: Any = message_factory.MessageFactory

@@ -26,9 +26,14 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
         make_profile(inputs, options, out, run)
     else:
-        from engine.portrait.pipeline import animate_portrait
+        from engine.portrait.target import look_for_face
 
-        animate_portrait(inputs, options, out, run)
+        image = inputs["image"]
+        assert isinstance(image, Path)
+        face = look_for_face(image, options, run)
+        from engine.portrait.pipeline import animate_portrait  # what draws is loaded while the face is looked for
+
+        animate_portrait(inputs, options, out, run, face)
 
 
 def _prepare() -> None:
@@ -94,7 +99,10 @@ def animate(
 
     Raises
     ------
-    engine.errors.InputError : the picture, the video or an option cannot be used; says what to do.
+    engine.errors.InputError : the picture or the video cannot be used; says what to do.
+    pydantic.ValidationError : an option is wrong.
+    FileNotFoundError : there is no such picture, or no such video or built-in performance.
+    TypeError : there is no driver, and no reactive profile is asked for.
     """
     chosen = PortraitOptions(**options)
     folder = Path(out)
@@ -104,8 +112,10 @@ def animate(
         inputs["driver"] = _driver(str(driver))
     elif not chosen.reactive:
         raise TypeError("a driver is needed: a video's file, the name of a built-in performance, or auto")
-    with TemporaryDirectory(prefix="galatea-") as passing:
-        run = Run(store=StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic)
+    with (
+        TemporaryDirectory(prefix="galatea-") as passing,
+        Run(StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic) as run,
+    ):
         _work(inputs, chosen, folder, run)
     return next(folder.glob("animation.*"))
 

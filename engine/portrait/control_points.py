@@ -16,6 +16,7 @@ from engine.imaging.delaunay import delaunay
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 from engine.portrait.alignment import Similarity
+from engine.portrait.contour import beside_contour
 
 PERIPHERY_SPACING = 0.5
 """Distance of peripheral points, in eye distances."""
@@ -33,8 +34,8 @@ HARDLY_ANY = 0.1
 class ControlPoints:
     """Rest positions in the target: `points` (C, 2) pixels, first the 478 of the face's mesh, then
     `peripheral` points, then those on the border. `usable` (C,) is False for points of the face that the
-    picture sees from behind, where they say nothing about the pixels there, and for the irises, which stay behind the lids
-    that move over them."""
+    picture sees from behind, where they say nothing about the pixels there, for those beside its contour, which carries
+    them, and for the irises, which stay behind the lids that move over them."""
 
     points: NDArray[np.float64]
     peripheral: int
@@ -79,7 +80,8 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
         [(x, y) for x in across for y in (0, height - 1)] + [(x, y) for y in down[1:-1] for x in (0, width - 1)]
     )
     points = np.concatenate([mesh[:, :2].astype(float), grid, border])
-    usable = np.concatenate([facing(mesh), np.ones(len(points) - MESH_SIZE, bool)])
+    seen = facing(mesh)
+    usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
     usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
     return ControlPoints(points, len(grid), usable)
 

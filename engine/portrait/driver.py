@@ -19,7 +19,8 @@ from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
 from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import steady
-from engine.portrait.appearance import Appearance
+from engine.portrait.appearance import Appearance, appearance
+from engine.portrait.covered_face import CoveredFace
 from engine.portrait.film_strip import FilmStrip, FilmStripWriter
 from engine.portrait.held_face import HeldFace
 from engine.portrait.periphery import PeripheryTracker
@@ -93,7 +94,12 @@ def track_driver(
     found: list[bool] = []
     size = (info.width, info.height)
     periphery, held = PeripheryTracker(), HeldFace()
-    with OneFace(face_index) as follow, FilmStripWriter() as crops, ThreadPoolExecutor(1) as beside:
+    with (
+        OneFace(face_index) as follow,
+        CoveredFace() as covered,
+        FilmStripWriter() as crops,
+        ThreadPoolExecutor(1) as beside,
+    ):
         around: Future[None] = beside.submit(lambda: None)  # the points around follow a frame behind, on another core
         for index, frame in enumerate(
             read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
@@ -101,8 +107,11 @@ def track_driver(
             tick(min(index / expected, 1.0))
             size = (frame.rgb.shape[1], frame.rgb.shape[0])
             mesh = _followed(follow, frame.rgb, face_index)
+            seen = None if mesh is None else appearance(frame.rgb, mesh)
+            if seen is not None and covered(frame.rgb, seen):
+                mesh = seen = None
             found.append(mesh is not None)
-            for look in held(frame.rgb, mesh):
+            for look in held(seen):
                 meshes.append(look.mesh)
                 places.append(look.place)
                 crops.write(look.crop)

@@ -110,10 +110,15 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
 
 
 def _lashes(rgb: NDArray[np.uint8], opening: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The darker half of the colours along the upper lid's edge, their mean (3,)."""
-    edge = np.round(opening[1:8]).astype(int)
-    edge = np.clip(edge, 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
-    colours = rgb[edge[:, 1], edge[:, 0]].astype(np.float32)
+    """The darker half of the colours along the upper lid's edge, their mean (3,): there, or as far outside of it as lashes
+    are wide, for a drawn eye may end beyond the mesh's."""
+    middle, width = (opening[0] + opening[8]) / 2, np.linalg.norm(opening[8] - opening[0])
+    away = opening[1:8] - middle
+    outside = opening[1:8] + LASHES * width * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1)
+    edge = np.clip(np.round([opening[1:8], outside]).astype(int), 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
+    colours = rgb[edge[..., 1], edge[..., 0]].astype(np.float32)
+    darker = colours.sum(axis=-1).argmin(axis=0)
+    colours = colours[darker, np.arange(7)]
     return np.asarray(colours[np.argsort(colours.sum(axis=1))[:4]].mean(axis=0), np.float32)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from engine.portrait.appearance import Appearance, appearance, between
+from engine.portrait.appearance import Appearance, between
 
 EASE_BACK = 8
 """Frames over which what had vanished eases from its held place back to where it was found again."""
@@ -27,15 +27,14 @@ class HeldFace:
         self._lost: Appearance | None = None
         self._since = 0
 
-    def __call__(self, rgb: NDArray[np.uint8], mesh: NDArray[np.float32] | None) -> list[Appearance]:
-        """How it looks in this frame, (H, W, 3) with the mesh (478, 3) that is seen in it; the first that is seen comes as
-        often as there were frames up to here, and nothing before."""
-        if mesh is None:
+    def __call__(self, seen: Appearance | None) -> list[Appearance]:
+        """How it looks in this frame, in which it is `seen` so; the first that is seen comes as often as there were frames
+        up to here, and nothing before."""
+        if seen is None:
             self._lost = self._last
             self._since = 0
             self._waiting += self._last is None
             return [self._last] if self._last else []
-        seen = appearance(rgb, mesh)
         if self._lost is not None:
             self._since += 1
             seen = between(self._lost, seen, float(way_back(self._since)))

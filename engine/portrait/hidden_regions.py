@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.compiled import njit
 from engine.imaging.mesh_warp import inverse_map
 from engine.imaging.poisson import membrane
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
@@ -29,8 +30,9 @@ PALE, RED = 0.2, 0.45
 
 LUMINANCE = np.array([0.299, 0.587, 0.114], np.float32)
 
-_UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
-_LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
+UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
+LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
+"""Facing vertices of the inner lips from corner to corner."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,8 @@ def mouth_triangles() -> NDArray[np.int32]:
         ring += [(outer[k], outer[n], inner[k]), (outer[n], inner[n], inner[k])]
     place = {v: 20 + i for i, v in enumerate(LIPS_INNER)}
     strip = []
-    for k in range(len(_UPPER) - 1):
-        a, b, c, d = (place[v] for v in (_UPPER[k], _UPPER[k + 1], _LOWER[k], _LOWER[k + 1]))
+    for k in range(len(UPPER) - 1):
+        a, b, c, d = (place[v] for v in (UPPER[k], UPPER[k + 1], LOWER[k], LOWER[k + 1]))
         strip += [(a, b, c), (b, d, c)]
     return np.array(ring + strip, np.int32)
 
@@ -108,6 +110,13 @@ def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.asarray(brightness * colour / float(colour @ LUMINANCE), np.float32)
 
 
+def uncovered(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
+    """How much of what is seen in the mouth of a frame's face (478, 2) the target does not show, from 0 to 1."""
+    inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
+    grown = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
+    return float(np.clip(max(grown, (_gap(mesh) / palette.gap - PARTS) / (PARTED - PARTS)), 0, 1))
+
+
 def transfer_mouth(
     frame: NDArray[np.uint8],
     mesh: NDArray[np.floating],
@@ -122,13 +131,12 @@ def transfer_mouth(
     frame : (H, W, 3) the warped target, with its face at `mesh` (478, 2).
     crop : the driver's frame, with its face at `crop_mesh` (478, 2).
     """
-    inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
-    grown = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
-    blend = max(grown, (_gap(mesh) / palette.gap - PARTS) / (PARTED - PARTS))
-    if blend <= 0:
+    blend = uncovered(mesh, palette)
+    if blend == 0:
         return
+    inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
     outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
-    box = _box(outer, frame.shape[:2])
+    box = box_around(outer, frame.shape[:2])
     if box is None:
         return
     x0, y0, x1, y1 = box
@@ -138,25 +146,36 @@ def transfer_mouth(
     origin = inverse_map(lips, source, mouth_triangles(), (y1 - y0, x1 - x0), outside=-1.0)
     aligned = cv2.remap(crop, origin[..., 0], origin[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
     mouth = relight(np.asarray(aligned, np.uint8), palette)
-    below = frame[y0:y1, x0:x1].astype(np.float32)
+    below = frame[y0:y1, x0:x1]
     mask = _eroded(outer - corner, (y1 - y0, x1 - x0), EROSION * palette.height)
-    opening = _soft_polygon(inner - corner, (y1 - y0, x1 - x0))
-    if mask.sum() > 9:
-        healed = membrane(below - mouth, mask)
-        light = (healed @ LUMINANCE)[..., None]
-        mouth = mouth + light + _redness(np.asarray(aligned, np.uint8)) * (healed - light)
-    alpha = (min(blend, 1.0) * opening * mask)[..., None]
-    frame[y0:y1, x0:x1] = np.clip(below + alpha * (mouth - below) + 0.5, 0, 255).astype(np.uint8)
+    opening = soft_polygon(inner - corner, (y1 - y0, x1 - x0))
+    healed = membrane(below - mouth, mask) if mask.sum() > 9 else np.zeros_like(mouth)
+    _blend(below, mouth, healed, np.asarray(aligned, np.uint8), np.float32(blend) * opening * mask)
 
 
-def _redness(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """How much a pixel (H, W, 1) is lip, gum or tongue rather than tooth, in [0, 1]: what the lips of two people differ
-    by in colour is true of the one, and would make the others green."""
-    colours = rgb.astype(np.float32)
-    most = colours.max(axis=2, keepdims=True)
-    saturation = 1 - colours.min(axis=2, keepdims=True) / np.maximum(most, 16)
-    t = np.clip((saturation - PALE) / (RED - PALE), 0, 1)
-    return np.asarray(t * t * (3 - 2 * t), np.float32)
+@njit(fastmath=True, nogil=True)
+def _blend(below, mouth, healed, driver, alpha):  # type: ignore[no-untyped-def]
+    """The mouth over what is `below`, in place. Of what heals its edge the brightness counts everywhere, the colour where
+    a pixel of the `driver` is lip, gum or tongue rather than tooth: what the lips of two people differ by in colour is true
+    of the one, and would make the others green."""
+    height, width = alpha.shape
+    for y in range(height):
+        for x in range(width):
+            a = alpha[y, x]
+            if a == 0:
+                continue
+            most = max(driver[y, x, 0], driver[y, x, 1], driver[y, x, 2])
+            least = min(driver[y, x, 0], driver[y, x, 1], driver[y, x, 2])
+            saturation = np.float32(1) - np.float32(least) / np.float32(max(most, 16))
+            t = min(max((saturation - np.float32(PALE)) / np.float32(RED - PALE), np.float32(0)), np.float32(1))
+            red = t * t * (np.float32(3) - 2 * t)
+            light = healed[y, x, 0] * LUMINANCE[0] + healed[y, x, 1] * LUMINANCE[1] + healed[y, x, 2] * LUMINANCE[2]
+            for k in range(3):
+                b = np.float32(below[y, x, k])
+                value = mouth[y, x, k] + light + red * (healed[y, x, k] - light)
+                below[y, x, k] = np.uint8(
+                    min(max(b + a * (value - b) + np.float32(0.5), np.float32(0)), np.float32(255))
+                )
 
 
 def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32]:
@@ -201,14 +220,15 @@ def _departure(colours: NDArray[np.float32], tint: NDArray[np.float32]) -> float
     return float(np.linalg.norm((colours / light).mean(axis=0) - tint))
 
 
-def _box(points: NDArray[np.float32], shape: tuple[int, int]) -> tuple[int, int, int, int] | None:
+def box_around(points: NDArray[np.float32], shape: tuple[int, int]) -> tuple[int, int, int, int] | None:
+    """x0, y0, x1, y1 around points (P, 2) within a picture of `shape`; None where hardly any of it is left."""
     low, high = np.floor(points.min(axis=0)).astype(int) - 2, np.ceil(points.max(axis=0)).astype(int) + 3
     x0, y0 = np.maximum(low, 0)
     x1, y1 = min(int(high[0]), shape[1]), min(int(high[1]), shape[0])
     return (int(x0), int(y0), x1, y1) if x1 - x0 > 4 and y1 - y0 > 4 else None
 
 
-def _soft_polygon(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+def soft_polygon(points: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
     """Coverage [0, 1] of a polygon, anti-aliased."""
     mask = np.zeros(shape, np.uint8)
     cv2.fillPoly(mask, [np.round(points * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)

@@ -22,8 +22,10 @@ CORNERS = ((33, 133), (263, 362))
 """Where both end."""
 HIGHER = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
-BEGINS = 0.35
+BEGINS = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
+ABOVE = 0.6
+"""Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
 LIT = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
 ACROSS = 0.15
@@ -75,7 +77,9 @@ def draw_lid(
 def _strip(mesh: NDArray, side: int) -> NDArray:
     """(18, 2) the skin above from corner to corner, then the lid's edge."""
     outer, inner = CORNERS[side]
-    return np.asarray(mesh[[v for row in STRIPS[side] for v in (outer, *row, inner)], :2])
+    strip = mesh[[v for row in STRIPS[side] for v in (outer, *row, inner)], :2].astype(float)
+    strip[1:8] += ABOVE * (mesh[list(HIGHER[side]), :2] - strip[1:8])
+    return np.asarray(strip)
 
 
 def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:

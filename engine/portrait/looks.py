@@ -20,13 +20,10 @@ from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.head_pose import canonical_face, head_pose
-from engine.perception.landmarks import RIGID, eye_distance, eye_opening, mouth_opening
+from engine.perception.landmarks import RIGID, eye_distance
 from engine.perception.one_face import OneFace
+from engine.portrait.expression import expression, frontal
 from engine.portrait.head_motion import fit_rigid
-
-EXPRESSION = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
-"""What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over
-their own width."""
 
 SKIN = (
     *(50, 101, 118, 205, 207, 36, 280, 330, 347, 425, 427, 266),  # cheeks
@@ -40,9 +37,6 @@ PATCH = 0.06
 
 FPS, SECONDS = 6.0, 30.0
 """How often, and how far into it, a driver is looked at."""
-
-AT_ONCE = 256
-"""Meshes that are turned to the front together, so that memory does not grow with a video's length."""
 
 
 @dataclass(frozen=True)
@@ -87,38 +81,6 @@ def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = 
             ("driver",),
         )
     return _gather(rows)
-
-
-def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
-    """`EXPRESSION` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
-    return np.concatenate([_expressed(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
-
-
-def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
-    front = frontal(meshes)
-    middle = (front[:, 13] + front[:, 14]) / 2
-    corners = (front[:, 61] + front[:, 291]) / 2
-    lids = (front[:, 33] + front[:, 133] + front[:, 263] + front[:, 362]) / 4
-    wide = np.linalg.norm(front[:, 61] - front[:, 291], axis=1)
-    return np.stack(
-        [
-            mouth_opening(meshes) * wide,
-            wide,
-            (middle - corners)[:, 1],
-            lids[:, 1] - (front[:, 107] + front[:, 336])[:, 1] / 2,
-            lids[:, 1] - (front[:, 70] + front[:, 300])[:, 1] / 2,
-            eye_opening(meshes).mean(axis=1),
-        ],
-        axis=1,
-    ).astype(np.float32)
-
-
-def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Meshes (N, 478, 3) turned to the front, the eye distance 1."""
-    chosen = list(RIGID)
-    scale, rotation, shift = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
-    front = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
-    return np.asarray(front / eye_distance(front)[:, None, None], float)
 
 
 def _gather(rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]]) -> Looks:

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
 from engine.portrait.appearance import CROP_EYES
 from engine.portrait.lids_and_lips import LID_SKIN, LIDS, LIPS
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
-SHARE = 0.5
-"""How much of what is amiss is corrected: the rest is the tracker's own scatter."""
+SHARE = 0.6
+"""How much of what is amiss is corrected: the rest is the tracker's own scatter ..."""
+LIPS_SHARE, LIPS_REACH = 0.35, 0.15
+"""... which is larger at the lips, whose looks change most, and less so the further beside them: width in eye distances."""
 ALIKE = 0.05
 """Root mean square distance of two faces' points, in eye distances, at which the frames are alike."""
-SCATTER = 0.1
+SCATTER = 0.2
 """Ridge of the regression: the tracker's scatter in what it finds amiss."""
 MOST = 0.08
 """Eye distances: more than this is the tracker's error."""
@@ -45,7 +49,7 @@ class Misfit:
         amiss = (_likeness(flat(faces), self.faces) @ self.weights).reshape(-1, MESH_SIZE, 2)
         right = placed[:, None, [263, 362]].mean(axis=2) - placed[:, None, [33, 133]].mean(axis=2)  # one eye distance
         down = right[..., ::-1] * (-1, 1)
-        return _keep_closed(-SHARE * (amiss[..., :1] * right + amiss[..., 1:] * down), placed)
+        return _keep_closed(-_shares() * (amiss[..., :1] * right + amiss[..., 1:] * down), placed)
 
 
 def fit_misfit(faces: NDArray[np.floating], amiss: NDArray[np.floating]) -> Misfit:
@@ -65,6 +69,14 @@ def no_misfit() -> Misfit:
 def flat(faces: NDArray[np.floating]) -> NDArray[np.float32]:
     """(K, 478, 2) pixels of the crop as (K, 956) eye distances."""
     return np.asarray(faces.reshape(len(faces), -1) / UNIT, np.float32)
+
+
+@cache
+def _shares() -> NDArray[np.float32]:
+    """(478, 1) how much of what is amiss is corrected at each vertex."""
+    face = canonical_face()
+    apart = np.linalg.norm(face[:, None] - face[list(LIPS_OUTER + LIPS_INNER)], axis=2).min(axis=1, keepdims=True)
+    return np.asarray(SHARE + (LIPS_SHARE - SHARE) * np.exp(-((apart / LIPS_REACH) ** 2)), np.float32)
 
 
 def _likeness(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.float32]:

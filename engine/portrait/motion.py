@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_distance
+from engine.perception.landmarks import MESH_SIZE, eye_distance
 from engine.portrait.alignment import Similarity, align
+from engine.portrait.contour import keep_inside, rim_distance
 from engine.portrait.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.portrait.driver import DriverTrack
 from engine.portrait.expression_transfer import carry_expression, local_maps
@@ -98,10 +99,12 @@ def carry_motion(
         else:
             frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
         offsets, depths = (np.stack(each) for each in zip(*frames, strict=True))
+        placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
         if misfit is not None:
             faces = np.stack([track.in_crop(frame) for frame in range(some.start, some.stop)])
-            placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
-            offsets[:, :MESH_SIZE] += correct[:, None] * misfit.corrections(faces, placed)
+            placed += correct[:, None] * misfit.corrections(faces, placed)
+        keep_inside(placed, target, control.usable[:MESH_SIZE])
+        offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         for k in range(len(offsets)):
             yield ControlMotion(start + k, offsets[k], depths[k], look[k].astype(np.float32))
 
@@ -156,12 +159,6 @@ def correction(
     limited = np.minimum(1.0, MOST_CORRECTED * unit / np.maximum(size, 1e-6))
     kept = (1 - share) + share * beside * trust[:, None] * limited
     return np.asarray(kept[..., None] * carried, float)
-
-
-def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(P,) how far points lie outside the face's contour, pixels; negative inside."""
-    oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
-    return np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
 
 
 def _in_space(

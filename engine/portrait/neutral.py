@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.perception.landmarks import RIGID, eye_opening, fiducials, mouth_opening
 from engine.portrait.driver import DriverTrack
+from engine.portrait.expression import EXPRESSION, expression, lopsided
 from engine.portrait.head_motion import fit_rigid, turns
-from engine.portrait.looks import EXPRESSION, expression
 
-MOUTH, SHUT, CORNERS, WIDE, UPPER, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 10.0, 2.0, 1.5, 3.0
+MOUTH, SHUT, CORNERS, WIDE, TORN, UPPER, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 20.0, 10.0, 2.0, 1.5, 3.0
 """What counts how much: a mouth that is further open, or less open, than the target's, how far its corners lie higher or
-lower, by how much it is wider (eye distances), brows and lids that no calm face shows, closing of the eyes, radians of
+lower, by how much it is wider and by how much it is torn to another side (eye distances), brows and lids that no calm face shows, closing of the eyes, radians of
 turn, and distance from the mean. A mouth that stays a little open does less harm than one that is pressed together,
 because the frame with the right opening smiles and the target does not."""
 
@@ -69,8 +69,10 @@ def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> N
     smile = np.maximum(np.abs(shown[:, corners] - wanted[corners]) - USUAL, 0)
     at_most = max(float(wanted[wide]), float(np.quantile(shown[:, wide], 0.2)))
     grin = np.maximum(shown[:, wide] - at_most - USUAL, 0)
+    torn = np.linalg.norm(lopsided(meshes) - lopsided(np.asarray(target)[None]), axis=-1).mean(axis=-1)
+    torn = np.maximum(torn - USUAL, 0)
     upper = sum(_outside(shown[:, k], wanted[k], *CALM[name]) for k, name in enumerate(EXPRESSION) if name in CALM)
-    cost = mouth + CORNERS * smile + WIDE * grin + UPPER * upper + TURN * angle
+    cost = mouth + CORNERS * smile + WIDE * grin + TORN * torn + UPPER * upper + TURN * angle
     calm = cost <= np.quantile(cost, CALMEST)
     eyes = eye_opening(meshes)
     closing = np.clip(1 - eyes / np.maximum(np.median(eyes[calm], axis=0), 1e-3), 0, 1).max(axis=1)

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.person import selfie_mask
+from engine.perception.segmentation import selfie_mask
 from engine.portrait.alignment import Similarity, fit_similarity
 from engine.portrait.held_face import EASE_BACK, way_back
 
@@ -40,6 +40,7 @@ class PeripheryTracker:
         self._broken = np.zeros(0, bool)
         self._points: list[NDArray[np.float32]] = []
         self._tracked: list[NDArray[np.bool_]] = []
+        self._trusted: list[NDArray[np.bool_]] = []
         self._before = 0
 
     def follow(self, rgb: NDArray[np.uint8], mesh: NDArray[np.float32] | None) -> None:
@@ -55,22 +56,25 @@ class PeripheryTracker:
             self._broken = np.zeros(len(self._start), bool)
             self._points = [self._start]
             self._tracked = [np.ones(len(self._start), bool)]
+            self._trusted = self._tracked.copy()
             return
         grey = self._grey(rgb)
         carry = None if mesh is None else fit_similarity(self._face, self._small(mesh))
         points, good = self._step(grey, carry) if len(self._start) else (self._start, self._broken)
         self._points.append(points)
         self._tracked.append(good)
+        self._trusted.append(self._trusted[-1] if mesh is None else good)
         self._last = grey
 
     def result(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `fading`."""
+        """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `fading`: without a face as
+        far as before, so that all holds still."""
         if not len(self._start):
             frames = self._before + len(self._points)
             return np.zeros((frames, 0, 2), np.float32), np.zeros((frames, 0), np.float32)
         points = np.array([self._points[0]] * self._before + self._points, np.float32)
-        tracked = np.array([self._tracked[0]] * self._before + self._tracked)
-        return (easing(points, tracked) + 0.5) / self._scale - 0.5, fading(tracked)
+        tracked, trusted = (np.array([given[0]] * self._before + given) for given in (self._tracked, self._trusted))
+        return (easing(points, tracked) + 0.5) / self._scale - 0.5, fading(trusted)
 
     def _grey(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)

@@ -18,7 +18,8 @@ from engine.perception.landmarks import fiducials
 from engine.perception.models import matting_model
 from engine.portrait.choice import choose_driver
 from engine.portrait.driver import DriverTrack, track_driver
-from engine.portrait.fine_details import RatioStrip, detail_region, keep_ratio_images
+from engine.portrait.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
+from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.loop import close_loop
 from engine.portrait.misfit import Misfit
 from engine.portrait.neutral import choose_neutral_frame
@@ -27,7 +28,7 @@ from engine.portrait.registration import register_track
 from engine.portrait.render import render
 from engine.portrait.rig import Rig, rig_target
 from engine.portrait.second_look import Glances, glance_at_driver, look_again
-from engine.portrait.target import Layers, TargetFace, find_target_face, in_pixels, separate_layers
+from engine.portrait.target import TargetFace, in_pixels, look_for_face
 from engine.run import Beside, Run, write_report
 
 STAGES = {
@@ -44,8 +45,11 @@ STAGES = {
 """The stages and their usual share of the time."""
 
 
-def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out: Path, run: Run) -> None:
-    """Animate `inputs["image"]` by `inputs["driver"]`; leaves the artifacts of the contract in `out`."""
+def animate_portrait(
+    inputs: Mapping[str, Given], options: PortraitOptions, out: Path, run: Run, face: Beside[TargetFace] | None = None
+) -> None:
+    """Animate `inputs["image"]` by `inputs["driver"]`; leaves the artifacts of the contract in `out`. Whoever has begun to
+    look for the picture's `face` hands it on."""
     image, driver = inputs["image"], inputs["driver"]
     assert isinstance(image, Path) and isinstance(driver, Path | Candidates)
     run.plan(STAGES)
@@ -54,7 +58,7 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
     )  # candidates are compared by their largest face
     follows = options.fps, options.trim, index, run
     tracking = follow(driver, *follows) if isinstance(driver, Path) else None
-    prepared = prepare_target(image, options, out, run)
+    prepared = prepare_target(face or look_for_face(image, options, run), out, run)
     target = prepared.face
     choice: dict[str, object] = {}
     if isinstance(driver, Candidates):
@@ -67,9 +71,9 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
         loop=options.loop,
     )
     track, neutral = performed.track, performed.neutral
-    layers, rig = prepared.layers(), prepared.rig()
     height, width = target.rgb.shape[:2]
-    misfit = performed.look_again(target, layers, rig, options, run)
+    misfit = performed.look_again(target, prepared.details(), options, run)
+    layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
         frames = render(track, neutral, performed.ratios, target, layers, rig, options, misfit)
         name = _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
@@ -95,22 +99,24 @@ def animate_portrait(inputs: Mapping[str, Given], options: PortraitOptions, out:
 
 @dataclass(frozen=True)
 class PreparedTarget:
-    """A target's `face`, and what is made of it on another core meanwhile: its `layers` and its `rig`."""
+    """A target's `face`, and what is made of it on another core meanwhile: the region that `details` go to, the `layers`
+    and the `rig`."""
 
     face: TargetFace
+    details: Beside[DetailRegion]
     layers: Beside[Layers]
     rig: Beside[Rig]
 
 
-def prepare_target(image: Path, options: PortraitOptions, out: Path, run: Run) -> PreparedTarget:
+def prepare_target(looking: Beside[TargetFace], out: Path, run: Run) -> PreparedTarget:
     """Everything that depends on the picture alone; leaves `preview.jpg`."""
-    face = run.stage("find_face", find_target_face, image, options.framing(), run.limits, run.warn)
+    face = looking()
     write_still(out / "preview.jpg", face.rgb, run.mark_synthetic)
     run.publish(out / "preview.jpg")
     model = matting_model(os.environ)
-    layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)
     details = run.beside("detail_region", detail_region, face.rgb, face.mesh)
-    return PreparedTarget(face, layers, run.beside("rig_target", rig_target, face, layers, details))
+    layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)
+    return PreparedTarget(face, details, layers, run.beside("rig_target", rig_target, face, layers, details))
 
 
 @dataclass(frozen=True)
@@ -122,10 +128,10 @@ class Performed:
     ratios: RatioStrip
     glances: Glances
 
-    def look_again(self, target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, run: Run) -> Misfit:
+    def look_again(self, target: TargetFace, details: DetailRegion, options: PortraitOptions, run: Run) -> Misfit:
         """What is amiss where a target acts this out."""
         seen = self.track, self.neutral, self.glances, self.ratios
-        return run.stage("look_again", look_again, *seen, target, layers, rig, options.acting(), run.tick)
+        return run.stage("look_again", look_again, *seen, target, details, options.acting(), run.tick, run.idle_cores)
 
 
 def follow(
@@ -167,6 +173,7 @@ def _write_animation(
         sound=sound,
         sound_trim=options.trim,
         loop=options.loop,
+        frames=len(track),
         synthetic=run.mark_synthetic,
         warn=run.warn,
     ) as writer:

@@ -27,10 +27,13 @@ from engine.perception.landmarks import (
     LIPS_OUTER,
     RIGHT_EYE,
     RIGHT_IRIS,
+    mouth_opening,
 )
 from engine.perception.temporal_filter import steady
 from engine.portrait.appearance import CROP, CROP_EYES
 from engine.portrait.driver import DriverTrack
+from engine.portrait.teeth import PARTED
+from engine.portrait.unseen_blinks import eye_contrast, shut_by_contrast
 
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
@@ -44,6 +47,9 @@ RIM = 0.35
 """Within this distance of the face's contour, in eye distances, the flow fades out."""
 AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
 """Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
+BESIDE_LIPS = 0.08
+"""Eye distances beside the lips over which the flow fades in where the neutral frame's mouth is open: it takes teeth that
+come and go for lips that move, and vertices of the lips' red would fold over the skin."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,7 @@ class Registration:
 def register_track(
     track: DriverTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
 ) -> Registration:
-    """Correct a track's meshes by the flow that is left against its neutral frame."""
+    """Correct a track's meshes by the flow that is left against its neutral frame, and shut eyes that are seen to be shut."""
     rest = track.in_crop(neutral)[:468]
     triangles = delaunay(rest)
     reference = _grey(track.crop(neutral))
@@ -64,10 +70,11 @@ def register_track(
     weight = _trust(rest)
     own = local()
 
-    def offsets(frame: int) -> NDArray[np.float32]:
+    def offsets(frame: int) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
         if not hasattr(own, "flow"):
             own.flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_FAST)
-        origin = inverse_map(rest, track.in_crop(frame)[:468], triangles, CROP)
+        face = track.in_crop(frame)
+        origin = inverse_map(rest, face[:468], triangles, CROP)
         grey = _grey(track.crop(frame))
         moved = cv2.remap(grey, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         moved = np.clip(moved * (light / _wide(np.asarray(moved))), 0, 255)
@@ -77,26 +84,32 @@ def register_track(
         at = cv2.remap(left, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
         size = np.linalg.norm(at, axis=1, keepdims=True)
         at *= np.where(size < LARGEST, 1, 0)
-        return np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
+        offset = np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
+        return offset, eye_contrast(grey, face, rest)
 
-    meshes = track.meshes.copy()
+    meshes, contrast = track.meshes.copy(), np.empty((len(track), 2, 2))
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
-        for frame, offset in enumerate(pool.map(offsets, range(len(track)))):
+        for frame, (offset, contrast[frame]) in enumerate(pool.map(offsets, range(len(track)))):
             meshes[frame, :468, :2] += weight[:, None] * offset
             tick((frame + 1) / len(track))
     moved = np.flatnonzero(weight)
     for some in np.array_split(moved, 8):  # a part at a time: long clips have many frames
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
+    shut_by_contrast(meshes, contrast, neutral)
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
 
 
 def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
     """(468,) how far the flow is believed at each vertex: not at `AS_TRACKED`, nor at the rim, where it follows what
-    lies behind the face."""
+    lies behind the face, nor beside an open mouth."""
     oval = rest[list(FACE_OVAL)]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
     t = np.clip(inside / (RIM * UNIT), 0, 1)
     weight = t * t * (3 - 2 * t)
+    if float(mouth_opening(rest)) > PARTED:
+        lips = rest[list(LIPS_OUTER)]
+        beside = np.array([-cv2.pointPolygonTest(lips, (float(x), float(y)), True) for x, y in rest])
+        weight *= np.clip(beside / (BESIDE_LIPS * UNIT), 0, 1)
     weight[[v for v in AS_TRACKED if v < len(weight)]] = 0
     return np.asarray(weight, np.float32)
 

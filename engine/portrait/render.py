@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,15 @@ from engine.portrait.driver import DriverTrack
 from engine.portrait.eyes import closing, draw_eye, prepare_eyes
 from engine.portrait.fine_details import shade
 from engine.portrait.head_proxy import build_head_proxy
-from engine.portrait.hidden_regions import match_palette, transfer_mouth
+from engine.portrait.hidden_regions import match_palette, transfer_mouth, uncovered
+from engine.portrait.layers import Layers
 from engine.portrait.lid_skin import draw_lid, lid_skins
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import ControlMotion, carry_motion
 from engine.portrait.options import PortraitOptions
 from engine.portrait.rig import Rig
-from engine.portrait.target import Layers, TargetFace
+from engine.portrait.target import TargetFace
+from engine.portrait.teeth import draw_teeth, shown_teeth
 
 AHEAD = 2
 """Frames in the making for each thread: keeps all cores busy, holds little memory."""
@@ -44,6 +47,23 @@ class Parts:
 
 
 ALL_PARTS = Parts()
+
+
+class Window(NamedTuple):
+    """A part of the frame, in pixels; `right` and `bottom` are the first beyond it."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return self.bottom - self.top, self.right - self.left
+
+    @property
+    def pixels(self) -> tuple[slice, slice]:
+        return slice(self.top, self.bottom), slice(self.left, self.right)
 
 
 class Renderer:
@@ -68,6 +88,7 @@ class Renderer:
         self._keep_alpha = layers.transparent and options.format != "mp4"
         self._eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
         self._lids = lid_skins(target.rgb, target.mesh) if parts.eyes else []
+        self._teeth = shown_teeth(target.rgb, target.mesh) if parts.hidden else None
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
         self._landing = rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
@@ -86,21 +107,29 @@ class Renderer:
         """(478, 2) where a motion puts the face's points, pixels."""
         return np.asarray(self._rig.control.points[:MESH_SIZE] + motion.offsets[:MESH_SIZE], np.float32)
 
-    def draw(self, motion: ControlMotion, ratio: NDArray[np.float32]) -> NDArray[np.uint8]:
-        """One frame: the warp, the plate behind, the creases, the eyes, the mouth's inside."""
+    def draw(
+        self, motion: ControlMotion, ratio: NDArray[np.float32], window: Window | None = None
+    ) -> NDArray[np.uint8]:
+        """One frame, or a `window` of it that holds the face: the warp, the plate behind, the creases, the eyes, the mouth's inside."""
+        window = window or Window(0, 0, *self._plate.shape[1::-1])
+        corner = np.array([window.left, window.top], np.float32)
         moved = self._rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
-        origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], scale=2)
+        moved[:, :2] -= corner
+        origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
         layer = warp_layer(self._person, origin)
-        frame = over(layer, self._plate)
+        frame = over(layer, np.ascontiguousarray(self._plate[window.pixels]))
         smooth_folds(frame, origin, FOLD, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
-        face = self.face(motion)
+        face = self.face(motion) - corner
         if self._creases > 0:
             shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
         for side, eye in enumerate(self._eyes):
             if eye is not None:
                 draw_lid(frame, self._lids[side], face, side, closing(eye, face, side))
                 draw_eye(frame, eye, face, side, motion.look[side])
-        if self._parts.hidden:
+        inside = uncovered(face, self._palette)
+        if self._teeth is not None:
+            draw_teeth(frame, self._teeth, face, 1 - inside)
+        if self._parts.hidden and inside > 0:
             transfer_mouth(
                 frame, face, self._track.crop(motion.frame), self._track.in_crop(motion.frame), self._palette
             )

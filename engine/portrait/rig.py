@@ -9,7 +9,8 @@ import numpy as np
 from engine.portrait.control_points import ControlPoints, place_control_points
 from engine.portrait.dense_field import build_warp_mesh
 from engine.portrait.fine_details import DetailRegion, detail_region
-from engine.portrait.target import Layers, TargetFace
+from engine.portrait.layers import Layers
+from engine.portrait.target import TargetFace
 from engine.portrait.warp_mesh import WarpMesh
 
 

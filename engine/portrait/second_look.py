@@ -8,7 +8,6 @@ all frames, each by those that it resembles.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -22,14 +21,15 @@ from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
 from engine.portrait.appearance import CROP, crop_place
 from engine.portrait.driver import DriverTrack
-from engine.portrait.fine_details import RatioStrip
+from engine.portrait.fine_details import DetailRegion, RatioStrip
+from engine.portrait.layers import uncut
 from engine.portrait.misfit import Misfit, fit_misfit, flat, no_misfit
 from engine.portrait.options import PortraitOptions
-from engine.portrait.render import Renderer
-from engine.portrait.rig import Rig
-from engine.portrait.target import Layers, TargetFace
+from engine.portrait.render import Renderer, Window
+from engine.portrait.rig import rig_target
+from engine.portrait.target import TargetFace
 
-LOOKS = 16
+LOOKS = 24
 """Frames that are looked at, besides the neutral one."""
 MOST_FRAMES = 1024
 """Among this many, evenly spread over the driver, they are chosen."""
@@ -56,16 +56,20 @@ def look_again(
     glances: Glances,
     ratios: RatioStrip,
     target: TargetFace,
-    layers: Layers,
-    rig: Rig,
+    details: DetailRegion,
     options: PortraitOptions,
     tick: Callable[[float], None] = lambda fraction: None,
+    cores: Callable[[], int] = lambda: 1,
 ) -> Misfit:
     """What is amiss on the target where the driver was glanced at.
 
+    Of the target its face alone matters: the picture acts as a whole, before the person is cut out of it.
+
     Parameters
     ----------
-    ratios : the driver's, one for each frame. options : how the target moves, see `PortraitOptions.acting`.
+    ratios : the driver's, one for each frame. details : where its creases go to.
+    options : how the target moves, see `PortraitOptions.acting`.
+    cores : how many may look: more than are idle would only be in the way of what works beside.
 
     Returns
     -------
@@ -73,22 +77,35 @@ def look_again(
     """
     frames = glances.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
-    renderer = Renderer(track, neutral, target, layers, rig, options)
+    layers = uncut(target)
+    renderer = Renderer(track, neutral, target, layers, rig_target(target, layers, details), options)
     motions = [replace(motion, frame=frames[motion.frame]) for motion in renderer.carry(some, frames.index(neutral))]
     placed = [renderer.face(motion) for motion in motions]
     places = [crop_place(face) for face in placed]
 
     def made(k: int) -> NDArray[np.uint8]:
-        frame = renderer.draw(motions[k], ratios.ratio(frames[k]))[..., :3]
-        crop = cv2.warpAffine(frame, places[k], CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        window = _seen_by(places[k], target.rgb.shape[:2])
+        drawn = renderer.draw(motions[k], ratios.ratio(frames[k]), window)[..., :3]
+        place = places[k].copy()
+        place[:, 2] += place[:, :2] @ (window.left, window.top)
+        crop = cv2.warpAffine(drawn, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(crop, np.uint8)
 
     meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
     faces = np.stack([track.in_crop(frame) for frame in frames])
-    amiss = (_see(made, len(frames), tick) - meant) - (glances.seen - faces)
+    amiss = (_see(made, len(frames), tick, cores()) - meant) - (glances.seen - faces)
     amiss -= amiss[0]  # at rest nothing is
     known = np.asarray(np.isfinite(amiss).all(axis=(1, 2)))
     return fit_misfit(faces[known], amiss[known]) if known[0] else no_misfit()
+
+
+def _seen_by(place: NDArray[np.float64], shape: tuple[int, int]) -> Window:
+    """The part of a picture of this shape that `place` (2, 3) carries into the crop."""
+    corners = np.array([(x, y) for x in (0, CROP[1]) for y in (0, CROP[0])]) - place[:, 2]
+    there = corners @ np.linalg.inv(place[:, :2]).T
+    low = np.clip(np.floor(there.min(axis=0)) - 1, 0, np.array(shape[::-1]) - 1)
+    high = np.clip(np.ceil(there.max(axis=0)) + 2, low + 1, shape[::-1])
+    return Window(*low.astype(int).tolist(), *high.astype(int).tolist())
 
 
 def _most_different(track: DriverTrack, neutral: int) -> list[int]:
@@ -104,7 +121,10 @@ def _most_different(track: DriverTrack, neutral: int) -> list[int]:
 
 
 def _see(
-    picture: Callable[[int], NDArray[np.uint8]], count: int, tick: Callable[[float], None] = lambda fraction: None
+    picture: Callable[[int], NDArray[np.uint8]],
+    count: int,
+    tick: Callable[[float], None] = lambda fraction: None,
+    threads: int = 1,
 ) -> NDArray[np.float32]:
     """(count, 478, 2) the face on each of the pictures, seen by itself; NaN where there is none."""
     own = local()
@@ -116,7 +136,7 @@ def _see(
         found = own.tracker(picture(k))
         return found[0][:, :2] if found else np.full((MESH_SIZE, 2), np.nan, np.float32)
 
-    with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="look") as pool:
+    with ThreadPoolExecutor(threads, thread_name_prefix="look") as pool:
         for k, face in enumerate(pool.map(seen, range(count))):
             faces[k] = face
             tick((k + 1) / count)

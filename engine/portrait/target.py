@@ -1,4 +1,4 @@
-"""The target: one picture, its face, and its layers: the person, and the background behind."""
+"""The target: one picture, and the face in it that is to act."""
 
 from __future__ import annotations
 
@@ -12,18 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.video import even_size
-from engine.imaging.inpaint import background_plate
-from engine.imaging.matting import estimate_foreground, reconcile_with_plate
+from engine.imaging.resample import even_size
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
-from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
-from engine.perception.models import MattingModel
-from engine.perception.person import person_mask
-from engine.portrait.looks import EXPRESSION, expression
+from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
+from engine.perception.segmentation import people_in
+from engine.portrait.expression import EXPRESSION, expression
+from engine.portrait.lower_lids import fit_lower_lids
 from engine.portrait.options import PortraitOptions
+from engine.run import Beside, Run
 
 LONGEST_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
@@ -36,8 +35,6 @@ MOST_TURNED = (35.0, 30.0)
 MOST_OPEN = 0.6
 """Mouth opening beyond which a target fails: its teeth, or the driver's in their place, would be drawn too long. The
 widest of real portraits is 0.2, of people who speak 0.5, of a shout 0.8."""
-CUT_OUT = 0.01
-"""A picture with more than this share of transparent pixels is a cut-out."""
 NEUTRAL = (12.0, 12.0, 0.08, 0.03)
 """Degrees of yaw and pitch, mouth opening, and eye distances by which the mouth's corners lie above the middle of the
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
@@ -51,7 +48,8 @@ people have 0.22 to 0.43, a laugh 0.2."""
 @dataclass(frozen=True)
 class TargetFace:
     """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
-    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture."""
+    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture; `people` (h, w) in
+    [0, 1], at whatever size, where people are believed to be, if the picture is not cropped."""
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None
@@ -59,19 +57,12 @@ class TargetFace:
     faces: NDArray[np.float32]
     original_size: tuple[int, int]
     place: NDArray[np.float64]
+    people: NDArray[np.float32] | None = None
 
 
-@dataclass(frozen=True)
-class Layers:
-    """The person as a layer over the background plate.
-
-    person : (H, W, 4) uint8, colours without the background in them, and alpha. plate : (H, W, 3) uint8.
-    transparent : the picture itself was cut out; formats that can stay so, others get a white plate.
-    """
-
-    person: NDArray[np.uint8]
-    plate: NDArray[np.uint8]
-    transparent: bool = False
+def look_for_face(path: Path, options: PortraitOptions, run: Run) -> Beside[TargetFace]:
+    """Begin to look for the face that is to act, which nothing else has to wait for."""
+    return run.beside("find_face", find_target_face, path, options.framing(), run.limits, run.warn)
 
 
 def find_target_face(
@@ -86,10 +77,13 @@ def find_target_face(
     """
     picture = read_image(path, limits)
     height, width = picture.rgb.shape[:2]
-    if options.landmarks is not None:
-        meshes = [mesh_from_fiducials(np.array(options.landmarks))]
-    else:
-        meshes = find_faces(_over_grey(picture.rgb, picture.alpha))
+    with ThreadPoolExecutor(1, thread_name_prefix="people") as beside:
+        whole = options.crop == "none" and picture.alpha is None
+        people = beside.submit(people_in, picture.rgb).result if whole else lambda: None
+        if options.landmarks is not None:
+            meshes = [mesh_from_fiducials(np.array(options.landmarks))]
+        else:
+            meshes = find_faces(over_grey(picture.rgb, picture.alpha))
         if not meshes:
             raise InputError(
                 "no_face",
@@ -122,26 +116,9 @@ def find_target_face(
             ("crop", "size", "face_index"),
             found,
         )
-    return TargetFace(rgb, alpha, moved, boxes, (width, height), place)
-
-
-def separate_layers(target: TargetFace, model: MattingModel | None = None, model_hash: str | None = None) -> Layers:
-    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds).
-
-    `model` is a matting network of the operator's, if there is one, and `model_hash` its SHA-256.
-    """
-    height, width = target.rgb.shape[:2]
-    seed = np.zeros((height, width), np.float32)
-    cv2.fillConvexPoly(seed, target.mesh[list(FACE_OVAL), :2].round().astype(np.int32), 1.0)
-    alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha, model=model)
-    if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
-        person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
-        return Layers(person, np.full_like(target.rgb, 255), transparent=True)
-    with ThreadPoolExecutor(1, thread_name_prefix="foreground") as beside:
-        front = beside.submit(estimate_foreground, target.rgb, alpha)
-        plate = background_plate(target.rgb, alpha)
-        colours = reconcile_with_plate(target.rgb, alpha, front.result(), plate)
-    return Layers(np.dstack([colours + 0.5, alpha * 255 + 0.5]).astype(np.uint8), plate)
+    if options.landmarks is None:
+        moved = fit_lower_lids(rgb, moved)
+    return TargetFace(rgb, alpha, moved, boxes, (width, height), place, people())
 
 
 def in_pixels(boxes: NDArray[np.float32]) -> list[list[float]]:
@@ -176,10 +153,13 @@ def _check_face(
             found,
         )
     smile = float(expression(mesh[None])[0, EXPRESSION.index("corners_up")])
-    if any(value > most for value, most in zip((yaw, pitch, opening, smile), NEUTRAL, strict=True)):
+    words = "is turned sideways", "looks up or down", "has its mouth open", "smiles"
+    if shown := [
+        word for word, value, most in zip(words, (yaw, pitch, opening, smile), NEUTRAL, strict=True) if value > most
+    ]:
         warn(
             "target_not_neutral",
-            "The face is turned, smiles or has its mouth open: the driver's frame nearest to it was taken as neutral.",
+            f"The face {' and '.join(shown)}: the driver's frame nearest to it was taken as neutral.",
         )
     if float(eye_opening(mesh).min()) < SHUT:
         warn(
@@ -240,7 +220,7 @@ def _warp(image: NDArray, place: NDArray[np.float64], size: tuple[int, int]) -> 
     return cv2.warpAffine(image, matrix, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
 
 
-def _over_grey(rgb: NDArray[np.uint8], alpha: NDArray[np.float32] | None) -> NDArray[np.uint8]:
+def over_grey(rgb: NDArray[np.uint8], alpha: NDArray[np.float32] | None) -> NDArray[np.uint8]:
     """Transparent pictures as a detector wants them: their hidden colours may be anything."""
     if alpha is None:
         return rgb

@@ -38,17 +38,21 @@ class WarpMesh:
         return np.asarray(_product(self.rows, self.columns, self.weights, control_offsets.astype(np.float32)))
 
     def inverse_map(
-        self, offsets: NDArray[np.float32], depth: NDArray[np.float32] | None = None, scale: int = 1
+        self,
+        offsets: NDArray[np.float32],
+        depth: NDArray[np.float32] | None = None,
+        scale: int = 1,
+        shape: tuple[int, int] | None = None,
     ) -> NDArray[np.float32]:
         """(H, W, 2): for each pixel of the output its origin in the image, for vertex offsets (V, 2).
 
         `scale` gives the origin in pixels of the image enlarged by that factor. `depth` (V,) decides where the mesh
-        folds over itself: the nearest is seen.
+        folds over itself: the nearest is seen. `shape` (H, W) is the output's, if it is not the image's.
         """
         source = scale * (self.vertices + np.float32(0.5)) - np.float32(0.5)
-        moved = self.vertices + offsets
-        origin = inverse_map(moved, source, self.triangles, self.shape)
-        left, top, right, bottom = folded(moved, self.triangles, self.shape)
+        moved, shape = self.vertices + offsets, shape or self.shape
+        origin = inverse_map(moved, source, self.triangles, shape)
+        left, top, right, bottom = folded(moved, self.triangles, shape)
         if depth is not None and left < right and top < bottom:
             corner = np.array([left, top], np.float32)
             origin[top:bottom, left:right] = inverse_map(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from engine.render.camera import Camera
+if TYPE_CHECKING:  # a job kind's options name the moves, and stay light
+    from engine.render.camera import Camera
 
 Move = Literal["fixed", "orbit", "parallax"]
 

@@ -102,6 +102,15 @@ def report(session: Session, lease: Lease, progress: dict[str, Any]) -> bool:
     return True
 
 
+def note(session: Session, job_id: str, progress: dict[str, Any]) -> bool:
+    """Record what a job waits for; a job that waits no more is left alone."""
+    noted = session.execute(update(Job).where(Job.id == job_id, Job.status == Status.QUEUED).values(progress=progress))
+    if not noted.rowcount:  # type: ignore[attr-defined]
+        return False
+    events.append(session, job_id, "progress", progress)
+    return True
+
+
 def bear_fruit(session: Session, lease: Lease) -> bool:
     """Record that a new stage was stored: this attempt was not in vain."""
     return change(session, lease, fruitless_attempts=0)

@@ -248,7 +248,7 @@ def _options(kind: Kind, given: Mapping[str, object]) -> dict[str, object]:
     try:
         return kind.options.model_validate(given).model_dump(mode="json", exclude_unset=True)
     except ValidationError as error:
-        raise invalid(error, "invalid_options", "/options") from error
+        raise invalid(error, "invalid_options", "/options", kind.options) from error
 
 
 def _new_job(owner: str, kind: Kind, options: dict[str, object], metadata: dict[str, Any]) -> Job:

@@ -50,6 +50,27 @@ def test_exact_landmarks_give_the_joints_within_two_centimetres() -> None:
     assert np.median(off) < 0.02
 
 
+def test_who_strides_towards_the_viewer_is_not_fitted_flat() -> None:
+    """The feet's distance in depth, of somebody who walks at an ordinary pace and is seen as they are."""
+    truth = np.zeros(len(somebody(0)))
+    truth[:3] = [0.1, 0.0, -4.5]
+    turns = truth[3:-COEFFICIENTS].reshape(-1, 3)
+    for name, turn in {"LeftArm": (0, 0, -1.1), "RightArm": (0, 0, 1.1), "LeftUpLeg": (-0.4, 0, 0),
+                       "LeftLeg": (0.15, 0, 0), "RightUpLeg": (0.15, 0, 0), "RightLeg": (0.3, 0, 0)}.items():  # fmt: skip
+        turns[TURNED.index(name)] = turn
+    joints, points = forward(SPACE, MARKS, truth)
+    pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
+    place = dict(zip(SPACE.names, joints, strict=True))
+    limbs = np.stack([place[b] - place[a] for a, b in LIMBS]).astype(np.float32)
+    limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
+    seen = Seen(pixels, np.ones(len(pixels), np.float32), limbs, np.ones(len(LIMBS), np.float32), FOCAL, CENTRE)
+    found, _ = forward(SPACE, MARKS, fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place)).parameters)
+    feet = [SPACE.names.index(f"{side}Foot") for side in ("Left", "Right")]
+    strides = [at[feet[0], 2] - at[feet[1], 2] for at in (joints, found)]
+    assert strides[0] > 0.45
+    assert abs(strides[1] / strides[0] - 1) < 0.15
+
+
 def test_turns_are_rotations_and_small_ones_too() -> None:
     vectors = np.array([[0, 0, 0], [1e-10, 0, 0], [0, np.pi / 2, 0], [0.3, -0.2, 0.9]])
     matrices = rotation_matrices(vectors)

@@ -41,8 +41,8 @@ def person(behind: tuple[int, int, int] = WALL) -> tuple[np.ndarray, np.ndarray,
     return np.clip(rgb + noise, 0, 255).astype(np.uint8), np.asarray((mask > 0) | gap, np.float32), gap
 
 
-def found(rgb: np.ndarray, mask: np.ndarray) -> np.ndarray:
-    return gaps(rgb, mask, lambda name: np.array(JOINTS[name], np.float32))
+def found(rgb: np.ndarray, mask: np.ndarray, belief: float = 0.6) -> np.ndarray:
+    return gaps(rgb, mask, np.float32(belief) * mask, lambda name: np.array(JOINTS[name], np.float32))
 
 
 def test_a_gap_is_found_to_its_edges_and_nothing_else() -> None:
@@ -54,9 +54,23 @@ def test_a_gap_is_found_to_its_edges_and_nothing_else() -> None:
     assert share[~(cv2.dilate(gap.astype(np.uint8), np.ones((15, 15), np.uint8)) > 0)].max() == 0
 
 
+def test_where_the_networks_are_sure_of_the_person_nothing_is_taken_away() -> None:
+    rgb, mask, _ = person()
+    assert found(rgb, mask, belief=1).max() == 0
+
+
 def test_where_the_wall_is_like_the_shirt_nothing_is_taken_away() -> None:
     rgb, mask, _ = person(behind=SHIRT)
     assert found(rgb, mask).max() == 0
+
+
+def test_what_shades_into_the_wall_s_colour_is_no_gap() -> None:
+    dark, light = np.array((20, 20, 40)), np.array((70, 70, 90))
+    rgb, mask, gap = person(behind=(20, 20, 40))
+    away = cv2.distanceTransform(255 - gap.astype(np.uint8) * 255, cv2.DIST_L2, 5)[..., None]
+    shaded = dark + (light - dark) * np.clip(away / 60, 0, 1)
+    assert found(rgb, mask)[gap].mean() > 0.5
+    assert found(np.where(mask[..., None] > 0, shaded, rgb).astype(np.uint8), mask).max() == 0
 
 
 def test_a_mask_that_has_the_gap_or_nobody_stays_as_it_is() -> None:

@@ -164,3 +164,17 @@ def test_front_and_back_take_one_place_on_the_border_and_none_that_is_barred() -
         assert np.array_equal(at.setdefault(key, places[vertex]), places[vertex])
     barred = places_on_the_picture(mesh, np.ones(mask.shape, np.bool_), 0)
     np.testing.assert_allclose(barred, mesh.vertices[:, :2], atol=1e-9)
+
+
+def test_behind_an_arm_that_hangs_a_shirt_has_no_print_and_beside_it_the_picture_s_colours() -> None:
+    labels = np.full((400, 200), -1)
+    labels[40:360, 40:160], labels[40:360, 40:70] = PARTS.index("torso"), PARTS.index("right_arm")
+    rgb = np.random.default_rng(3).normal((30, 34, 60), 5, (400, 200, 3))
+    rgb[60:340, 95:130] = np.random.default_rng(4).integers(120, 256, (280, 35, 3))  # the print
+    rgb = np.clip(rgb, 0, 255).astype(np.uint8)
+    arm, none = labels == PARTS.index("right_arm"), np.zeros(labels.shape, np.bool_)
+    apart = np.array([PARTS.index("right_arm")], np.int8)
+    found = Labels(labels.astype(np.int8), none, apart, none, np.full(labels.shape, -1, np.int8))
+    tiles = paint_tiles(rgb, (labels >= 0).astype(np.float32), SAME, found, arm, arm, None, "mirror")
+    assert tiles.body[arm].max() < 90
+    np.testing.assert_array_equal(tiles.body[40:360, 70:160], rgb[40:360, 70:160])

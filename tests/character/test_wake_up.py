@@ -144,6 +144,12 @@ def refused(tmp_path: Path, photo: Path, motion: Path | None = None, **options: 
     return raised.value
 
 
+def test_a_file_that_is_not_there_is_named(picture: Path, tmp_path: Path) -> None:
+    for photo, motion in ((tmp_path / "nobody.jpg", None), (picture, tmp_path / "nothing.bvh")):
+        with pytest.raises(FileNotFoundError, match=(motion or photo).name):
+            wake_up(photo, tmp_path / "out", motion, seconds=1)
+
+
 def test_what_shows_nobody_is_refused(tmp_path: Path) -> None:
     write_image(tmp_path / "wall.png", np.full((300, 300, 3), 128, np.uint8))
     error = refused(tmp_path, tmp_path / "wall.png")

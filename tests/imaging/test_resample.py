@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.imaging.guided_upsample import upsample_guided
-from engine.imaging.resample import resized, size_within
+from engine.imaging.resample import even_size, resized, size_within
 
 
 def test_shrinking_keeps_the_mean_and_the_axes() -> None:
@@ -31,3 +31,8 @@ def test_guided_upsampling_finds_the_large_pictures_edge() -> None:
     guided = upsample_guided(small_disk, small, picture)
     plain = resized(small_disk, (256, 256))
     assert np.abs(guided - disk).mean() < 0.25 * np.abs(plain - disk).mean()
+
+
+def test_even_size() -> None:
+    assert even_size(601, 799) == (600, 800)
+    assert even_size(1, 2.4) == (2, 2)

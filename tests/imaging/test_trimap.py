@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.imaging.trimap import outline_trimap
+from engine.imaging.trimap import like_plain_background, outline_trimap
 
 HEIGHT, WIDTH = 300, 300
 
@@ -51,3 +51,14 @@ def test_doubts_inside_are_the_layer() -> None:
 def test_nothing_believed_in_leaves_nothing_open() -> None:
     known = outline_trimap(dark_disk_on_a_wall(), np.zeros((HEIGHT, WIDTH), np.float32)).known
     assert not known.any()
+
+
+def test_what_has_the_colours_of_a_plain_wall_is_told_from_what_has_not() -> None:
+    rgb = dark_disk_on_a_wall()
+    disk = belief_in_disk() > 0.5
+    around = cv2.dilate(disk.astype(np.uint8), np.ones((25, 25), np.uint8)) > 0
+    within = cv2.erode(disk.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
+    plain = like_plain_background(rgb, ~around)
+    assert plain[~around].mean() > 0.99 and not plain[within].any()
+    noisy = np.random.default_rng(1).integers(0, 255, rgb.shape, np.uint8)
+    assert not like_plain_background(noisy, ~around).any()

@@ -38,7 +38,26 @@ def test_the_header_is_believed_only_where_the_timestamps_agree() -> None:
 def test_a_changing_rate_is_not_constant() -> None:
     times = np.concatenate([np.arange(30) / 30, 1 + np.arange(15) / 15])
     rate = rate_of(times, [22.5])
-    assert not rate.constant and rate.fps == 24
+    assert not rate.constant and rate.fps == 30
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_clock_that_strays_keeps_its_usual_rate(seed: int) -> None:
+    """Phones: each step is a few milliseconds off, and the errors add up."""
+    steps = 1 / 30 + np.random.default_rng(seed).uniform(-0.005, 0.005, 400)
+    assert rate_of(np.cumsum(steps)).fps == pytest.approx(30, rel=0.01)
+
+
+def test_long_pauses_do_not_count() -> None:
+    steps = np.full(100, 0.1)
+    steps[[20, 60]] = 60.0
+    rate = rate_of(np.cumsum(steps))
+    assert not rate.constant and rate.fps == 10
+
+
+def test_no_rate_is_made_up_beyond_sixty() -> None:
+    rate = rate_of(np.cumsum(np.repeat([0.002, 0.5], 100)))
+    assert not rate.constant and rate.fps == 60
 
 
 def test_a_grid_with_a_few_holes_is_constant() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import struct
+import warnings
 import zlib
 from pathlib import Path
 
@@ -21,11 +22,15 @@ from engine.media.limits import Limits
 PIXELS = quadrants(64, 48)
 
 
-def refusal(path: Path, limits: Limits | None = None) -> str:
+def refused(path: Path, limits: Limits | None = None) -> InputError:
     with pytest.raises(InputError) as caught:
         read_image(path, limits)
     assert str(path) not in caught.value.detail
-    return caught.value.code
+    return caught.value
+
+
+def refusal(path: Path, limits: Limits | None = None) -> str:
+    return refused(path, limits).code
 
 
 def near(rgb: np.ndarray, expected: np.ndarray, tolerance: float) -> bool:
@@ -213,7 +218,20 @@ def test_a_claim_of_100000_by_100000_is_refused(tmp_path: Path) -> None:
     }  # fmt: skip
     for name, content in claims.items():
         (tmp_path / name).write_bytes(content)
-        assert refusal(tmp_path / name) == "image_too_large"
+        error = refused(tmp_path / name)
+        assert error.code == "image_too_large"
+        assert error.detail == "The picture is too large: scale it down to at most 40 megapixels."
+
+
+def test_a_size_that_is_known_is_told_in_our_own_words(tmp_path: Path) -> None:
+    """From 89 megapixels on, Pillow warns by itself."""
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 12_000, 9_000, 8, 2, 0, 0, 0))
+    (tmp_path / "a.png").write_bytes(b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", b"") + chunk(b"IEND", b""))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        error = refused(tmp_path / "a.png")
+    assert error.code == "image_too_large"
+    assert error.detail == ("The picture is too large (12000 x 9000 pixels): scale it down to at most 40 megapixels.")
 
 
 @pytest.mark.parametrize("format", ["png", "jpeg", "webp", "gif", "heic", "avif"])

@@ -120,6 +120,17 @@ def test_variable_rate_loses_hardly_a_frame_at_its_usual_rate(tmp_path: Path) ->
     assert len(set(numbers(path))) >= 0.98 * len(times)
 
 
+@pytest.mark.parametrize(("quick", "slow"), [(25, 5), (30, 15), (60, 10)])
+def test_a_clip_that_slows_down_is_shown_whole(tmp_path: Path, quick: int, slow: int) -> None:
+    times = np.concatenate([np.arange(20) / quick, 20 / quick + np.arange(20) / slow])
+    path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(40)], times=list(times))
+    info = probe_video(path)
+    assert info.variable_rate and info.fps == quick
+    shown = [number(frame.rgb) for frame in read_video(path)]
+    assert len(shown) == info.frames and sorted(set(shown)) == list(range(40))
+    assert shown == sorted(shown)
+
+
 def test_another_rate_is_picked_not_blended(tmp_path: Path) -> None:
     path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(30)], fps=30)
     assert numbers(path, fps=15) == list(range(1, 30, 2))

@@ -11,7 +11,8 @@ from tiny_onnx import brightness_model
 
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
 from engine.perception.person import DOUBT, person_mask
-from engine.portrait.target import TargetFace, separate_layers
+from engine.portrait.layers import separate_layers
+from engine.portrait.target import TargetFace
 
 
 def settings_for(path: Path, **more: str) -> dict[str, str]:

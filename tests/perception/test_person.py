@@ -150,3 +150,18 @@ def test_what_is_known_to_be_the_persons_is_in_the_mask(media: Media) -> None:
     seed[rows, columns] = 1
     mask = person_mask(picture, seed=seed)
     assert mask[rows, columns][2:-2].mean() > 0.9
+
+
+def test_a_drawn_face_on_plain_paper_is_cut_out_whole_where_it_is_known_to_be_one() -> None:
+    """A disk with an outline, in which networks see nobody: the face's middle was placed by hand."""
+    y, x = np.mgrid[:400, :400]
+    away = np.hypot(y - 200, x - 200)
+    drawn = np.full((400, 400, 3), 255, np.uint8)
+    drawn[away < 140] = (120, 80, 0)
+    drawn[away < 135] = (255, 210, 40)
+    for eye in (160, 240):
+        drawn[np.hypot(y - 170, x - eye) < 14] = (60, 30, 10)
+    assert not (person_mask(drawn) > 0.5).any()
+    disk = away < 140
+    found = person_mask(drawn, seed=(away < 90).astype(np.float32)) > 0.5
+    assert (found & disk).sum() / (found | disk).sum() > 0.985

@@ -42,6 +42,12 @@ def test_formats(animation, opens, woman, driver, format: str) -> None:
         assert np.abs(frames[index].astype(int) - opens.frames[index]).mean() < 5
 
 
+def test_a_loop_repeats_without_a_jump_when_it_is_decoded(animation, woman, driver) -> None:
+    frames = np.array(animation(woman, driver, trim=OPENS, neutral_frame=0, loop=True).frames, np.int16)
+    steps = np.abs(frames - np.roll(frames, 1, axis=0)).mean(axis=(1, 2, 3))
+    assert steps[0] < steps[1:].max() and steps[0] < 0.7
+
+
 def test_black_and_white_in_no_colour_out(animation, small, driver, tmp_path: Path) -> None:
     grey = cv2.cvtColor(read_image(small("photo_bw_einstein.jpg", 280)).rgb, cv2.COLOR_RGB2GRAY)
     write_image(tmp_path / "grey.png", np.repeat(grey[..., None], 3, axis=2))

@@ -33,7 +33,7 @@ def test_a_second_run_reuses_every_analysis_and_gives_the_same(animation, opens,
         ({"strength": 0.5}, {"look_again"}),
         ({"head_3d": False}, {"look_again"}),
         ({"format": "png"}, set()),
-        ({"crop": "face"}, {"find_face", "separate_layers", "rig_target", "look_again"}),
+        ({"crop": "face"}, {"find_face", "detail_region", "separate_layers", "rig_target", "look_again"}),
         ({"trim": (1.9, 2.3)}, {"track_driver", "register_driver", "ratio_images", "glance_at_driver", "look_again"}),
     ],
     ids=["strength", "head_3d", "format", "crop", "trim"],
@@ -71,6 +71,14 @@ def test_an_unknown_option_is_refused(woman, driver, tmp_path: Path) -> None:
 
     with pytest.raises(ValidationError):
         animate(woman, driver, tmp_path / "out", strenght=0.8)
+
+
+def test_a_file_that_is_not_there_is_named(woman, driver, tmp_path: Path) -> None:
+    for picture, performance, name in ((tmp_path / "nobody.jpg", driver, "nobody.jpg"), (woman, "glee", "glee")):
+        with pytest.raises(FileNotFoundError, match=name):
+            animate(picture, performance, tmp_path / "out")
+    with pytest.raises(TypeError, match="a driver is needed"):
+        animate(woman, None, tmp_path / "out")
 
 
 def test_a_bad_choice_leaves_no_animation(woman, driver, tmp_path: Path) -> None:

@@ -202,12 +202,23 @@ def test_rate_and_part_are_the_asked_ones(whole: Path) -> None:
     assert len(full) == 20 and full.fps == 25
 
 
+@pytest.mark.parametrize(
+    ("name", "start", "end"),
+    [("man_talk_tps.mp4", 3.6, 5.0), ("man_mouth_open_d18.mp4", 4.0, 5.4), ("man_selfie_talk_d13.mp4", 2.9, 4.3)],
+)
+def test_lips_open_most_on_the_same_frame(clip, tmp_path: Path, name: str, start: float, end: float) -> None:
+    """Against the unfiltered landmarks, to the frame; somewhere within the clip."""
+    path = write_frames(tmp_path / "lips.mp4", clip(name, start, end))
+    track = track_driver(path, None, None, LIMITS)
+    peak = int(mouth_opening(unfiltered(path)).argmax())
+    assert 2 < peak < len(track) - 3
+    assert int(mouth_opening(track.meshes).argmax()) == peak
+
+
 def test_lips_and_lids_keep_their_moments_and_their_depth(track: DriverTrack, whole: Path) -> None:
     """Against the unfiltered landmarks: lips peak on the same frame, blinks keep 95 % of their depth."""
     raw = unfiltered(whole)
-    lips, seen = mouth_opening(raw), mouth_opening(track.meshes)
-    assert lips[int(seen.argmax())] > 0.97 * lips.max()
-    assert abs(int(seen.argmax()) - int(lips.argmax())) <= 1
+    assert int(mouth_opening(track.meshes).argmax()) == int(mouth_opening(raw).argmax())
     lids, kept = eye_opening(raw).mean(axis=1), eye_opening(track.meshes).mean(axis=1)
     usual = np.median(lids)
     low = int(lids.argmin())
@@ -248,9 +259,52 @@ def test_points_around_are_found_again_where_the_face_comes_back(still, tmp_path
     track = track_driver(write_frames(tmp_path / "again.mp4", seen), None, None, LIMITS)
     moved = track.periphery - track.periphery[0]
     assert np.abs(moved[:10]).max() < 1
-    assert track.trust[9].max() < 1 and track.trust[-1].mean() > 0.5
+    assert track.trust[-1].mean() > 0.5
     assert np.linalg.norm(moved[-1] - [40, 0], axis=-1)[track.trust[-1] == 1].max() < 1.5
     assert np.abs(np.diff(moved[:, track.trust[-1] == 1], axis=0)).max() < 0.25 * 40
+
+
+def test_what_is_around_holds_still_with_the_face(still, tmp_path: Path) -> None:
+    """Where nothing is seen, no point moves, and none loses its say."""
+    path = write_frames(tmp_path / "dark.mp4", [still] * 12 + [np.zeros_like(still)] * 24 + [still] * 12)
+    track = track_driver(path, None, None, LIMITS)
+    gone = slice(12, 36)
+    assert not track.found[gone].any()
+    assert np.abs(track.periphery[gone] - track.periphery[11]).max() < 0.1
+    assert np.array_equal(track.trust[12:28], np.broadcast_to(track.trust[11], (16, track.trust.shape[1])))
+
+
+def covers(frame: NDArray[np.uint8], mesh: NDArray[np.floating], colour: tuple[int, int, int], shaded: bool) -> NDArray:
+    """The frame with something of one colour, or a shaded one, before its face."""
+    low, high = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
+    middle, reach = (low + high) / 2, 0.65 * (high - low)
+    y, x = np.mgrid[: frame.shape[0], : frame.shape[1]]
+    inside = ((x - middle[0]) / reach[0]) ** 2 + ((y - middle[1]) / reach[1]) ** 2 < 1
+    light = 1 - 0.3 * shaded * ((x - middle[0]) / reach[0]) ** 2
+    grain = np.random.default_rng(0).normal(0, 4, frame.shape[:2])
+    drawn = np.clip(np.array(colour) * light[..., None] + grain[..., None], 0, 255)
+    return np.where(inside[..., None], drawn, frame).astype(np.uint8)
+
+
+@pytest.mark.parametrize("shaded", [False, True])
+@pytest.mark.parametrize("colour", [(150, 120, 105), (215, 175, 155), (205, 160, 140)])
+def test_what_covers_a_face_is_none_whatever_its_colour(
+    frames, track: DriverTrack, tmp_path: Path, colour: tuple[int, int, int], shaded: bool
+) -> None:
+    """A hand has the colours by which a tracker goes on."""
+    hidden = slice(12, 24)
+    acted = [
+        covers(frame, track.meshes[k], colour, shaded) if hidden.start <= k < hidden.stop else frame
+        for k, frame in enumerate(frames)
+    ]
+    seen = track_driver(write_frames(tmp_path / "covered.mp4", acted), None, None, LIMITS)
+    assert not seen.found[hidden].any()
+    assert seen.found[: hidden.start].all() and seen.found[hidden.stop + 2 :].all()
+
+
+@pytest.mark.parametrize("name", ["man_smile_d9.mp4", "woman_talk_aoc.mp4", "woman_funny_faces_d6.mp4"])
+def test_no_turn_nor_grimace_is_taken_for_a_cover(media, name: str) -> None:
+    assert track_driver(media(f"driving/{name}"), 12.0, None, LIMITS).found.all()
 
 
 def test_a_face_with_nothing_around_it_to_follow_has_no_points_in_any_frame() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from made_clip import write_frames
 
-FPS, SIDE = 10, 224
+FPS, SIDE = 30, 224
 ANIMATE = """
 import re, sys
 from pathlib import Path
@@ -23,17 +23,20 @@ print(sum(1 for _ in read_video(made)), re.search(r"VmHWM:\\s+(\\d+)", Path("/pr
 """
 
 
-@pytest.mark.timeout(600)
+@pytest.mark.timeout(1200)
 def test_three_minutes_peak_within_100_mb_of_five_seconds(clip, small, tmp_path: Path) -> None:
-    """The frames of three minutes alone would take more than that."""
-    assert 175 * FPS * SIDE * SIDE * 3 > 200e6
+    """At 30 frames a second: the frames of three minutes alone would take seven times that.
+
+    A first run compiles what the others load: it takes more memory than they do, and is not measured.
+    """
+    assert 175 * FPS * SIDE * SIDE * 3 > 700e6
     part = [
         np.asarray(cv2.resize(frame, (SIDE, SIDE), interpolation=cv2.INTER_AREA))
-        for frame in clip("man_mouth_open_d18.mp4", 0.0, 4.0)[::3]
+        for frame in clip("man_mouth_open_d18.mp4", 0.0, 4.0)
     ]
     there_and_back = [*part, *part[-2:0:-1]]
     picture, peaks = small("photo_woman_white.png", 240), {}
-    for seconds in (5, 180):
+    for seconds in (1, 5, 180):
         frames = [there_and_back[k % len(there_and_back)] for k in range(seconds * FPS)]
         driver = write_frames(tmp_path / f"{seconds}.mp4", frames, FPS)
         arguments = map(str, (picture, driver, tmp_path / f"out{seconds}"))

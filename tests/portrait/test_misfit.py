@@ -18,15 +18,16 @@ from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.portrait.appearance import CROP, crop_place
 from engine.portrait.driver import track_driver
-from engine.portrait.fine_details import keep_ratio_images
+from engine.portrait.fine_details import detail_region, keep_ratio_images
+from engine.portrait.layers import separate_layers
 from engine.portrait.lids_and_lips import LIDS, LIPS
-from engine.portrait.misfit import MOST, SCATTER, SHARE, UNIT, Misfit, fit_misfit, no_misfit
+from engine.portrait.misfit import LIPS_SHARE, MOST, SCATTER, SHARE, UNIT, Misfit, fit_misfit, no_misfit
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import Renderer
 from engine.portrait.rig import rig_target
 from engine.portrait.second_look import LOOKS, glance_at_driver, look_again
-from engine.portrait.target import find_target_face, separate_layers
+from engine.portrait.target import find_target_face
 
 REST = placed(60, (150, 150))
 OPEN = opened(REST, 0.5)
@@ -97,7 +98,8 @@ def test_what_is_closed_stays_closed(pairs) -> None:
     np.testing.assert_allclose(still[top], still[bottom], atol=1e-6)
     moved = corrected(misfit, FACES[1], OPEN)
     middle = len(top) // 2 if pairs is LIPS else 3
-    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * SHARE / (1 + SCATTER) * 1.2, abs=0.1)
+    share = LIPS_SHARE if pairs is LIPS else SHARE
+    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * share / (1 + SCATTER) * 1.2, abs=0.1)
 
 
 def test_the_neutral_frame_is_glanced_at_first_and_the_others_differ(tmp_path: Path) -> None:
@@ -112,17 +114,17 @@ def test_a_driver_that_never_moves_is_glanced_at_once(tmp_path: Path) -> None:
     assert glance_at_driver(made_driver(tmp_path, [REST] * 30), 4).frames.tolist() == [4]
 
 
-def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(woman_white, mouth_opens) -> None:
+def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, mouth_opens) -> None:
     """Frames that were not looked at, too: where the mouth opens, lips are nearer by a tenth, seen as the driver's are seen,
-    and the face as a whole is no further off."""
+    and the face as a whole is no further off. (On much smaller pictures the tracker's scatter is as large as what is amiss.)"""
     options = PortraitOptions()
-    target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
+    target = find_target_face(small("photo_woman_white.png", 600), options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
     rig = rig_target(target, layers)
-    track = track_driver(mouth_opens, None, OPENS, Limits())
+    track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 2), Limits())
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, glances = keep_ratio_images(track, 0), glance_at_driver(track, 0)
-    misfit = look_again(track, 0, glances, ratios, target, layers, rig, options)
+    misfit = look_again(track, 0, glances, ratios, target, rig.details, options)
     plain = Renderer(track, 0, target, layers, rig, options)
     better = Renderer(track, 0, target, layers, rig, options, misfit)
     meant = [plain.face(motion) for motion in plain.motions()]
@@ -150,7 +152,6 @@ def test_where_the_tracker_sees_no_face_nothing_is_corrected(woman_white, mouth_
     options = PortraitOptions()
     target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
     target = replace(target, rgb=np.full_like(target.rgb, 128))
-    layers = separate_layers(target)
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 0.3), Limits())
     given = track, 0, glance_at_driver(track, 0), keep_ratio_images(track, 0)
-    assert len(look_again(*given, target, layers, rig_target(target, layers), options).faces) == 0
+    assert len(look_again(*given, target, detail_region(target.rgb, target.mesh), options).faces) == 0

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.video import read_video
 from engine.perception.faces import FaceTracker
-from engine.perception.landmarks import eye_distance
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.performances import video
 from engine.portrait.driver import DriverTrack
-from engine.portrait.looks import expression
+from engine.portrait.expression import expression, lopsided
 from engine.portrait.neutral import choose_neutral_frame, neutral_cost
 
 REST = 12
@@ -120,6 +120,26 @@ def test_an_open_mouth_that_does_not_smile_is_no_grin(tmp_path: Path, rest: NDAr
     assert chosen in (0, 1, len(frames) - 1)
     grinning = opened(smiling(rest, 0.48), 0.12)
     assert choose_neutral_frame(driver(tmp_path, frames), grinning, None) in (3, 4, 5)
+
+
+def test_a_mouth_torn_to_a_side_does_not_stand_for_a_smile(tmp_path: Path, rest: NDArray) -> None:
+    """It alone is as open as the target's; a mouth that is less so is nearer to it all the same."""
+    lips = list(LIPS_OUTER + LIPS_INNER)
+    target = opened(smiling(rest, 0.2), 0.15)
+    torn = target.copy()
+    torn[lips, 0] += 0.12 * eye_distance(rest)
+    frames = [torn, torn, opened(smiling(rest, 0.15), 0.08), torn, torn]
+    assert choose_neutral_frame(driver(tmp_path, frames), target, None) == 2
+    assert choose_neutral_frame(driver(tmp_path, frames), torn, None) != 2
+
+
+def test_how_far_lips_are_lopsided_is_the_distance_from_their_mirror_image(rest: NDArray) -> None:
+    assert np.abs(lopsided(rest[None])).max() < 0.01
+    moved = placed(50, (100, 100), yaw=15)
+    assert np.abs(lopsided(moved[None])).max() < 0.02  # a turn is none
+    aside = rest.copy()
+    aside[list(LIPS_OUTER + LIPS_INNER), 0] += 0.1 * eye_distance(rest)
+    assert np.allclose(lopsided(aside[None]) - lopsided(rest[None]), (0.2, 0), atol=0.01)
 
 
 def test_a_driver_that_is_surprised_most_of_the_time_rests_where_it_is_not(tmp_path: Path, rest: NDArray) -> None:

@@ -98,8 +98,9 @@ def test_the_idle_clip_loops_without_a_jump(made: Made) -> None:
 
 def test_no_transition_jumps_or_blurs(made: Made) -> None:
     """At every frame of every clip: on to its bridge, along it to rest, and into the clip that follows. No step is larger
-    than the largest inside clips, and no frame has less than 95 % of its neighbours' gradient energy."""
-    largest = max(apart(one, other) for clip in made.clips.values() for one, other in pairwise(clip))
+    than the largest inside clips by more than a fiftieth, which coding may add, and no frame has less than 95 % of its
+    neighbours' gradient energy."""
+    largest = 1.02 * max(apart(one, other) for clip in made.clips.values() for one, other in pairwise(clip))
     crossed = 0
     for name, clip in made.clips.items():
         way = made.profile.transitions[name]

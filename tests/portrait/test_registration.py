@@ -7,10 +7,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from made_face import SKIN, driver, placed
+from made_face import SKIN, driver, opened, placed
 from numpy.typing import NDArray
 
-from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, RIGHT_EYE
+from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 from engine.portrait.appearance import CROP
 from engine.portrait.driver import DriverTrack
 from engine.portrait.registration import register_track
@@ -54,6 +54,18 @@ def test_lids_lips_and_depth_stay_as_tracked(slipped: DriverTrack) -> None:
     for contour in (RIGHT_EYE, LIPS_INNER):
         np.testing.assert_allclose(found[:, list(contour)], slipped.meshes[:, list(contour)], atol=1e-3)
     np.testing.assert_allclose(found[..., 2], slipped.meshes[..., 2], atol=1e-3)
+
+
+def test_the_red_of_lips_that_are_open_at_rest_stays_as_tracked(tmp_path: Path) -> None:
+    """The flow takes teeth that come and go for lips that move."""
+    smile = opened(FACE, 0.3)
+    track = driver(tmp_path, [smile] * 6, [skin()] * 3 + [moved(skin(), SHIFT)] * 3)
+    lips, points = track.in_crop(0)[list(LIPS_OUTER)], track.in_crop(0)[:468]
+    within = [v for v, at in enumerate(points) if cv2.pointPolygonTest(lips, at.tolist(), False) >= 0]
+    assert len(within) > len(LIPS_OUTER + LIPS_INNER)
+    found = register_track(track, 0).meshes
+    np.testing.assert_array_equal(found[:, within], track.meshes[:, within])
+    assert np.abs(found[5, CHEEKS, :2] - track.meshes[5, CHEEKS, :2]).max() > 0.4
 
 
 def test_what_stays_as_tracked_is_not_steadied_once_more(tmp_path: Path) -> None:

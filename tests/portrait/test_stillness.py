@@ -17,11 +17,12 @@ from engine.perception.landmarks import FACE_OVAL
 from engine.perception.person import person_mask
 from engine.portrait.driver import track_driver
 from engine.portrait.fine_details import RatioImages
+from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import render
 from engine.portrait.rig import rig_target
-from engine.portrait.target import Layers, find_target_face, separate_layers
+from engine.portrait.target import find_target_face
 
 STILL = 0.5
 """Grey levels of temporal deviation inside the face that pass for none."""

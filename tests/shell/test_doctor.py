@@ -26,6 +26,7 @@ def test_a_whole_installation_is_whole(tmp_path: Path) -> None:
     assert found.returncode == 0, found.stdout
     assert "mediapipe 0.10.21" in found.stdout and "embedded Redis 6" in found.stdout
     assert "Everything that is needed is there." in found.stdout
+    assert "AttributeError" not in found.stderr
     for wall in ("jobs see no files but their own", "jobs have no network", "jobs do not work as root"):
         assert wall in found.stdout
 

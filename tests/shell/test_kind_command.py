@@ -78,7 +78,7 @@ def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str
         ("a.png", "[]", "--options: the whole: "),
         ("a.png", "@nothing.json", "--options: nothing.json cannot be read"),
         ("a.png", '{"seconds": "x"}', "--options: seconds: "),
-        ("a.png", '{"sceonds": 1}', "--options: sceonds: "),
+        ("a.png", '{"sceonds": 1}', "--options: sceonds: There is no such option: did you mean seconds?"),
     ],
 )
 def test_bad_input_ends_with_one_clear_line(

@@ -53,6 +53,7 @@ def find_moments(path: str | Path, limits: Limits | None = None) -> Moments:
     Raises
     ------
     engine.errors.InputError : the video cannot be read, or shows no face; says what to do.
+    FileNotFoundError : there is no such video.
     """
     from engine.portrait.moments.pipeline import moments_of
     from engine.portrait.moments.watching import watch

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID, eye_opening
+from engine.portrait.expression import frontal
 from engine.portrait.head_motion import fit_rigid
-from engine.portrait.looks import frontal
 
 MEASURES = (
     *("mouth_open", "mouth_wide", "right_corner_up", "left_corner_up"),

@@ -17,6 +17,7 @@ from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
 from engine.portrait.fine_details import RatioStrip
 from engine.portrait.head_proxy import build_head_proxy
+from engine.portrait.layers import Layers
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import carry_motion
 from engine.portrait.neutral import choose_neutral_frame
@@ -29,7 +30,7 @@ from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
 from engine.portrait.render import Renderer, draw_in_order
 from engine.portrait.rig import Rig
-from engine.portrait.target import Layers, TargetFace, in_pixels
+from engine.portrait.target import TargetFace, in_pixels, look_for_face
 from engine.run import Run, write_report
 
 MOST_SECONDS = 20.0
@@ -62,11 +63,11 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     run.plan(STAGES, dict.fromkeys(PER_DRIVER, len(states)))
     if options.sound:
         run.warn("profile_is_silent", "A reactive profile has no sound.")
-    prepared = prepare_target(image, options, out, run)
+    prepared = prepare_target(look_for_face(image, options, run), out, run)
     fps = options.fps or float(FPS)
     performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
+    misfits = [one.look_again(prepared.face, prepared.details(), options, run) for one in performed]
     layers, rig = prepared.layers(), prepared.rig()
-    misfits = [one.look_again(prepared.face, layers, rig, options, run) for one in performed]
     acts = plan_acts(states, performed, misfits, prepared.face, rig, options)
     _draw(acts, prepared.face, layers, rig, options, fps, out, run)
     profile = _describe(acts, prepared.face, fps)

@@ -139,6 +139,38 @@ describe('ordering a character', () => {
     await cancel(page);
   });
 
+  it('makes the video and the character as chosen, and with what is changed of them next', async () => {
+    const page = await open(browser, '#/character');
+    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByText('Options').click();
+    await page.getByLabel('Length of the video').fill('1');
+    const choices = [
+      ...[['Size', 'Within 512 by 512 pixels'], ['Frames a second', '24'], ['Kind of video', 'WebM']],
+      ...[['Triangles, at most', '10,000'], ['Copies with fewer triangles', '1']],
+    ] as const;
+    for (const [label, choice] of choices) await page.getByLabel(label).selectOption({ label: choice });
+    const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
+    expect(request.postDataJSON().options).toEqual({
+      ...{ seconds: 1, size: [512, 512], fps: 24, format: 'webm', triangles: 10_000, levels: 1 },
+    });
+    await page.waitForURL((url) => url.hash.startsWith('#/jobs/'));
+    await openCorrections(page);
+    const { artifacts } = await ask<{ artifacts: Record<string, unknown> }>(`/v1/jobs/${jobOf(page)}`);
+    expect(Object.keys(artifacts)).toEqual(expect.arrayContaining(['animation.webm', 'character-lod1.glb']));
+    const video = page.locator('video');
+    await expect.poll(() => video.evaluate((film: HTMLVideoElement) => Math.max(film.videoWidth, film.videoHeight))).toBe(512);
+
+    for (const [label, choice] of choices) {
+      expect(await page.getByLabel(label).locator('option:checked').textContent()).toBe(choice);
+    }
+    await page.getByLabel('Frames a second').selectOption('50');
+    await page.getByLabel('Kind of video').selectOption('MP4');
+    await page.getByLabel('Copies with fewer triangles').selectOption('None');
+    const again = await revised(page);
+    expect(again.postDataJSON()).toEqual({ corrections: {}, options: { fps: 50, format: null, levels: null } });
+    await accepted(again);
+  });
+
   it('offers the motions that the service keeps', async () => {
     const file = join(folder, 'swing.bvh');
     inPython(MOTION, file);

@@ -20,12 +20,18 @@ describe('the options of a character', () => {
     });
     expect(optionsOf({ ...usual, vrm: true, author: ' Ada ' })).toEqual({ vrm: true, vrm_author: 'Ada' });
     expect(optionsOf({ ...usual, author: '  ' })).toEqual({});
+    expect(optionsOf({ ...usual, size: [512, 512], rate: 24, format: 'webp', triangles: 10_000, levels: 2 })).toEqual({
+      ...{ size: [512, 512], fps: 24, format: 'webp', triangles: 10_000, levels: 2 },
+    });
   });
 
   it('shows what a job was made with, names for two parts included', () => {
     expect(choicesOf({})).toEqual(usual);
     expect(choicesOf({ keep: ['legs', 'head'], camera: 'orbit' }).keep).toEqual(['head', 'left_leg', 'right_leg']);
     expect(choicesOf({ lit: true })).toEqual({ ...usual, lit: true });
+    expect(choicesOf({ size: [640, 480], fps: 12.5, format: 'png', triangles: 5000, levels: 1 })).toEqual({
+      ...{ ...usual, size: [640, 480], rate: 12.5, format: 'png', triangles: 5000, levels: 1 },
+    });
     expect(choicesOf({ vrm: true, vrm_author: 'Ada' })).toEqual({ ...usual, vrm: true, author: 'Ada' });
   });
 });
@@ -36,6 +42,8 @@ describe('a revision', () => {
     const wishes = wishesOf(of(made));
     expect(changesOf(wishes, wishesOf(of(made)), {})).toEqual({ corrections: {}, options: {} });
     expect(isChanged(wishes, { ...wishes, keep: [...wishes.keep].reverse() })).toBe(false);
+    const filmed = { size: [640, 480], fps: 12.5, format: 'png', triangles: 5000, levels: 1 };
+    expect(isChanged(wishesOf(of(filmed)), wishesOf(of(filmed)))).toBe(false);
   });
 
   it('puts right what was found, and takes back what is no longer wanted', () => {
@@ -46,6 +54,18 @@ describe('a revision', () => {
     const painted = wishesOf(of({ mask_strokes: mask, person_box: [1, 2, 3, 4], camera: 'orbit', keep: ['head'], lit: true }));
     expect(after({ mask: [], box: null, camera: 'fixed', keep: [], lit: false }, painted)).toEqual({
       ...{ corrections: { mask_strokes: null, person_box: null }, options: { camera: null, keep: null, lit: null } },
+    });
+  });
+
+  it('makes another video, or a finer character, and the usual ones again', () => {
+    expect(after({ size: [1024, 1024], rate: 60, format: 'webm', triangles: 200_000, levels: 3 }).options).toEqual({
+      ...{ size: [1024, 1024], fps: 60, format: 'webm', triangles: 200_000, levels: 3 },
+    });
+    const made = wishesOf(of({ size: [512, 512], fps: 24, format: 'webp', triangles: 10_000, levels: 2 }));
+    expect(after({ size: [1920, 1920] }, made).options).toEqual({ size: [1920, 1920] });
+    const { size, rate, format, triangles, levels } = usual;
+    expect(after({ size, rate, format, triangles, levels }, made).options).toEqual({
+      ...{ size: null, fps: null, format: null, triangles: null, levels: null },
     });
   });
 

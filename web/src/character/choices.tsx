@@ -3,7 +3,9 @@
 import { useId } from 'preact/hooks';
 import type { BodyPart, CharacterOptions } from '../api';
 import { Check } from '../components/check';
-import { duration } from '../format';
+import { SelectField } from '../components/select';
+import { type Format, FormatField, RateField, type Size, SizeField } from '../components/video';
+import { count, duration } from '../format';
 import { strings } from '../strings';
 
 const words = strings.character;
@@ -16,12 +18,22 @@ const both: Partial<Record<string, readonly BodyPart[]>> = {
 };
 const cameras = ['fixed', 'orbit', 'parallax'] as const;
 const backs = ['mirror', 'inpaint'] as const;
+const triangles = [10_000, 30_000, 60_000, 120_000, 200_000] as const;
+const levels = [0, 1, 2, 3] as const;
 
 export interface Choices {
   keep: readonly BodyPart[];
   camera: (typeof cameras)[number];
   seconds: number;
+  size: Size;
+  /** Frames a second. */
+  rate: number;
+  format: Format;
   back: (typeof backs)[number];
+  /** Of the character, at most. */
+  triangles: number;
+  /** How many coarser copies of it there are, too. */
+  levels: number;
   partial: boolean;
   /** A picture of the character under lamps. */
   lit: boolean;
@@ -34,7 +46,12 @@ export const usual: Choices = {
   keep: [],
   camera: 'fixed',
   seconds: 4,
+  size: null,
+  rate: 30,
+  format: 'mp4',
   back: 'mirror',
+  triangles: 60_000,
+  levels: 0,
   partial: false,
   lit: false,
   vrm: false,
@@ -52,7 +69,12 @@ export function changedOptions(before: Choices, now: Choices): { [Name in keyof 
     ...(keep.join() !== kept.join() && { keep: keep.length ? keep : null }),
     ...(now.camera !== before.camera && { camera: now.camera === usual.camera ? null : now.camera }),
     ...(now.seconds !== before.seconds && { seconds: now.seconds === usual.seconds ? null : now.seconds }),
+    ...(now.size?.join() !== before.size?.join() && { size: now.size }),
+    ...(now.rate !== before.rate && { fps: now.rate === usual.rate ? null : now.rate }),
+    ...(now.format !== before.format && { format: now.format === usual.format ? null : now.format }),
     ...(now.back !== before.back && { back_texture: now.back === usual.back ? null : now.back }),
+    ...(now.triangles !== before.triangles && { triangles: now.triangles === usual.triangles ? null : now.triangles }),
+    ...(now.levels !== before.levels && { levels: now.levels || null }),
     ...(now.partial !== before.partial && { partial: now.partial || null }),
     ...(now.lit !== before.lit && { lit: now.lit || null }),
     ...(now.vrm !== before.vrm && { vrm: now.vrm || null }),
@@ -67,7 +89,12 @@ export function choicesOf(options: CharacterOptions): Choices {
     keep: bodyParts.filter((part) => kept.has(part)),
     camera: options.camera ?? usual.camera,
     seconds: options.seconds ?? usual.seconds,
+    size: options.size ?? usual.size,
+    rate: options.fps ?? usual.rate,
+    format: options.format ?? usual.format,
     back: options.back_texture ?? usual.back,
+    triangles: options.triangles ?? usual.triangles,
+    levels: options.levels ?? usual.levels,
     partial: options.partial ?? usual.partial,
     lit: options.lit ?? usual.lit,
     vrm: options.vrm ?? usual.vrm,
@@ -84,7 +111,7 @@ export function KeepField({ value, onChange }: Props) {
   const toggle = (part: BodyPart, on: boolean): void =>
     onChange({ keep: bodyParts.filter((one) => (one === part ? on : value.keep.includes(one))) });
   return (
-    <fieldset class="field">
+    <fieldset class="field whole">
       <legend>{words.keep}</legend>
       <div class="checks">
         {bodyParts.map((part) => (
@@ -107,26 +134,19 @@ export function VideoFields({ value, onChange }: Props) {
   const id = useId();
   return (
     <>
+      <SelectField
+        label={words.camera}
+        value={value.camera}
+        choices={cameras}
+        nameOf={(camera) => words.cameras[camera]}
+        onChange={(camera) => onChange({ camera })}
+      />
       <div class="field">
-        <label for={`${id}-camera`}>{words.camera}</label>
-        <select
-          id={`${id}-camera`}
-          value={value.camera}
-          onChange={({ currentTarget }) => onChange({ camera: currentTarget.value as Choices['camera'] })}
-        >
-          {cameras.map((camera) => (
-            <option key={camera} value={camera}>
-              {words.cameras[camera]}
-            </option>
-          ))}
-        </select>
-      </div>
-      <div class="field">
-        <label for={`${id}-seconds`}>
+        <label for={id}>
           {words.seconds} <output>{duration(value.seconds)}</output>
         </label>
         <input
-          id={`${id}-seconds`}
+          id={id}
           type="range"
           min="1"
           max="30"
@@ -136,30 +156,51 @@ export function VideoFields({ value, onChange }: Props) {
           onInput={({ currentTarget }) => onChange({ seconds: currentTarget.valueAsNumber })}
         />
       </div>
-      <div class="field">
-        <label for={`${id}-back`}>{words.back}</label>
-        <select
-          id={`${id}-back`}
-          value={value.back}
-          onChange={({ currentTarget }) => onChange({ back: currentTarget.value as Choices['back'] })}
-        >
-          {backs.map((back) => (
-            <option key={back} value={back}>
-              {words.backs[back]}
-            </option>
-          ))}
-        </select>
-      </div>
-      <div class="field">
-        <Check label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
-        <Check label={words.lit} checked={value.lit} onChange={(lit) => onChange({ lit })} />
-        <Check label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
+      <SizeField value={value.size} own={words.sizeOwn} onChange={(size) => onChange({ size })} />
+      <RateField value={value.rate} onChange={(rate) => onChange({ rate: rate ?? usual.rate })} />
+      <FormatField value={value.format} onChange={(format) => onChange({ format })} />
+    </>
+  );
+}
+
+/** The character itself: its back, how fine it is, and what else there is of it. */
+export function CharacterFields({ value, onChange }: Props) {
+  const id = useId();
+  return (
+    <>
+      <SelectField
+        label={words.back}
+        value={value.back}
+        choices={backs}
+        nameOf={(back) => words.backs[back]}
+        onChange={(back) => onChange({ back })}
+      />
+      <SelectField
+        label={words.triangles}
+        value={value.triangles}
+        choices={triangles}
+        nameOf={count}
+        onChange={(most) => onChange({ triangles: most })}
+      />
+      <SelectField
+        label={words.levels}
+        value={value.levels}
+        choices={levels}
+        nameOf={(level) => (level === 0 ? words.noLevels : count(level))}
+        onChange={(level) => onChange({ levels: level })}
+      />
+      <div class="field whole">
+        <div class="checks">
+          <Check label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
+          <Check label={words.lit} checked={value.lit} onChange={(lit) => onChange({ lit })} />
+          <Check label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
+        </div>
       </div>
       {value.vrm && (
-        <div class="field">
-          <label for={`${id}-author`}>{words.author}</label>
+        <div class="field whole">
+          <label for={id}>{words.author}</label>
           <input
-            id={`${id}-author`}
+            id={id}
             type="text"
             maxLength={200}
             value={value.author}

@@ -10,7 +10,7 @@ import { randomKey } from '../key';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
-import { KeepField, VideoFields } from './choices';
+import { CharacterFields, KeepField, VideoFields } from './choices';
 import { MotionField } from './motionfield';
 import { Paintings } from './paintings';
 import { People } from './people';
@@ -156,8 +156,14 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
             </button>
           </div>
         )}
+      </section>
+      <section class="panel framing" aria-label={words.video}>
         <h3>{words.video}</h3>
         <VideoFields value={wishes} onChange={wish} />
+      </section>
+      <section class="panel framing" aria-label={words.character}>
+        <h3>{words.character}</h3>
+        <CharacterFields value={wishes} onChange={wish} />
       </section>
       {picture && samePerson && !together && outlined && (
         <Paintings

@@ -27,7 +27,7 @@ export default function CharacterResult({ job, onPose }: Props) {
   const film = Object.entries(artifacts).find(([name]) => name.startsWith('animation.'));
   return (
     <div class="result">
-      {film && <Film job={job} artifact={film[1]} />}
+      {film && !film[1].content_type.endsWith('/zip') && <Film job={job} artifact={film[1]} />}
       {artifacts['character.glb'] && <Viewer job={job} onPose={onPose} />}
       <div class="actions">
         {peopleOf(job, skeleton).map(({ name, number }) => (

@@ -6,10 +6,14 @@ import { stageName, strings } from '../strings';
 
 const words = strings.job;
 
+/** The stage of a job that waits for the engine to be compiled, which the service does once. */
+const prepareEngine = 'prepare_engine';
+
 export function Stages({ job, stages }: { job: Job; stages: string[] }) {
   const queued = job.status === 'queued';
   const { fraction = 0, eta_seconds: eta = null, stage: current } = job.progress;
-  const headline = queued ? words.queued : current ? stageName(current) : words.starting;
+  const preparing = queued && current === prepareEngine;
+  const headline = queued && !preparing ? words.queued : current ? stageName(current) : words.starting;
 
   return (
     <div class="stages">
@@ -19,7 +23,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
       </p>
       <progress aria-label={words.progress} max="1" value={queued ? undefined : fraction} />
       <p class="figures">
-        <span>{queued ? '' : words.done(percent(fraction))}</span>
+        <span>{preparing ? words.preparing : queued ? '' : words.done(percent(fraction))}</span>
         <span>{eta !== null && !queued ? words.left(duration(eta)) : ''}</span>
       </p>
       {stages.length > 0 && (

@@ -2,6 +2,7 @@
 
 import type { PortraitChanges, PortraitOptions } from '../api';
 import { type Choices, choicesOf, parts, usual } from '../components/choices';
+import type { Format, Size } from '../components/video';
 
 export interface Wishes extends Choices {
   /** The performer's frame that shows what the picture shows; null where it is to be found. */
@@ -15,10 +16,10 @@ export interface Wishes extends Choices {
   /** Which face of the picture, counted from the largest. */
   face: number;
   crop: NonNullable<PortraitOptions['crop']>;
-  size: [number, number] | null;
+  size: Size;
   /** Frames a second; null for the performance's own. */
   rate: number | null;
-  format: NonNullable<PortraitOptions['format']>;
+  format: Format;
   /** 68 placed points in pixels of the picture; null where they are to be found. */
   landmarks: [number, number][] | null;
 }

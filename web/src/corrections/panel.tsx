@@ -5,6 +5,8 @@ import { foundFaces, getLandmarks, getReport, type Job, portraitOptions, type Po
 import { Check } from '../components/check';
 import { ChoiceFields } from '../components/choices';
 import { later } from '../components/later';
+import { SelectField } from '../components/select';
+import { FormatField, RateField, SizeField } from '../components/video';
 import { randomKey } from '../key';
 import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
@@ -13,7 +15,6 @@ import { AUTO, isFileId, performanceUrl } from '../names';
 import { jobLink } from '../route';
 import { strings } from '../strings';
 import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
-import { CropField, FormatField, RateField, SizeField } from './framing';
 import { NeutralFrame } from './neutral';
 import { DriverFaceField, TrimField } from './performance';
 import { FaceChoice, usePicture } from './picture';
@@ -21,6 +22,7 @@ import '../styles/corrections.css';
 
 const LandmarkEditor = later(() => import('../landmarks/editor'));
 const words = strings.redo;
+const crops = ['none', 'bust', 'face'] as const;
 
 interface Props {
   job: Job;
@@ -145,9 +147,15 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
       </section>
       <section class="panel framing" aria-label={words.framing}>
         <h3>{words.framing}</h3>
-        <CropField value={wishes.crop} onChange={(crop) => wish({ crop })} />
-        <SizeField value={wishes.size} onChange={(size) => wish({ size })} />
-        <RateField value={wishes.rate} onChange={(rate) => wish({ rate })} />
+        <SelectField
+          label={words.crop}
+          value={wishes.crop}
+          choices={crops}
+          nameOf={(crop) => words.crops[crop]}
+          onChange={(crop) => wish({ crop })}
+        />
+        <SizeField value={wishes.size} own={words.sizeOwn} onChange={(size) => wish({ size })} />
+        <RateField value={wishes.rate} own={words.rateOwn} onChange={(rate) => wish({ rate })} />
         {!made.reactive && <FormatField value={wishes.format} onChange={(format) => wish({ format })} />}
       </section>
       <button type="submit" class="button primary large" disabled={sending}>

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { CharacterOptions, MotionJoints } from '../api';
-import { type Choices, KeepField, optionsOf, usual, VideoFields } from '../character/choices';
+import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from '../character/choices';
 import { Motions } from '../character/motions';
 import { Capture } from '../components/capture';
 import { useDropsAnywhere } from '../components/drops';
@@ -90,9 +90,10 @@ export default function CharacterStudio() {
           />
           <details class="choices">
             <summary>{strings.studio.options}</summary>
-            <div class="fields">
+            <div class="fields paired">
               <KeepField value={choices} onChange={change} />
               <VideoFields value={choices} onChange={change} />
+              <CharacterFields value={choices} onChange={change} />
             </div>
           </details>
         </section>

@@ -42,6 +42,10 @@ export const character = {
     camera: 'Camera',
     cameras: { fixed: 'Stands still', orbit: 'Goes around', parallax: 'Sways a little' },
     seconds: 'Length of the video',
+    sizeOwn: 'As the picture, up to 1280',
+    triangles: 'Triangles, at most',
+    levels: 'Copies with fewer triangles',
+    noLevels: 'None',
     back: 'The back',
     backs: { mirror: 'The front, mirrored', inpaint: 'Painted to match' },
     partial: 'Accept a person who is cut off or hidden below the chest',
@@ -135,7 +139,8 @@ export const character = {
     noPicture: 'This browser cannot show the picture, so nothing can be placed on it here.',
     unchanged: 'Nothing is changed yet.',
     move: 'The motion',
-    video: 'The video and the back',
+    video: 'The video',
+    character: 'The character',
   },
 
   joints: {

@@ -8,6 +8,7 @@ export const job = {
     performance: (name: string) => `performs “${name}”`,
     back: 'Make another',
     queued: 'Waiting for its turn',
+    preparing: 'This happens once and takes a minute or two.',
     starting: 'Starting',
     left: (duration: string) => `about ${duration} left`,
     done: (percent: string) => `${percent} done`,
@@ -77,13 +78,8 @@ export const job = {
     framing: 'The video',
     crop: 'Shows',
     crops: { none: 'The whole picture', bust: 'Head and shoulders', face: 'The face alone' },
-    size: 'Size',
     sizeOwn: 'As the picture, up to 1920 pixels',
-    sizeUpTo: (side: number) => `Within ${side} by ${side} pixels`,
-    rate: 'Frames a second',
     rateOwn: 'As the performance',
-    format: 'Kind of video',
-    formats: { mp4: 'MP4', webm: 'WebM', webp: 'WebP, a moving picture' },
     asBefore: 'As before',
     send: 'Make it again',
     versions: 'Versions',
@@ -155,6 +151,7 @@ export const job = {
 
   /** Stages by the names that the engine gives them; a new one is shown under its own name. */
   stages: {
+    prepare_engine: 'Getting the engine ready',
     fetch: 'Fetching what was named by address',
     find_face: 'Finding the face',
     choose_driver: 'Choosing the performance',

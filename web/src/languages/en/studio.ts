@@ -76,6 +76,14 @@ export const studio = {
     forget: 'Forget it',
   },
 
+  video: {
+    size: 'Size',
+    sizeUpTo: (side: number) => `Within ${side} by ${side} pixels`,
+    rate: 'Frames a second',
+    format: 'Kind of video',
+    formats: { mp4: 'MP4', webm: 'WebM', webp: 'WebP, a moving picture' },
+  },
+
   parts: { eyes: 'Eyes', brows: 'Brows', mouth: 'Mouth', head: 'Head' } satisfies Record<Part, string>,
 
   camera: {

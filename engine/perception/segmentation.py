@@ -1,0 +1,80 @@
+"""Where two networks believe people to be in a picture, before its own edges and colours are asked.
+
+MediaPipe's selfie segmentation (256 px; straight and mirrored, and again at the part that holds a person) and the mask
+that comes with its body pose. Neither sees edges finely, and they miss different things.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.imaging.resample import resized, size_within
+from engine.perception.body import FAINT
+from engine.perception.solutions import solution
+
+Mask = NDArray[np.float32]
+
+WORKING_SIZE = 800
+"""Longest side, in pixels, at which people are looked for and their matte is solved; larger pictures get it by guided
+upsampling."""
+
+SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
+"""Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
+pictures that show somebody whole, who are what the body pose's network knows best."""
+
+
+def people_in(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
+    """What the networks believe to be people in a picture (H, W, 3), in [0, 1] at the size at which a matte is solved;
+    `whole` as in `person_mask`."""
+    small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
+    posed = _pose_mask(small)
+    if posed is None and whole:  # who hardly stands out was found by such a look, at this size
+        posed = _pose_mask(rgb, FAINT)
+        posed = None if posed is None else resized(posed, (small.shape[1], small.shape[0]))
+    return _together(small, posed, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
+
+
+def believed_person(rgb: NDArray[np.uint8]) -> Mask:
+    """What the networks believe to be a person in a portrait, (H, W) in [0, 1]."""
+    return _together(rgb, _pose_mask(rgb), SELFIE_SHARE)
+
+
+def _together(rgb: NDArray[np.uint8], posed: Mask | None, share: float) -> Mask:
+    """The belief of both networks, of which `share` is the selfie's."""
+    selfie = selfie_mask(rgb, posed)
+    return selfie if posed is None else (share * selfie + (1 - share) * posed).astype(np.float32)
+
+
+def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
+    """What the selfie network believes to be a person, (H, W) in [0, 1]: it looks closer where people, also those that
+    `posed` shows, take up a small part of the picture."""
+    height, width = rgb.shape[:2]
+    with solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
+
+        def look(part: NDArray[np.uint8]) -> Mask:
+            straight = network.process(np.ascontiguousarray(part)).segmentation_mask
+            mirrored = network.process(np.ascontiguousarray(part[:, ::-1])).segmentation_mask[:, ::-1]
+            return np.asarray((straight + mirrored) / 2, np.float32)
+
+        whole = look(rgb)
+        ys, xs = np.nonzero((whole if posed is None else np.maximum(whole, posed)) > 0.5)
+        if len(ys) < 16:
+            return whole
+        margin = 0.15 * max(np.ptp(ys), np.ptp(xs)) + 4
+        top, bottom = max(0, int(ys.min() - margin)), min(height, int(ys.max() + margin))
+        left, right = max(0, int(xs.min() - margin)), min(width, int(xs.max() + margin))
+        if (bottom - top) * (right - left) > 0.7 * height * width:
+            return whole
+        closer = np.zeros_like(whole)
+        closer[top:bottom, left:right] = look(rgb[top:bottom, left:right])
+        return closer
+
+
+def _pose_mask(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Mask | None:
+    """The body pose's belief; None where it sees no body."""
+    with solution("pose").Pose(
+        static_image_mode=True, model_complexity=1, enable_segmentation=True, min_detection_confidence=confidence
+    ) as network:
+        mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask
+    return None if mask is None else np.asarray(mask, np.float32)

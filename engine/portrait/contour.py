@@ -1,0 +1,133 @@
+"""The face's contour, and what lies beside it.
+
+Where a face's surface goes out of sight its points lie close to the contour in the picture and far behind each other in
+space. A turn of the head, an expression or a second look then moves neighbours apart, or past the contour, and the
+outline gets notches. So beside the contour of the cheeks its own points alone carry the picture; where others would pass
+it, it goes out with them as an even curve, and those nearest to it are stretched no more than those further in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.landmarks import FACE_OVAL, eye_distance
+
+CHEEKS = (*range(8, 14), *range(22, 28))
+"""Edges of `FACE_OVAL` from the ears to the chin, by where they begin; forehead and chin stay in sight."""
+BESIDE = 0.08
+"""Within this distance, in eye distances, a point lies beside the contour."""
+
+HELD = np.interp(np.arange(len(FACE_OVAL)), (6, 8, 13, 15, 21, 23, 28, 30), (0, 1, 1, 0, 0, 1, 1, 0))
+"""How far each vertex of `FACE_OVAL` takes part in keeping points inside: fully from the ears to the jaw."""
+WITHIN, FURTHER = 0.4, 0.6
+"""Points up to the first distance from the contour, in eye distances, are kept inside it; those from there to the second
+say how far their side of the face is stretched."""
+LEAST, MOST = 0.1, 1.5
+"""Of its distance from the contour such a point keeps at least this share, and gains at most this over its side."""
+ALONG = 0.3
+"""Eye distances along the contour over which a point takes it along."""
+EVEN = 2
+"""How often the way that the contour goes out is evened out along it."""
+
+EARS = (234, 454)
+"""The contour beside the ears, right one first."""
+
+
+@dataclass(frozen=True)
+class _Band:
+    """`vertices` (K,) inside the contour, and the spot of it next to each at rest: `share` (K,) of the way along `edge` (K,)
+    of `FACE_OVAL`."""
+
+    vertices: NDArray[np.int64]
+    edge: NDArray[np.int64]
+    share: NDArray[np.float64]
+
+    def at_spots(self, values: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Values (N, 36, D) at the vertices of `FACE_OVAL`, at the spots: (N, K, D)."""
+        share = self.share[:, None]
+        return (1 - share) * values[:, self.edge] + share * np.roll(values, -1, axis=1)[:, self.edge]
+
+    def inward(self, faces: NDArray[np.floating]) -> NDArray[np.floating]:
+        """(N, K, 2) the way into faces (N, 478, 2) at the spots, of length 1."""
+        way = self.at_spots(_inward(faces[:, list(FACE_OVAL)]))
+        return np.asarray(way / np.linalg.norm(way, axis=2, keepdims=True))
+
+    def depth(self, faces: NDArray[np.floating], inward: NDArray[np.floating]) -> NDArray[np.floating]:
+        """(N, K) how far inside their spots the vertices of faces (N, 478, 2) lie, pixels."""
+        apart = faces[:, self.vertices] - self.at_spots(faces[:, list(FACE_OVAL)])
+        return np.asarray((apart * inward).sum(axis=2))
+
+
+def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(P,) how far points lie outside the contour of a face (478, 2 or 3), pixels; negative inside."""
+    oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
+    return np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
+
+
+def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own; only where
+    the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
+    cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEKS)
+    beside = _nearest(mesh, seen, cheeks)[2] < BESIDE * eye_distance(mesh[:, :2])
+    beside[list(FACE_OVAL)] = False
+    return np.asarray(beside)
+
+
+def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: NDArray[np.bool_]) -> None:
+    """Keep vertices of faces (N, 478, 2) beside the cheeks' contour inside it, evenly, in place.
+
+    `rest` (478, 2 or 3) is the same face at rest: a vertex's distance there, from the same spot of the contour, tells how
+    far from it it may lie, where that is `seen` (478,). The contour first goes out to where it leaves room for all.
+    """
+    oval, unit, at_rest = list(FACE_OVAL), float(eye_distance(rest[:, :2])), rest[None, :, :2].astype(float)
+    edge, share, apart = _nearest(rest, seen, (HELD + np.roll(HELD, -1)) > 0)
+    band = _Band(np.arange(len(rest)), edge, share)
+    own = band.depth(at_rest, band.inward(at_rest))[0]
+    inside = np.flatnonzero((own > 0) & (apart < FURTHER * unit))
+    band, own, near = _Band(inside, edge[inside], share[inside]), own[inside], apart[inside] < WITHIN * unit
+
+    inward = band.inward(faces)
+    past = np.maximum(LEAST * own - band.depth(faces, inward), 0) * near
+    along = np.linalg.norm(at_rest[0, oval, None] - band.at_spots(at_rest[:, oval])[0], axis=2) / (ALONG * unit)
+    out = (past[:, None] * np.exp(-(along**2))).max(axis=2, initial=0)
+    for _ in range(EVEN):
+        out = (np.roll(out, 1, axis=1) + 2 * out + np.roll(out, -1, axis=1)) / 4
+    faces[:, oval] -= (out * HELD * seen[oval])[..., None] * _inward(faces[:, oval])
+
+    depth = band.depth(faces, inward)
+    right = np.linalg.norm(at_rest[0, inside, None] - at_rest[0, list(EARS)], axis=2).argmin(axis=1) == 0
+    stretch = np.where(right, *(_stretch(depth / own, side & ~near) for side in (right, ~right)))
+    way = np.clip(depth, LEAST * own, MOST * stretch * own) - depth
+    faces[:, inside] += (way * near * band.at_spots(HELD[None, :, None])[0, :, 0])[..., None] * inward
+
+
+def _stretch(ratios: NDArray[np.floating], chosen: NDArray[np.bool_]) -> NDArray[np.floating]:
+    """(N, 1) the mean of the chosen (K,) among ratios (N, K), at least 1."""
+    return np.maximum(ratios[:, chosen].sum(axis=1, keepdims=True) / max(int(chosen.sum()), 1), 1)
+
+
+def _inward(ring: NDArray[np.floating]) -> NDArray[np.floating]:
+    """(N, 36, 2) the way into faces at their contour's vertices (N, 36, 2), of length 1."""
+    forward = np.roll(ring, -1, axis=1) - np.roll(ring, 1, axis=1)
+    return np.asarray(forward[..., ::-1] * (-1, 1) / np.linalg.norm(forward, axis=2, keepdims=True))
+
+
+def _nearest(
+    mesh: NDArray[np.floating], seen: NDArray[np.bool_], edges: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """The spot of some seen edges (36,) of the contour next to each vertex: its edge (478,), its share of the way along
+    that, and how far away it is, pixels; nowhere if none is seen."""
+    oval = list(FACE_OVAL)
+    ring = mesh[oval, :2].astype(float)
+    way = np.roll(ring, -1, axis=0) - ring
+    to = mesh[:, None, :2] - ring
+    along = np.clip((to * way).sum(axis=2) / (way**2).sum(axis=1), 0, 1)
+    apart = np.linalg.norm(to - along[..., None] * way, axis=2)
+    apart[:, ~(edges & seen[oval] & np.roll(seen[oval], -1))] = np.inf
+    edge = apart.argmin(axis=1)
+    spots = np.arange(len(mesh)), edge
+    return edge, along[spots], apart[spots]

@@ -1,0 +1,55 @@
+"""A real portrait is canceled in the midst of its work: it is over within two seconds, and the next one is made."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from running import Running, eventually
+
+BOUND = 2.0
+"""Seconds within which a canceled job's process has stopped, as docs/api.md says."""
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    running = Running(tmp_path_factory.mktemp("portraits") / "data", kinds="engine.kinds:KINDS")
+    yield running
+    running.stop()
+
+
+@pytest.fixture(scope="module")
+def inputs(service: Running, media: Callable[[str], Path]) -> dict[str, str]:
+    """A photograph, and a video of somebody who opens his mouth."""
+    named = {"image": "portraits/photo_woman_white.png", "driver": "driving/man_mouth_open_d18.mp4"}
+    sent = {part: media(name) for part, name in named.items()}
+    answers = {part: service.client.post("/v1/files", files={"file": path.open("rb")}) for part, path in sent.items()}
+    return {part: answer.raise_for_status().json()["id"] for part, answer in answers.items()}
+
+
+def ordered(service: Running, inputs: dict[str, str], **options: Any) -> str:
+    asked = {"kind": "portrait", "inputs": inputs, "options": options}
+    return service.client.post("/v1/jobs", json=asked).raise_for_status().json()["id"]
+
+
+@pytest.mark.parametrize("stage", ["track_driver", "animate"])
+def test_a_portrait_at_work_is_over_two_seconds_after_it_is_canceled(
+    service: Running, inputs: dict[str, str], stage: str
+) -> None:
+    job, following = (ordered(service, inputs, trim=[0, end], size=[480, 480]) for end in (8.0, 0.3))
+    folder = service.data_dir / "jobs" / job
+    eventually(lambda: service.job(job)["progress"]["stage"] == stage, f"the job is at {stage}", seconds=300)
+    assert list(folder.glob("attempt-*"))
+    asked = time.monotonic()
+    assert service.client.post(f"/v1/jobs/{job}/cancel").raise_for_status().json()["status"] == "canceled"
+    eventually(lambda: not list(folder.glob("attempt-*")), "the attempt is over", seconds=BOUND)
+    assert time.monotonic() - asked < BOUND
+    done = service.until(following, "succeeded", "failed", seconds=300)
+    assert done["error"] is None and "animation.mp4" in done["artifacts"]
+    canceled = service.job(job)
+    assert (canceled["status"], canceled["error"]) == ("canceled", None)
+    assert "animation.mp4" not in canceled["artifacts"]
+    assert done["started_at"] > canceled["finished_at"], "one worker does one after the other"

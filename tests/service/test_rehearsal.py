@@ -1,0 +1,72 @@
+"""A worker that has the engine compiled first: who waits is told, nothing is taken for lost, and it happens once."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from running import Running, eventually
+
+from worker.announcement import MESSAGE, STAGE
+
+Start = Callable[..., Running]
+TOLD = {"stage": STAGE, "fraction": 0.0, "message": MESSAGE, "eta_seconds": None}
+TAKEN_BACK = {"stage": None, "fraction": 0.0, "message": "", "eta_seconds": None}
+
+
+@pytest.fixture
+def rehearsed_when(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The file with which the rehearsal ends, where nothing was compiled yet."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "compiled"))
+    monkeypatch.setenv("REHEARSED_WHEN", str(tmp_path / "now"))
+    return tmp_path / "now"
+
+
+def said(running: Running, what: str) -> bool:
+    return what in running.output.read_text()
+
+
+def test_who_waits_is_told_until_it_is_over(start: Start, picture: bytes, rehearsed_when: Path) -> None:
+    running = start(kinds="rehearsing_kind:KIND")
+    job_id = running.submit(picture)["id"]
+    eventually(lambda: running.job(job_id)["progress"]["stage"] == STAGE, "it is told")
+    assert running.job(job_id)["status"] == "queued" and running.job(job_id)["progress"] == TOLD
+    rehearsed_when.touch()
+    running.until(job_id, "succeeded")
+    with running.client.stream("GET", f"/v1/jobs/{job_id}/events") as events:
+        said = [json.loads(line.removeprefix("data: ")) for line in events.iter_lines() if line.startswith("data: ")]
+    assert said[:4] == [{"status": "queued"}, TOLD, TAKEN_BACK, {"status": "running"}]
+
+
+def test_messages_wait_with_their_jobs(start: Start, picture: bytes, rehearsed_when: Path) -> None:
+    running = start(kinds="rehearsing_kind:KIND")
+    eventually(lambda: said(running, "rehearsal_began"), "it rehearses")
+    job = running.submit(picture)
+    eventually(lambda: running.processes("worker.rehearsal") != [], "it is at it")
+    figures = running.client.get("/metrics").text
+    assert re.search(r'galatea_queue_messages\{kind="tiny"\} 1\.0', figures), "as many messages as jobs: none is lost"
+    rehearsed_when.touch()
+    running.until(job["id"], "succeeded")
+    assert not said(running, "messages_lost")
+
+
+def test_it_is_not_done_again_for_another_data_folder(start: Start, tmp_path: Path, rehearsed_when: Path) -> None:
+    rehearsed_when.touch()
+    first = start(kinds="rehearsing_kind:KIND")
+    eventually(lambda: first.processes("worker.child") != [], "it is ready")
+    second = start(data_dir=tmp_path / "another", kinds="rehearsing_kind:KIND")
+    eventually(lambda: second.processes("worker.child") != [], "it is ready")
+    assert said(first, "rehearsal_ended") and not said(second, "rehearsal_began")
+
+
+def test_a_worker_that_rehearses_ends_when_it_is_told_to(start: Start, rehearsed_when: Path) -> None:
+    running = start(kinds="rehearsing_kind:KIND")
+    eventually(lambda: running.processes("worker.rehearsal") != [], "it rehearses")
+    (worker,) = running.processes("shell.main worker")
+    (rehearsal,) = running.processes("worker.rehearsal")
+    running.stop()
+    assert not worker.is_running() and not rehearsal.is_running()
+    assert not said(running, "program_killed")
