@@ -1,6 +1,6 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
-import { complaints, faceless, launch, LONG, open, order, portrait } from './page';
+import { complaints, faceless, launch, LONG, open, openRunning, order, portrait } from './page';
 
 let browser: Browser;
 let done: string;
@@ -16,7 +16,7 @@ afterEach(async () => {
 
 describe('a job that succeeds', () => {
   it('shows its stages and a first impression on the way, then the result beside the performance', async () => {
-    const page = await open(browser, `#/jobs/${done}`);
+    const page = await openRunning(browser);
     await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: LONG });
     await page.getByRole('img', { name: 'A first frame of the result' }).waitFor();
     expect(await page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
@@ -110,7 +110,7 @@ describe('a job that does not', () => {
   });
 
   it('is canceled at a click', async () => {
-    const page = await open(browser, `#/jobs/${await order(portrait, 'surprise')}`);
+    const page = await openRunning(browser);
     await page.getByRole('button', { name: 'Cancel' }).click();
     await page.getByText('This job was stopped before it was done').waitFor({ timeout: 10_000 });
   });
@@ -135,8 +135,7 @@ describe('a job that does not', () => {
 
 describe('a broken line', () => {
   it('is told, and mends itself', async () => {
-    const id = await order(portrait, 'idle');
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await openRunning(browser);
     await page.getByRole('button', { name: 'Cancel' }).waitFor();
     await page.context().setOffline(true);
     await page.evaluate(() => dispatchEvent(new Event('offline')));

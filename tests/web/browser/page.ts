@@ -1,7 +1,8 @@
 /** What the browser tests share: a browser, real media, and a job that was ordered over the API. */
 
 import { execFileSync } from 'node:child_process';
-import { existsSync, readFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { type Browser, chromium, type Page } from 'playwright-core';
 import { expect, inject } from 'vitest';
@@ -66,8 +67,45 @@ export async function played(page: Page): Promise<void> {
 }
 
 /** Order a portrait over the API, as any other client would; the job's id. */
-export const order = (image: string, driver: string | null, options: object = {}): Promise<string> =>
+export const order = (image: string, driver: string | File | null, options: object = {}): Promise<string> =>
   submit('portrait', { image: picture(image), ...(driver !== null && { driver }) }, options);
+
+/**
+ * The page of a job that takes a while, opened while the job waits or has just begun: what it shows on the way can be
+ * watched, however fast the machine is.
+ */
+export async function openRunning(browser: Browser): Promise<Page> {
+  const page = await open(browser);
+  await page.getByRole('radio').first().waitFor({ state: 'attached' });
+  const job = await order(portrait, lengthyPerformance());
+  await page.evaluate((id) => (location.hash = `#/jobs/${id}`), job);
+  return page;
+}
+
+/** A driver of twenty seconds: a performance of the project's own, five times over. */
+function lengthyPerformance(): File {
+  const path = join(mkdtempSync(join(tmpdir(), 'galatea-')), 'lengthy.mp4');
+  inPython(
+    `
+import sys
+import av
+from engine.performances.catalogue import video
+with av.open(str(video("happy"))) as source, av.open(sys.argv[1], "w") as target:
+    stream = target.add_stream_from_template(source.streams.video[0])
+    packets = [packet for packet in source.demux(video=0) if packet.dts is not None]
+    length = source.streams.video[0].duration
+    for packet in packets:
+        packet.stream = stream
+    for _ in range(5):
+        target.mux(packets)
+        for packet in packets:
+            packet.pts += length
+            packet.dts += length
+`,
+    path,
+  );
+  return picture(path);
+}
 
 /** Order a character likewise. */
 export const orderCharacter = (photo: string, options: object = {}): Promise<string> =>
