@@ -1,13 +1,24 @@
 """Loops compiled by numba: kept between processes, and loaded there without all that only compiling needs."""
 
+# ruff: noqa: E402 - what numba is not to load is hidden before it is loaded
+
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import Any
 
+UNUSED = [name for name in ("coverage", "yaml") if name not in sys.modules]
+"""What numba loads only because it is there; its settings come from the environment here, not from a file."""
+
+for name in UNUSED:
+    sys.modules[name] = None  # type: ignore[assignment]
 import numba
 from numba.core.caching import FunctionCache
 from numba.core.runtime.nrt import rtsys
+
+for name in UNUSED:
+    del sys.modules[name]
 
 
 def njit(**flags: Any) -> Callable[[Callable[..., Any]], Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import sys
 
 import click
 
@@ -13,8 +14,8 @@ import engine
 os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
 """Threads of linear algebra sleep between products. By default they spin for a tenth of a second, on a core that
 somebody needs: asked for before NumPy is imported, for all that is started from here."""
-atexit.register(gc.freeze)
-"""Python looks for rubbish once more when it ends, in all that the numeric libraries hold: half a second for nothing."""
+os.environ.setdefault("OPENCV_THREAD_POOL_ACTIVE_WAIT_WORKER", "0")
+"""OpenCV's likewise: they would go on asking for work, and take from others what they ask with."""
 
 
 class Kinds(click.Group):
@@ -118,5 +119,25 @@ def doctor() -> None:
     raise SystemExit(examine())
 
 
+def run() -> None:
+    """`main` as a process of its own, which ends when its work is done and all that was to be left in order is: Python
+    would take apart every module and look for rubbish in what the numeric libraries hold, half a second for nothing."""
+    status: list[int] = []
+    atexit.register(lambda: _leave(status))  # the first to be registered is the last to be called
+    try:
+        main()
+    except SystemExit as end:
+        status.append(end.code if isinstance(end.code, int) else int(end.code is not None))
+        raise
+
+
+def _leave(status: list[int]) -> None:
+    """End the process with the `status` that it meant to end with; without one it broke off, and ends as any other."""
+    for stream in sys.stdout, sys.stderr:
+        stream.flush()
+    if status:
+        os._exit(status[0])
+
+
 if __name__ == "__main__":
-    main()
+    run()

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageCms, ImageOps, UnidentifiedImageError
+from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
 from engine.media.limits import Limits
@@ -139,6 +139,8 @@ def _to_srgb(image: Image.Image) -> tuple[np.ndarray, np.ndarray | None]:
 
 
 def _apply_profile(image: Image.Image, profile: bytes) -> Image.Image:
+    from PIL import ImageCms  # few pictures need it
+
     try:
         source = ImageCms.ImageCmsProfile(io.BytesIO(profile))
         converted = ImageCms.profileToProfile(image, source, ImageCms.createProfile("sRGB"), outputMode="RGB")
