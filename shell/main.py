@@ -34,8 +34,10 @@ class Kinds(click.Group):
         gc.set_threshold(20_000, 20, 20)  # not after 700 new objects: the numeric libraries make many that stay
         from service.kinds.registry import load_kinds
         from service.settings import Settings
+        from shell.allocation import keep_memory
         from shell.kind_command import kind_command
 
+        keep_memory()
         kind = load_kinds(Settings().kinds).get(name)
         return kind_command(kind) if kind is not None else None
 

@@ -8,8 +8,10 @@ melding", SIGGRAPH 2012), so that a gradually lit wall can be continued from a d
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
+from typing import Any
 
 import cv2
 import numpy as np
@@ -150,36 +152,34 @@ def match_patches(
 
     `planes` (`colour_planes`) hold the present guess inside the hole; `weight` (H, W) is how much each
     pixel counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
-    Large pictures are matched in bands side by side; the same ones on every machine, so that the result is too.
     """
-    so_far = np.cumsum(targets.sum(axis=1))
-    bands = int(np.clip(so_far[-1] // BAND, 1, MOST_BANDS))
-    cuts = [0, *(int(np.searchsorted(so_far, so_far[-1] * k / bands)) for k in range(1, bands)), len(targets)]
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        work = [
-            pool.submit(
-                _match_band, planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom
-            )
-            for top, bottom in pairwise(cuts)
-        ]
-        for band in work:
-            band.result()
+    given = planes, weight, targets, sources, field, cost, sweeps, random_tries, seed
+    _side_by_side(_match_band, given, _bands(targets))
 
 
-@njit(fastmath=True, nogil=True)
-def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type: ignore[no-untyped-def]
+def vote(
+    planes: NDArray[np.float32], weight: NDArray[np.float32], hole: NDArray[np.bool_], targets: NDArray[np.bool_],
+    field: NDArray[np.int32], cost: NDArray[np.float32], sharpness: float, result: NDArray[np.float32],
+) -> None:  # fmt: skip
     """Each pixel of `hole` becomes the mean of what the patches over it say, the better ones counting more.
 
     `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 hardly any but the
     best counts, which keeps grain and fine texture that a mean would wash out. `result` (H, W, 3) float32
     is written inside the hole only.
     """
-    height, width = cost.shape
-    shift = np.zeros((height, width, 3), np.float32)
-    trust = np.zeros((height, width), np.float32)
+    shift = np.zeros((*cost.shape, 3), np.float32)
+    trust = np.zeros(cost.shape, np.float32)
+    bands = _bands(targets)
+    _side_by_side(_weigh_band, (planes, weight, targets, field, cost, sharpness, shift, trust), bands)
+    _side_by_side(_vote_band, (planes, hole, field, sharpness, shift, trust, result), bands)
+
+
+@njit(fastmath=True, nogil=True)
+def _weigh_band(planes, weight, targets, field, cost, sharpness, shift, trust, top, bottom):  # type: ignore[no-untyped-def]
+    """Each patch's colour `shift` and its `trust`."""
     target = np.zeros((4, SIDE, 8), np.float32)
-    for y in range(height):
-        for x in range(width):
+    for y in range(top, bottom):
+        for x in range(cost.shape[1]):
             if targets[y, x]:
                 mass = take_target(planes, weight, y, x, target)
                 shift[y, x] = patch_shift(planes, target, mass, field[y, x, 0], field[y, x, 1])
@@ -187,7 +187,12 @@ def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type
                     trust[y, x] = mass * np.exp(-cost[y, x] / sharpness) + np.float32(1e-6)
                 else:
                     trust[y, x] = 1 / (np.float32(1) + cost[y, x])
-    for y in range(height):
+
+
+@njit(fastmath=True, nogil=True)
+def _vote_band(planes, hole, field, sharpness, shift, trust, result, top, bottom):  # type: ignore[no-untyped-def]
+    height, width = trust.shape
+    for y in range(top, bottom):
         for x in range(width):
             if not hole[y, x]:
                 continue
@@ -214,6 +219,21 @@ def vote(planes, weight, hole, targets, field, cost, sharpness, result):  # type
                 result[y, x, 0] = min(max(s0 / mass, 0.0), 255.0)
                 result[y, x, 1] = min(max(s1 / mass, 0.0), 255.0)
                 result[y, x, 2] = min(max(s2 / mass, 0.0), 255.0)
+
+
+def _bands(targets: NDArray[np.bool_]) -> list[int]:
+    """Rows between which large pictures are worked on side by side; the same ones on every machine, so that the result
+    is too."""
+    so_far = np.cumsum(targets.sum(axis=1))
+    bands = int(np.clip(so_far[-1] // BAND, 1, MOST_BANDS))
+    return [0, *(int(np.searchsorted(so_far, so_far[-1] * k / bands)) for k in range(1, bands)), len(targets)]
+
+
+def _side_by_side(function: Callable[..., None], given: tuple[Any, ...], cuts: list[int]) -> None:
+    """Call the function with what is `given` and the two rows that bound each band."""
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for band in [pool.submit(function, *given, top, bottom) for top, bottom in pairwise(cuts)]:
+            band.result()
 
 
 def valid_centres(usable: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -114,40 +114,52 @@ def _discretise(distance, values, step, links, inverse, right):  # type: ignore[
 
 
 @njit(fastmath=True, nogil=True)
-def _relax(u, right, links, inverse, sweeps):  # type: ignore[no-untyped-def]
+def _runs(inverse):  # type: ignore[no-untyped-def]
+    """(R, 3) int32: row, first column and the column after the last of each stretch where there is something to find."""
+    height, width = inverse.shape
+    found = np.empty((height * (width // 2 + 1), 3), np.int32)
+    count = 0
+    for y in range(1, height - 1):
+        for x in range(1, width - 1):
+            if inverse[y, x] == 0:
+                continue
+            if inverse[y, x - 1] == 0:
+                found[count, 0], found[count, 1] = y, x
+                count += 1
+            found[count - 1, 2] = x + 1
+    return found[:count].copy()
+
+
+@njit(fastmath=True, nogil=True)
+def _relax(u, right, links, inverse, runs, sweeps):  # type: ignore[no-untyped-def]
     """Red-black Gauss-Seidel in place."""
-    height, width, channels = u.shape
     for half in range(2 * sweeps):
-        for y in range(1, height - 1):
-            for x in range(1 + (y + half) % 2, width - 1, 2):
+        for run in range(len(runs)):
+            y, first, end = runs[run]
+            for x in range(first + (first + 1 + y + half) % 2, end, 2):
                 scale = inverse[y, x]
-                if scale == 0:
-                    continue
                 a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
-                for k in range(channels):
+                for k in range(u.shape[2]):
                     total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
                     u[y, x, k] = (right[y, x, k] + total) * scale
 
 
 @njit(fastmath=True, nogil=True)
-def _restrict_residual(u, right, links, inverse, residual, coarse, coarse_inverse):  # type: ignore[no-untyped-def]
+def _restrict_residual(u, right, links, inverse, runs, residual, coarse, coarse_runs):  # type: ignore[no-untyped-def]
     """The coarse grid's right side: the residual, fully weighted (4 fine pixels stand in a coarse one)."""
-    height, width, channels = u.shape
-    for y in range(1, height - 1):
-        for x in range(1, width - 1):
+    for run in range(len(runs)):
+        y, first, end = runs[run]
+        for x in range(first, end):
             scale = inverse[y, x]
-            if scale == 0:
-                continue
             a, b, c, d = links[y, x, 0], links[y, x, 1], links[y, x, 2], links[y, x, 3]
-            for k in range(channels):
+            for k in range(u.shape[2]):
                 total = a * u[y - 1, x, k] + b * u[y + 1, x, k] + c * u[y, x - 1, k] + d * u[y, x + 1, k]
                 residual[y, x, k] = right[y, x, k] + total - u[y, x, k] / scale
-    for y in range(1, coarse.shape[0] - 1):
-        for x in range(1, coarse.shape[1] - 1):
-            if coarse_inverse[y, x] == 0:
-                continue
+    for run in range(len(coarse_runs)):
+        y, first, end = coarse_runs[run]
+        for x in range(first, end):
             fy, fx = 2 * y - 1, 2 * x - 1
-            for k in range(channels):
+            for k in range(u.shape[2]):
                 sides = residual[fy - 1, fx, k] + residual[fy + 1, fx, k]
                 sides += residual[fy, fx - 1, k] + residual[fy, fx + 1, k]
                 corners = residual[fy - 1, fx - 1, k] + residual[fy - 1, fx + 1, k]
@@ -156,35 +168,35 @@ def _restrict_residual(u, right, links, inverse, residual, coarse, coarse_invers
 
 
 @njit(fastmath=True, nogil=True)
-def _add_interpolated(coarse, u, inverse):  # type: ignore[no-untyped-def]
+def _add_interpolated(coarse, u, runs):  # type: ignore[no-untyped-def]
     """Add the coarse grid's correction, bilinearly; outside the mask it is 0."""
-    height, width, channels = u.shape
-    for y in range(1, height - 1):
-        for x in range(1, width - 1):
-            if inverse[y, x] == 0:
-                continue
-            cy, cx = (y + 1) // 2, (x + 1) // 2
-            ny, nx = cy + (y + 1) % 2, cx + (x + 1) % 2
-            for k in range(channels):
+    for run in range(len(runs)):
+        y, first, end = runs[run]
+        cy = (y + 1) // 2
+        ny = cy + (y + 1) % 2
+        for x in range(first, end):
+            cx = (x + 1) // 2
+            nx = cx + (x + 1) % 2
+            for k in range(u.shape[2]):
                 total = coarse[cy, cx, k] + coarse[ny, cx, k] + coarse[cy, nx, k] + coarse[ny, nx, k]
                 u[y, x, k] += np.float32(0.25) * total
 
 
 @njit(fastmath=True, nogil=True)
-def _start_from(coarse, coarse_inverse, u, right, inverse):  # type: ignore[no-untyped-def]
+def _start_from(coarse, coarse_inverse, u, right, inverse, runs):  # type: ignore[no-untyped-def]
     """A first guess from the coarse solution: the mean of the coarse pixels around that lie in the mask,
     or what the edge alone says where there are none."""
-    height, width, channels = u.shape
-    for y in range(1, height - 1):
-        for x in range(1, width - 1):
-            if inverse[y, x] == 0:
-                continue
-            cy, cx = (y + 1) // 2, (x + 1) // 2
-            ny, nx = cy + (y + 1) % 2, cx + (x + 1) % 2
+    for run in range(len(runs)):
+        y, first, end = runs[run]
+        cy = (y + 1) // 2
+        ny = cy + (y + 1) % 2
+        for x in range(first, end):
+            cx = (x + 1) // 2
+            nx = cx + (x + 1) % 2
             a, b = coarse_inverse[cy, cx] != 0, coarse_inverse[ny, cx] != 0
             c, d = coarse_inverse[cy, nx] != 0, coarse_inverse[ny, nx] != 0
             count = a + b + c + d
-            for k in range(channels):
+            for k in range(u.shape[2]):
                 if count == 0:
                     u[y, x, k] = right[y, x, k] * inverse[y, x]
                 else:
@@ -217,32 +229,34 @@ def _solve(values, force, mask, cycles):  # type: ignore[no-untyped-def]
         own.append(coarser_own)
         links.append(coarser_links)
         inverse.append(coarser)
+    runs = [_runs(level) for level in inverse]
     right = [np.zeros_like(level) for level in own]
     residual = [np.zeros_like(level) for level in own]
     last = len(u) - 1
-    _relax(u[last], own[last], links[last], inverse[last], 20)
+    _relax(u[last], own[last], links[last], inverse[last], runs[last], 20)
     for first in range(last, -1, -1):
         if first < last:
-            _start_from(u[first + 1], inverse[first + 1], u[first], own[first], inverse[first])
+            _start_from(u[first + 1], inverse[first + 1], u[first], own[first], inverse[first], runs[first])
         right[first][:] = own[first]
         for _ in range(cycles if first == 0 else 1):
             for level in range(first, last):
                 if level > first:
                     u[level][:] = 0
-                _relax(u[level], right[level], links[level], inverse[level], 1)
+                _relax(u[level], right[level], links[level], inverse[level], runs[level], 1)
                 _restrict_residual(
                     u[level],
                     right[level],
                     links[level],
                     inverse[level],
+                    runs[level],
                     residual[level],
                     right[level + 1],
-                    inverse[level + 1],
+                    runs[level + 1],
                 )
             if last > first:
                 u[last][:] = 0
-            _relax(u[last], right[last], links[last], inverse[last], 20)
+            _relax(u[last], right[last], links[last], inverse[last], runs[last], 20)
             for level in range(last - 1, first - 1, -1):
-                _add_interpolated(u[level + 1], u[level], inverse[level])
-                _relax(u[level], right[level], links[level], inverse[level], 1)
+                _add_interpolated(u[level + 1], u[level], runs[level])
+                _relax(u[level], right[level], links[level], inverse[level], runs[level], 1)
     return u[0][1:-1, 1:-1].copy()
