@@ -24,16 +24,17 @@ def anger(t: float) -> Pose:
 
 
 def anger_strong(t: float) -> Pose:
-    """Rage: the lips part over clenched teeth, the nose is wrinkled, the head trembles."""
+    """Rage: a glare, the lips square over both rows of teeth, the nose wrinkled, the head trembles."""
     units: Units = {}
     bared = swell(t, 0.62, 1.05, 1.75, 2.40, sag=0.12)
     hold = _glare(units, t, force=1.08, pursed=1 - 0.85 * bared)
-    both(units, "noseSneer", 0.55 * bared)
-    both(units, "mouthUpperUp", 0.46 * bared)
-    both(units, "mouthLowerDown", 0.62 * bared)
-    both(units, "mouthStretch", 0.42 * bared)
+    both(units, "eyeWide", 0.40 * bared)  # a glare: without it a bared mouth is one of disgust
+    both(units, "noseSneer", 0.30 * bared)
+    both(units, "mouthUpperUp", 0.45 * bared)
+    both(units, "mouthLowerDown", 1.00 * bared)
+    both(units, "mouthStretch", 0.45 * bared)
     both(units, "mouthFrown", 0.12 * bared)
-    add(units, "jawOpen", 0.05 * bared)
+    add(units, "jawOpen", 0.18 * bared)
     lids(units, blink(t, 0.16, depth=0.9) + blink(t, 2.16), lead=0.02)
     tremble = (0.0, 0.0, 0.28 * bared)
     head = turned((4.6 * hold, 2.2 * hold, -1.4 * hold), stirring(t, 211, performance("anger-strong").seconds, 0.7))
