@@ -55,3 +55,8 @@ def test_a_process_that_loaded_one_still_compiles_for_other_types(run) -> None:
     run(USE)
     assert run(OTHERWISE) == ["45.0", "True", "False", "45", "3.0"]
     assert run(OTHERWISE) == ["45.0", "True", "False", "45", "3.0"]
+
+
+def test_what_numba_has_no_use_for_is_not_loaded_and_can_be_afterwards(run) -> None:
+    assert run("import sys, engine.compiled; print('coverage' in sys.modules or 'yaml' in sys.modules)") == ["False"]
+    assert run("import engine.compiled, yaml; print(yaml.safe_load('1'))") == ["1"]
