@@ -46,6 +46,9 @@ SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
 HEAD_FROM, HEAD_TO = 1.2, 4.5
 """The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
+SOFT_EDGE = (0.5, 1.5)
+"""Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
+surely its own."""
 SLIVER = 5
 """Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
 NEARBY = 0.04
@@ -112,7 +115,7 @@ def paint_tiles(
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
-    apart = _filled(seen, _enlarged(limbs_reach & ~limbs, size), own & around) if limbs.any() else seen
+    apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
     if oval is not None and (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
         hands, skin = _enlarged(near & ~limbs, size), _ellipse(oval, own.shape) & own
@@ -165,6 +168,17 @@ def _behind_the_limbs(
     for part in (head, leg, ~head & ~leg):
         body = _filled(body, limbs & own & part, shown & part)
     return continued_colours(body, own)
+
+
+def _of_the_limbs(
+    seen: NDArray[np.uint8], own: NDArray[np.bool_], hole: NDArray[np.bool_], scale: float
+) -> NDArray[np.uint8]:
+    """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
+    colours of their inside; and the `hole` behind other limbs filled from it."""
+    inside = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1] / scale
+    deep = inside > SOFT_EDGE[1]
+    around = continued_colours(seen, deep if deep.any() else own)
+    return _filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
 
 
 def joined_at_the_outline(

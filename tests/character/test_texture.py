@@ -63,6 +63,14 @@ def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     )
 
 
+def test_beside_an_arm_its_surface_has_the_arms_colours_and_not_those_behind() -> None:
+    """A surface that is made on the grid may end a pixel beyond the picture's edge: above and below the arm is the dress."""
+    tiles, _ = painted()
+    for rows in (slice(137, 140), slice(165, 168)):
+        assert np.abs(tiles.limbs[rows, 45:95].astype(int) - SKIN).max() <= 1
+        np.testing.assert_array_equal(tiles.body[rows, 45:95], person()[0][rows, 45:95])
+
+
 def test_a_hand_in_a_pocket_is_of_the_faces_colour() -> None:
     tiles, labels = painted(hand=(100, 114))
     assert (tiles.limbs[140:165, 101:114] == SKIN).all()
