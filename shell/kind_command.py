@@ -26,6 +26,7 @@ from service.kinds.unknown_options import explained
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced
+from shell.option_flags import flag_of, given_options, option_flags
 from shell.settings import read_settings
 
 EXAMPLE = """'{"fps": 24}'"""
@@ -35,7 +36,10 @@ def kind_command(kind: Kind) -> click.Command:
     """The command that runs a job kind."""
     out = click.Option(["-o", "--out"], required=True, metavar="DIR", help="Where the results go; made if needed.")
     options = click.Option(
-        ["--options"], metavar="JSON|@FILE", default="{}", help="The options, as the API takes them."
+        ["--options"],
+        metavar="JSON|@FILE",
+        default="{}",
+        help="Options as the API takes them; what flags say counts more.",
     )
 
     def command(out: str, options: str, **given: Any) -> None:
@@ -43,7 +47,7 @@ def kind_command(kind: Kind) -> click.Command:
         named = {item.named_by: name for item in kind.inputs if item.named_by and (name := _name(given[item.name]))}
         files = {item.name: None if item.named_by in named else given[item.name] for item in kind.inputs}
         inputs = {item.name: found for item in kind.inputs if (found := _input(item, files[item.name])) is not None}
-        chosen = _options(kind, options, named)
+        chosen = _options(kind, options, given, named)
         for item in kind.inputs:
             if item.needed(chosen) and item.name not in inputs:
                 raise Complaint(f"{item.name} is missing, --{item.name.replace('_', '-')}: {item.description}")
@@ -51,7 +55,9 @@ def kind_command(kind: Kind) -> click.Command:
 
     alone = len(kind.inputs) == 1
     parameters = [_parameter(item, place, alone) for place, item in enumerate(kind.inputs)]
-    return click.Command(kind.name, params=[*parameters, out, options], callback=command, help=kind.summary)
+    taken = {item.name for item in kind.inputs} | {item.named_by for item in kind.inputs if item.named_by}
+    flags = option_flags(kind.options, taken)
+    return click.Command(kind.name, params=[*parameters, out, *flags, options], callback=command, help=kind.summary)
 
 
 def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
@@ -86,18 +92,23 @@ def _name(given: str | None) -> str | None:
     return given if given is not None and not Path(given).is_file() and Path(given).name == given else None
 
 
-def _options(kind: Kind, text: str, named: Mapping[str, str]) -> BaseModel:
+def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str, str]) -> BaseModel:
+    """The options of which JSON, flags and the names of what is built in tell."""
+    flags: dict[str, Any] = {}
     try:
         if text.startswith("@"):
             text = Path(text[1:]).read_text()
         asked = json.loads(text)
-        return kind.options.model_validate({**asked, **named} if isinstance(asked, dict) else asked)
+        flags = given_options(kind.options, given)
+        return kind.options.model_validate({**asked, **flags, **named} if isinstance(asked, dict) else asked)
     except OSError as error:
-        raise Complaint(f"--options: {text[1:]} cannot be read: {error.strerror}") from error
+        raise Complaint(f"--options: {error.filename} cannot be read: {error.strerror}") from error
     except ValidationError as error:
         first = explained(error.errors(), kind.options)[0]
-        place = ".".join(str(part) for part in first["loc"])
-        raise Complaint(f"--options: {place or 'the whole'}: {first['msg']}") from error
+        place = [str(part) for part in first["loc"]]
+        if place and place[0] in flags:
+            raise Complaint(f"{flag_of(place[0])}: {first['msg']}") from error
+        raise Complaint(f"--options: {'.'.join(place) or 'the whole'}: {first['msg']}") from error
     except ValueError as error:
         raise Complaint(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error
 

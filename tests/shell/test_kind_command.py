@@ -60,6 +60,14 @@ def test_files_that_correct_are_options(tmp_path: Path, environment: dict[str, s
     assert "--mask IMAGE" in shown and "--labels IMAGE" in shown
 
 
+def test_options_are_flags_and_these_count_more(tmp_path: Path, environment: dict[str, str]) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    order = ("tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", '{"seconds": 60}')
+    assert galatea(environment, *order, "--seconds", "0.1").returncode == 0
+    ended = galatea(environment, *order, "--seconds", "soon")
+    assert ended.returncode == 2 and ended.stderr.startswith("Error: --seconds: "), ended.stderr
+
+
 def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
     (tmp_path / "options.json").write_text('{"crash": "refuse"}')
