@@ -14,6 +14,7 @@ from engine.imaging.matting import estimate_layers, reconcile_with_plate
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.models import MattingModel
 from engine.perception.person import person_mask
+from engine.portrait.bystanders import own_share
 from engine.portrait.target import TargetFace, over_grey
 
 CUT_OUT = 0.01
@@ -34,13 +35,17 @@ class Layers:
 
 
 def separate_layers(target: TargetFace, model: MattingModel | None = None, model_hash: str | None = None) -> Layers:
-    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds).
+    """Cut the person out, and fill in the background behind (the paper's limit: bending backgrounds). Who else is in the
+    picture is background.
 
     `model` is a matting network of the operator's, if there is one, and `model_hash` its SHA-256.
     """
     seed = np.zeros(target.rgb.shape[:2], np.float32)
     cv2.fillConvexPoly(seed, target.mesh[list(FACE_OVAL), :2].round().astype(np.int32), 1.0)
     alpha = person_mask(target.rgb, seed=seed, alpha=target.alpha, model=model, people=target.people)
+    face, others = target.face_boxes()
+    if len(others):
+        alpha = alpha * own_share(target.rgb, alpha, face, others)
     if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
         person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
         return Layers(person, np.full_like(target.rgb, 255), transparent=True)
