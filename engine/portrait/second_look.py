@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from threading import local
 
@@ -129,14 +130,15 @@ def _see(
     """(count, 478, 2) the face on each of the pictures, seen by itself; NaN where there is none."""
     own = local()
     faces = np.empty((count, MESH_SIZE, 2), np.float32)
+    # Left in this order: no thread looks any more when the trackers are closed.
+    with ExitStack() as trackers, ThreadPoolExecutor(threads, thread_name_prefix="look") as pool:
 
-    def seen(k: int) -> NDArray[np.float32]:
-        if not hasattr(own, "tracker"):
-            own.tracker = FaceTracker(alone=True)
-        found = own.tracker(picture(k))
-        return found[0][:, :2] if found else np.full((MESH_SIZE, 2), np.nan, np.float32)
+        def seen(k: int) -> NDArray[np.float32]:
+            if not hasattr(own, "tracker"):
+                own.tracker = trackers.enter_context(FaceTracker(alone=True))
+            found = own.tracker(picture(k))
+            return found[0][:, :2] if found else np.full((MESH_SIZE, 2), np.nan, np.float32)
 
-    with ThreadPoolExecutor(threads, thread_name_prefix="look") as pool:
         for k, face in enumerate(pool.map(seen, range(count))):
             faces[k] = face
             tick((k + 1) / count)
