@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.performances import video
 from engine.perception.faces import find_faces
 from engine.portrait import animate
 from engine.portrait.bystanders import own_share
