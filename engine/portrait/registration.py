@@ -39,8 +39,9 @@ UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
 SMOOTHING = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
-LARGEST = 8.0
-"""Pixels of the crop; a larger rest is a misfit of the flow."""
+BELIEVED, LARGEST = 2.0, 8.0
+"""Pixels of the crop up to which the measured rest is believed, and from which on it is a misfit of the flow. Between them
+belief fades: cut off at once, a rest that noise takes past the limit and back would make the skin jump."""
 LIGHT = 20.0
 """Pixels over which the light of the two frames is made equal first."""
 RIM = 0.35
@@ -82,8 +83,8 @@ def register_track(
         half = cv2.resize(own.flow.calc(reference, aligned, None), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
         left = cv2.GaussianBlur(half, (0, 0), SMOOTHING / 2)
         at = cv2.remap(left, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
-        size = np.linalg.norm(at, axis=1, keepdims=True)
-        at *= np.where(size < LARGEST, 1, 0)
+        doubt = np.clip((np.linalg.norm(at, axis=1, keepdims=True) - BELIEVED) / (LARGEST - BELIEVED), 0, 1)
+        at *= 1 - doubt * doubt * (3 - 2 * doubt)
         offset = np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
         return offset, eye_contrast(grey, face, rest)
 
