@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures docs licences clean
+.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures docs licences clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
@@ -13,11 +13,13 @@ help:  ## this list
 setup:  ## install into .venv/, build web/dist/ and the player of reactive profiles
 	@scripts/setup.sh
 
+tools:  ## what tests, documents and benchmarks need beside it, too
+	@scripts/setup.sh --for-tests
+
 demo: setup  ## a portrait brought to life through the HTTP API; ONCE=1, IMAGE=..., DRIVER=...
 	@$(BIN)/python scripts/demo.py $(if $(IMAGE),--image "$(IMAGE)") $(if $(DRIVER),--driver "$(DRIVER)") $(if $(ONCE),--once)
 
-test:  ## every check, each even if an earlier one failed
-	@scripts/setup.sh --for-tests
+test: tools  ## every check, each even if an earlier one failed
 	@scripts/test.sh
 
 lint:  ## ruff: lint and format
@@ -49,10 +51,10 @@ web-browser:
 client:  ## the page's types anew from the service's OpenAPI document
 	@cd web && npm run --silent client
 
-lock:  ## resolve the dependencies anew into requirements.lock and web/package-lock.json
+lock:  ## resolve the dependencies anew into requirements.lock, requirements-dev.lock and web/package-lock.json
 	@scripts/lock.sh
 
-bench:  ## the figures of the README
+bench: tools  ## the figures of the README
 	@$(BIN)/python -m benchmarks.portrait
 
 picture: setup  ## the README's picture
@@ -64,7 +66,7 @@ pictures: setup  ## the pictures of docs/method.md
 licences:  ## docs/packages.md, from the installed packages
 	@$(BIN)/python -m scripts.licences
 
-docs:  ## the documentation as a site, in site/
+docs: tools  ## the documentation as a site, in site/
 	@scripts/docs.sh
 
 clean:  ## remove what can be made again (keeps .venv and node_modules)

@@ -12,6 +12,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parent.parent
+LOCKS = (ROOT / "requirements.lock", ROOT / "requirements-dev.lock")
 OUT = ROOT / "docs" / "packages.md"
 
 SAID_HERE = {
@@ -74,7 +75,7 @@ def page() -> str:
     ]
     for title, wanted in (("That run", True), ("For tests, documents and development", False)):
         lines += ["", f"## {title}", "", "| package | licence |", "| --- | --- |"]
-        lines += [f"| {name} | {licence(name)} |" for name in locked() if (name in needed) is wanted]
+        lines += [f"| {name} | {licence(name)} |" for name in locked(*LOCKS) if (name in needed) is wanted]
     lines += ["", "## Native libraries inside wheels", "", "| package | library | licence |", "| --- | --- | --- |"]
     lines += [f"| {package} | {library} | {NATIVE[library]} |" for package, library in native()]
     lines += [
@@ -86,9 +87,9 @@ def page() -> str:
     return "\n".join(lines) + "\n"
 
 
-def locked() -> list[str]:
-    """The packages of requirements.lock that are installed."""
-    names = re.findall(r"(?m)^([A-Za-z0-9_.-]+)==", (ROOT / "requirements.lock").read_text())
+def locked(*locks: Path) -> list[str]:
+    """The packages of these lock files that are installed."""
+    names = re.findall(r"(?m)^([A-Za-z0-9_.-]+)==", "\n".join(lock.read_text() for lock in locks))
     return sorted({_plain(name) for name in names if _installed(name)})
 
 

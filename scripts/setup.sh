@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs Galatea into this checkout: .venv/ from requirements.lock, web/dist/ from web/package-lock.json.
+# Installs Galatea into this checkout: .venv/ from requirements.lock, web/dist/ from web/package-lock.json. With
+# --for-tests also requirements-dev.lock and what tests need of Debian.
 # Runs again at no cost: each step is skipped while the files that it depends on are unchanged.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -43,15 +44,18 @@ create_environment() {
 unchanged() { [ -f "$1" ] && [ "$(cat "$1")" = "$2" ]; }
 fingerprint() { cat "$@" | sha256sum | cut -d' ' -f1; }
 
+# install_python LOCK...: the packages of these locks, and the project itself.
 install_python() {
-  local stamp=.venv/.installed key
+  local stamp=.venv/.installed key lock
   [ -x .venv/bin/python ] || create_environment
-  key=$(.venv/bin/python --version | cat - requirements.lock pyproject.toml | sha256sum | cut -d' ' -f1)
+  key=$(.venv/bin/python --version | cat - "$@" pyproject.toml | sha256sum | cut -d' ' -f1)
   unchanged "$stamp" "$key" && [ -x .venv/bin/galatea ] && return
   local pip=(.venv/bin/python -m pip --disable-pip-version-check)
   [ -t 1 ] || pip+=(--quiet --quiet)
-  say "Installing Python packages (about 700 MB, a few minutes the first time)"
-  "${pip[@]}" install --no-deps --require-hashes -r requirements.lock
+  for lock in "$@"; do
+    say "Installing the packages of $lock"
+    "${pip[@]}" install --no-deps --require-hashes -r "$lock"
+  done
   "${pip[@]}" install --no-deps --no-build-isolation --editable .
   echo "$key" > "$stamp"
 }
@@ -105,7 +109,10 @@ install_test_tools() {
   [ -n "${GALATEA_CHROMIUM:-}" ] || command -v chromium >/dev/null || install_debian chromium fonts-dejavu-core
 }
 
-install_python
+locks=(requirements.lock)
+# What is installed for tests is kept up to date by whoever runs the demo next: one environment serves both.
+if [ "${1:-}" = --for-tests ] || [ -x .venv/bin/pytest ]; then locks+=(requirements-dev.lock); fi
+install_python "${locks[@]}"
 build_web
 build_player
 if [ "${1:-}" = --for-tests ]; then install_test_tools; fi

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
+LOCKS = (ROOT / "requirements.lock", ROOT / "requirements-dev.lock")
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 
 
@@ -19,15 +20,23 @@ def test_links_lead_somewhere(document: Path) -> None:
 
 
 def test_locks_hold_no_addresses() -> None:
-    assert "://" not in (ROOT / "requirements.lock").read_text()
+    assert [lock for lock in LOCKS if "://" in lock.read_text()] == []
     packages = json.loads((ROOT / "web" / "package-lock.json").read_text())["packages"]
     assert [name for name, entry in packages.items() if "resolved" in entry] == []
 
 
-def test_every_locked_package_has_a_hash() -> None:
-    lock = (ROOT / "requirements.lock").read_text()
-    entries = re.split(r"\n(?=\S)", re.sub(r"(?m)^\s*#.*\n?", "", lock).strip())
+@pytest.mark.parametrize("lock", LOCKS, ids=lambda path: path.name)
+def test_every_locked_package_has_a_hash(lock: Path) -> None:
+    entries = re.split(r"\n(?=\S)", lock.read_text().strip())
     assert [entry for entry in entries if "--hash=sha256:" not in entry] == []
+
+
+def test_what_runs_is_locked_without_what_tests_it() -> None:
+    from scripts.licences import locked, running
+
+    runs, tests = (locked(lock) for lock in LOCKS)
+    assert running() <= set(runs)
+    assert running() & set(tests) == set()
 
 
 def test_every_direct_dependency_is_in_the_list_of_licences() -> None:
@@ -46,7 +55,7 @@ def test_every_package_and_native_library_has_its_licence() -> None:
     from scripts.licences import NATIVE, licence, locked, native, running
 
     listed = (ROOT / "docs" / "packages.md").read_text()
-    names = locked()
+    names = locked(*LOCKS)
     assert len(names) > 100 and {"av", "numpy", "starlette"} <= running() and "pytest" not in running()
     for name in names:
         assert licence(name) and f"| {name} | " in listed, f"{name}: make licences"
