@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
@@ -20,11 +21,12 @@ from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.legs import cut_along, each_by_its_own
 from engine.character.occlusion import largest
-from engine.character.part_surface import part_surface, warp_part
+from engine.character.part_surface import Surface, part_surface, warp_part
 from engine.character.posed_template import PosedTemplate
-from engine.character.regions import Region, find_regions
+from engine.character.regions import LimbRegion, Region, find_regions
 from engine.character.sheets import Layer
 from engine.character.skirt_weights import moved_by_both
+from engine.character.solid_limb import solid_arms, solid_limb
 from engine.character.template_maps import weights_at
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
@@ -48,13 +50,20 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     if cloth:
         body = moved_by_both(drape(body, cloth), cloth, rig)
     layers = []
+    solid = solid_arms(template, rig)
     for one in limbs:
         own = labels.labels == one.limb
-        limb = hand_beneath(_layer(one, template, rig), body, labels.hidden == one.limb)
+        if one.limb in solid and not (labels.hidden == one.limb).any():
+            limb = _solid_layer(one, template, rig, own)
+        else:
+            limb = hand_beneath(_layer(one, template, rig), body, labels.hidden == one.limb)
         body = body_behind(body, limb, own)
         if one.limb in LEGS:
             body = body_within(body, limb, own & one.joint)
-        layers.append(overlap_beneath(limb_before(limb, body, own), body, own))
+        limb = limb_before(limb, body, own)
+        layers.append(
+            overlap_beneath(limb, body, own) if limb.solid is None else _solid_beneath(limb, body, own | ~one.joint)
+        )
     return [body, *layers]
 
 
@@ -88,3 +97,19 @@ def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None 
         for own, side in ((warp if face is None else with_face(warp, face), sides.front), (warp, sides.back))
     )
     return Layer(region.mask, front, back)
+
+
+def _solid_layer(one: LimbRegion, template: PosedTemplate, rig: Rig, own: NDArray[np.bool_]) -> Layer:
+    """A limb that is the template's, and the pixels that it covers."""
+    limb = solid_limb(one.triangles, one.mask, template, rig, own)
+    unused = np.zeros((*own.shape, 0), np.float32)
+    return Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused), solid=limb)
+
+
+def _solid_beneath(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
+    """A solid limb where its layer has come, and of its pixels that are not its `own` (h, w) the upper arm's beneath the body's
+    surface: nothing else of it overlaps with the body."""
+    assert limb.solid is not None
+    solid = limb.solid.moved(limb.front.depth, limb.back.depth, np.ones(len(limb.solid.vertices), np.bool_))
+    beneath = overlap_beneath(limb, body, own)
+    return replace(beneath, solid=solid.moved(beneath.front.depth, beneath.back.depth, solid.upper))

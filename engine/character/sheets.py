@@ -8,7 +8,7 @@ moves alike.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import cv2
 import numpy as np
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from engine.character.part_surface import Surface
+from engine.character.solid_limb import SolidLimb, places_on_the_picture
 from engine.render.rasteriser import rasterise
 
 INFLUENCES = 4
@@ -37,12 +38,13 @@ BORDER_SWEEPS = 3
 @dataclass(frozen=True)
 class Layer:
     """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8, if it is cut: where a 1 lies beside a 2 the
-    part is not joined (one leg and the other)."""
+    part is not joined (one leg and the other). `solid`: what the part is made of in place of a sheet."""
 
     mask: NDArray[np.bool_]
     front: Surface
     back: Surface
     cut: NDArray[np.int8] | None = None
+    solid: SolidLimb | None = None
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class ClosedMesh:
     the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
     it meets the front's colours and the back's.
     `rim` (V,) bool: on such a border. `layer` (V,) int: the part. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
-    summing to one.
+    summing to one. `places` (V, 2): the pixel whose colour a vertex takes, where that is not its own, x and y; else NaN.
     """
 
     vertices: NDArray[np.float64]
@@ -63,6 +65,7 @@ class ClosedMesh:
     layer: NDArray[np.intp]
     bones: NDArray[np.uint8]
     weights: NDArray[np.float32]
+    places: NDArray[np.float64]
 
     def pixels(self, vertices: NDArray[np.intp], shape: Sequence[int]) -> NDArray[np.bool_]:
         """The pixels (h, w) of the grid in which some of the vertices are, by index."""
@@ -93,6 +96,8 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
     z = [np.zeros(count), np.zeros(count)]
     weights = [np.zeros((count, layers[0].front.weights.shape[-1]), np.float32) for _ in range(2)]
     for k, layer in enumerate(layers):
+        if layer.solid is not None:
+            continue
         own = owners == k
         for side, surface in enumerate((layer.front, layer.back)):
             z[side][own] = surface.depth[ys[own], xs[own]]
@@ -112,7 +117,7 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
     a, b = rim.T
     strip = np.concatenate([np.stack([b, a, again[a]], 1), np.stack([b, again[a], again[b]], 1)])
     bones, kept = strongest(np.concatenate([*weights, weights[1][edge]]))
-    return ClosedMesh(
+    sheets = ClosedMesh(
         vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge]]),
         triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
         front=np.repeat([True, False, True], [count, count, len(edge)]),
@@ -120,7 +125,29 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
         layer=np.concatenate([owners, owners, owners[edge]]),
         bones=bones,
         weights=kept,
+        places=np.full((2 * count + len(edge), 2), np.nan),
     )
+    return _with_solids(sheets, layers)
+
+
+def _with_solids(sheets: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
+    """The mesh together with the parts that are no sheets."""
+    solid = [(k, layer.solid) for k, layer in enumerate(layers) if layer.solid is not None]
+    meshes = [sheets]
+    for (k, limb), places in zip(solid, places_on_the_picture([limb for _, limb in solid]), strict=True):
+        count = len(limb.vertices)
+        bones, weights = strongest(limb.weights)
+        neither = np.zeros(count, np.bool_)
+        vertices = limb.vertices + np.array([0, 0, FORWARD * k])
+        meshes.append(
+            ClosedMesh(vertices, limb.triangles, ~neither, neither, np.full(count, k), bones, weights, places)
+        )
+    before = np.cumsum([0, *(len(one.vertices) for one in meshes)])
+    joined = {field.name: np.concatenate([getattr(one, field.name) for one in meshes]) for field in fields(ClosedMesh)}
+    joined["triangles"] = np.concatenate(
+        [one.triangles + start for one, start in zip(meshes, before[:-1], strict=True)]
+    ).astype(np.int32)
+    return ClosedMesh(**joined)
 
 
 def strongest(weights: NDArray[np.float32]) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
@@ -139,6 +166,8 @@ def _sheet(
     places, owners, sources, triangles = [], [], [], []
     count = 0
     for k, layer in enumerate(layers):
+        if layer.solid is not None:
+            continue
         at = np.argwhere(layer.mask)
         number = np.full(layer.mask.shape, -1, np.intp)
         number[layer.mask] = np.arange(len(at))

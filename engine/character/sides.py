@@ -39,6 +39,8 @@ def places_on_the_picture(mesh: ClosedMesh, barred: NDArray[np.bool_], body_laye
         folded[here] = _followed(start[here], inward[here], length[here], where)
     places = own.copy()
     places[mesh.rim] = (start + FOLDED * (folded - start))[point[mesh.rim]]
+    elsewhere = np.isfinite(mesh.places[:, 0])
+    places[elsewhere] = mesh.places[elsewhere]
     return places
 
 
