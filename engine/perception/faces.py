@@ -73,25 +73,36 @@ class FaceTracker:
         return sorted(meshes, key=_area, reverse=True)
 
 
-def find_faces(rgb: NDArray[np.uint8], most: int = MOST, confidence: float = 0.3) -> list[NDArray[np.float32]]:
+def find_faces(
+    rgb: NDArray[np.uint8],
+    most: int = MOST,
+    confidence: float = 0.3,
+    within: tuple[int, int, int, int] | None = None,
+) -> list[NDArray[np.float32]]:
     """The faces of a picture, the largest first, each looked at closely; `most` of them at most.
 
     What the tracker sees by itself is near. All others are looked for by the full-range detector: in the whole picture, and
     in ever smaller parts of it as long as faces may be left that count beside the largest one found (`BESIDE`). Each is
     then measured in a crop of its own, and is none if nothing is seen there. Shapes and units are those of `FaceTracker`.
+    With `within` (x0, y0, x1, y1) they are those whose middle lies in that part of the picture, however small they are in
+    the whole; measured by what is around them all the same.
     """
+    x0, y0, x1, y1 = within or (0, 0, rgb.shape[1], rgb.shape[0])
+    seen, corner = rgb[y0:y1, x0:x1], np.array([x0, y0, x0, y0])
     with FaceTracker(most, confidence) as tracker:
-        near = [_box(mesh[:, :2]) for mesh in tracker(rgb)]
+        near = [_box(mesh[:, :2]) + corner for mesh in tracker(seen)]
     meshes = _looked_at(rgb, near, [], most, REACHES[:1], confidence)
-    side = max(rgb.shape[:2])
+    side = max(seen.shape[:2])
     with _detector(confidence, far=True) as detector:
-        while len(meshes) < most and len(parts := overlapping_parts(rgb.shape, side)) <= MOST_PARTS:
-            boxes = [box for part in parts for box in _detected(detector, rgb, part)]
+        while len(meshes) < most and len(parts := overlapping_parts(seen.shape, side)) <= MOST_PARTS:
+            boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
             meshes = _looked_at(rgb, boxes, meshes, most, REACHES, confidence)
             least = max((BESIDE * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
             if side * SEEN_SHARE <= least or side < 2 * LEAST_PART:
                 break
             side = -(-side // 2)
+    middles = [(mesh, mesh[:, :2].mean(axis=0)) for mesh in meshes]
+    meshes = [mesh for mesh, (x, y) in middles if within is None or (x0 <= x < x1 and y0 <= y < y1)]
     return sorted(meshes, key=_area, reverse=True)
 
 
@@ -121,7 +132,7 @@ def _looked_at(
         if any(_lies_on(mesh, box) for mesh in meshes):
             continue
         mesh = _settled(rgb, box, reaches, confidence)
-        if mesh is not None and not any(_same(mesh, other) for other in meshes):
+        if mesh is not None and not any(same_face(mesh, other) for other in meshes):
             meshes.append(mesh)
     return meshes
 
@@ -146,6 +157,13 @@ def _settled(
         if _lies_on(mesh, box):
             return mesh
     return None
+
+
+def same_face(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
+    """Whether two meshes are of one face: they share half of the smaller one's place."""
+    one, other = _box(a[:, :2]), _box(b[:, :2])
+    shared = np.maximum(np.minimum(one[2:], other[2:]) - np.maximum(one[:2], other[:2]), 0)
+    return bool(np.prod(shared) > 0.5 * min(_area(a), _area(b)))
 
 
 def several_faces(rgb: NDArray[np.uint8]) -> bool:
@@ -204,10 +222,3 @@ def _lies_on(mesh: NDArray[np.float32], box: NDArray[np.float64]) -> bool:
     found = _box(mesh[:, :2])
     apart = np.linalg.norm((found[:2] + found[2:] - box[:2] - box[2:]) / 2)
     return bool(apart < 0.5 * min(np.ptp(found.reshape(2, 2), axis=0).max(), (box[2:] - box[:2]).max()))
-
-
-def _same(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
-    """Whether two meshes are of one face: they share half of the smaller one's place."""
-    one, other = _box(a[:, :2]), _box(b[:, :2])
-    shared = np.maximum(np.minimum(one[2:], other[2:]) - np.maximum(one[:2], other[:2]), 0)
-    return bool(np.prod(shared) > 0.5 * min(_area(a), _area(b)))

@@ -80,8 +80,8 @@ def test_no_face_is_refused_and_says_what_helps(tmp_path: Path) -> None:
     write_image(tmp_path / "blotches.png", np.clip(blotches, 0, 255).astype(np.uint8))
     error = refusal(tmp_path / "blotches.png")
     assert error.code == "no_face"
-    assert "landmarks" in error.correctable
-    assert "landmarks" in error.detail
+    assert error.correctable == ("landmarks", "crop")
+    assert "landmarks" in error.detail and "crop" in error.detail
 
 
 @pytest.mark.parametrize("yaw", [-90, 90, 180, 135])
@@ -269,6 +269,41 @@ def test_landmarks_by_hand_say_whose_face_it_is(couple: Path) -> None:
     second = fiducials(find(couple, face_index=1).mesh[:, :2])
     placed = find(couple, face_index=1, landmarks=tuple(map(tuple, second.tolist())))
     np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+
+
+@pytest.fixture(scope="module")
+def crowd(small: Small, tmp_path_factory) -> Path:
+    """4000 x 3000 pixels: a large face on the left, and one on the right of 30 pixels."""
+    picture = np.full((3000, 4000, 3), 128, np.uint8)
+    large = cv2.resize(read_image(small("photo_man_suit.png", 640)).rgb, None, fx=4, fy=4)
+    tiny = read_image(small("photo_woman_white.png", 100)).rgb
+    picture[300 : 300 + large.shape[0], 100 : 100 + large.shape[1]] = large
+    picture[1300 : 1300 + tiny.shape[0], 3300 : 3300 + tiny.shape[1]] = tiny
+    path = tmp_path_factory.mktemp("target") / "crowd.png"
+    write_image(path, picture)
+    return path
+
+
+def test_a_crop_finds_who_is_tiny_in_the_picture(crowd: Path) -> None:
+    """The crop's own size counts, and what lies beside it does not."""
+    whole = find(crowd)
+    assert len(whole.faces) == 1 and whole.faces[0, 0] < 2000
+    crop = (3260, 1260, 200, 200)
+    target = find(crowd, crop=crop, size=(400, 400))
+    (box,) = target.faces
+    assert 3300 < box[0] < 3400 and 1300 < box[1] < 1400 and 25 < box[2] < 40
+    np.testing.assert_allclose(target.face_boxes()[0], [*(box[:2] - crop[:2]) * 2, *box[2:] * 2], atol=6)
+
+
+def test_a_crop_around_the_second_person_means_that_one(couple: Path) -> None:
+    second = find(couple, face_index=1)
+    target = find(couple, crop=(320, 0, 240, 240))
+    assert len(target.faces) == 1
+    assert apart(target.mesh + np.array([320, 0, 0]), second.mesh) < 1.0
+    error = refusal(couple, crop=(320, 0, 240, 240), face_index=1)
+    assert (
+        error.code == "face_index_out_of_range" and "crop shows 1 face" in error.detail and "crop" in error.correctable
+    )
 
 
 def test_named_crops_hold_the_face_and_differ(woman: Path) -> None:
