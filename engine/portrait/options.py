@@ -69,7 +69,7 @@ class PortraitOptions(BaseModel):
         None,
         min_length=68,
         max_length=68,
-        description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.",
+        description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off. They say whose face it is: `face_index` does not count beside them.",
     )
 
     reactive: bool | tuple[str, ...] = Field(

@@ -15,9 +15,9 @@ from engine.errors import InputError
 from engine.imaging.resample import even_size
 from engine.media.image import read_image
 from engine.media.limits import Limits
-from engine.perception.faces import find_faces
+from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
-from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
+from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
 from engine.perception.segmentation import people_in
 from engine.portrait.expression import EXPRESSION, expression
 from engine.portrait.lower_lids import fit_lower_lids
@@ -40,6 +40,8 @@ NEUTRAL = (12.0, 12.0, 0.08, 0.03)
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
+LEAST_INSIDE = 0.5
+"""Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
 SHUT = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.portrait.eyes`): calm
@@ -135,9 +137,9 @@ def _look(
     height, width = rgb.shape[:2]
     x0, y0, x1, y1 = _part(options, (width, height))
     part = (int(x0), int(y0), int(np.ceil(x1)), int(np.ceil(y1)))
-    if options.landmarks is not None:
-        return [mesh_from_fiducials(np.array(options.landmarks))], 0
     meshes = find_faces(rgb, within=part)
+    if options.landmarks is not None:
+        return _with_placed(mesh_from_fiducials(np.array(options.landmarks)), meshes, (width, height), options, warn)
     if not meshes and part != (0, 0, width, height):  # it may cut a face so that it is no longer seen in it alone
         everybody = find_faces(rgb)
         meshes = [mesh for mesh in everybody if _mostly_in(mesh, (x0, y0, x1, y1))]
@@ -150,6 +152,39 @@ def _look(
             ("landmarks", "crop"),
         )
     return meshes, options.face_index
+
+
+def _with_placed(
+    placed: NDArray[np.float32],
+    meshes: list[NDArray[np.float32]],
+    size: tuple[int, int],
+    options: PortraitOptions,
+    warn: Callable[[str, str], None],
+) -> tuple[list[NDArray[np.float32]], int]:
+    """The faces that were found, with the placed one instead of the one that it lies on, or after all of them; and its
+    place among them."""
+    if share_inside(placed, size) < LEAST_INSIDE:
+        raise InputError(
+            "landmarks_invalid",
+            "The placed landmarks lie outside of the picture: give them in pixels of the picture as it was uploaded, with more than half of the face inside.",
+            ("landmarks",),
+        )
+    index = next((i for i, mesh in enumerate(meshes) if same_face(mesh, placed)), len(meshes))
+    if options.face_index not in (0, index):
+        warn(
+            "face_index_ignored",
+            f"The placed landmarks are not those of the face that face_index {options.face_index} names: the landmarks count.",
+        )
+    return [*meshes[:index], placed, *meshes[index + 1 :]], index
+
+
+def share_inside(mesh: NDArray[np.floating], size: tuple[int, int]) -> float:
+    """How much of a face's mesh (478, 2 or 3) lies in a picture of `size` (w, h): a share of its area."""
+    oval = cv2.convexHull(mesh[list(FACE_OVAL), :2].astype(np.float32))
+    (width, height), start = size, -0.5
+    picture = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32) + np.float32(start)
+    area = float(cv2.contourArea(oval))
+    return float(cv2.intersectConvexConvex(oval, picture)[0]) / max(area, 1e-6)
 
 
 def in_pixels(boxes: NDArray[np.float32]) -> list[list[float]]:

@@ -26,6 +26,7 @@ from engine.portrait.target import (
     MOST_TURNED,
     TargetFace,
     find_target_face,
+    share_inside,
 )
 
 Small = Callable[[str, int], Path]
@@ -265,10 +266,30 @@ def test_a_crop_without_the_face_is_refused(woman: Path, crop: tuple[float, ...]
 
 
 def test_landmarks_by_hand_say_whose_face_it_is(couple: Path) -> None:
-    """A revision of a job that chose the second face may place landmarks."""
+    """A revision of a job that chose the second face may place landmarks; that another one is meant is told."""
     second = fiducials(find(couple, face_index=1).mesh[:, :2])
-    placed = find(couple, face_index=1, landmarks=tuple(map(tuple, second.tolist())))
-    np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+    landmarks = tuple(map(tuple, second.tolist()))
+    for index, told in ((0, []), (1, []), (2, ["face_index_ignored"])):
+        codes: list[str] = []
+        placed = find(couple, codes, face_index=index, landmarks=landmarks)
+        np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+        assert [code for code in codes if code != "target_not_neutral"] == told
+
+
+def test_others_are_listed_beside_the_placed_face(couple: Path) -> None:
+    """In their order: the placed one where it was found, or last where nothing was found."""
+    found = find(couple)
+    for index in (0, 1):
+        placed = fiducials(find(couple, face_index=index).mesh[:, :2])
+        target = find(couple, landmarks=tuple(map(tuple, placed.tolist())))
+        np.testing.assert_allclose(target.faces, found.faces, atol=12)  # the forehead has no landmarks
+    nowhere = fiducials(found.mesh[:, :2])
+    nowhere = (nowhere - nowhere.mean(axis=0)) * 0.3 + (470, 285)
+    target = find(couple, landmarks=tuple(map(tuple, nowhere.tolist())))
+    np.testing.assert_array_equal(target.faces[:2], found.faces)
+    own, others = target.face_boxes()
+    assert len(target.faces) == 3 and len(others) == 2
+    np.testing.assert_allclose(own, target.faces[2], atol=1e-3)
 
 
 @pytest.fixture(scope="module")
@@ -348,6 +369,28 @@ def test_placed_landmarks_win_over_detected_ones(woman: Path, whole: TargetFace)
 def test_landmarks_that_are_no_face_are_refused(woman: Path) -> None:
     error = refusal(woman, landmarks=((5.0, 5.0),) * 68)
     assert error.code == "landmarks_invalid" and error.correctable == ("landmarks",)
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1, (2000, 0)), (1, (-300, -300)), (20, (0, 0)), (1, (0, -220))], ids=str)
+def test_landmarks_beside_the_picture_are_refused(
+    woman: Path, whole: TargetFace, scale: float, shift: tuple[float, float]
+) -> None:
+    points = fiducials(whole.mesh[:, :2])
+    points = (points - points.mean(axis=0)) * scale + points.mean(axis=0) + shift
+    error = refusal(woman, landmarks=tuple(map(tuple, points.tolist())))
+    assert error.code == "landmarks_invalid" and error.correctable == ("landmarks",)
+    assert "outside of the picture" in error.detail
+
+
+def test_how_much_of_a_face_is_inside() -> None:
+    mesh = placed(60, (150, 118))
+    (left, top), (right, bottom) = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
+    middle = (float((left + right) / 2), float((top + bottom) / 2))
+    assert share_inside(mesh, (300, 300)) == pytest.approx(1)
+    assert share_inside(mesh, (round(middle[0]), 300)) == pytest.approx(0.5, abs=0.02)
+    assert share_inside(mesh - [middle[0], 0, 0], (300, 300)) == pytest.approx(0.5, abs=0.02)
+    assert share_inside(mesh - [1000, 0, 0], (300, 300)) == 0
+    assert share_inside(20 * mesh, (300, 300)) < 0.05
 
 
 def test_a_cut_out_keeps_its_alpha(woman: Path, tmp_path: Path) -> None:

@@ -1663,7 +1663,7 @@ export interface components {
              */
             sound?: boolean;
             /**
-             * @description Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.
+             * @description Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off. They say whose face it is: `face_index` does not count beside them.
              * @default null
              */
             landmarks?: [
