@@ -40,6 +40,8 @@ NEUTRAL = (12.0, 12.0, 0.08, 0.03)
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
+CUT = 0.95
+"""Share of the face that lies in the result below which it counts as cut."""
 LEAST_INSIDE = 0.5
 """Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
@@ -124,6 +126,11 @@ def find_target_face(
             f"The face is too small: its eyes must be at least {LEAST_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
             ("crop", "size", "face_index"),
             found,
+        )
+    if share_inside(moved, size) < CUT:
+        warn(
+            "face_cut",
+            "The picture cuts the face: what lies beyond its edge is not known, and cannot move in. Use a picture, or a crop, that shows all of it.",
         )
     if options.landmarks is None:
         moved = fit_lower_lids(rgb, moved)

@@ -393,6 +393,22 @@ def test_how_much_of_a_face_is_inside() -> None:
     assert share_inside(20 * mesh, (300, 300)) < 0.05
 
 
+@pytest.mark.parametrize(("part", "told"), [(1.0, False), (0.75, True), (0.6, True)])
+def test_a_face_that_the_picture_cuts_is_told(
+    woman: Path, whole: TargetFace, part: float, told: bool, tmp_path: Path
+) -> None:
+    """So is one that a crop cuts: what moves in from there is not known."""
+    left, right = float(whole.mesh[:, 0].min()), float(whole.mesh[:, 0].max())
+    width = round(left + part * (right - left)) + 4
+    write_image(tmp_path / "cut.png", np.ascontiguousarray(read_image(woman).rgb[:, :width]))
+    codes: list[str] = []
+    find(tmp_path / "cut.png", codes)
+    assert ("face_cut" in codes) == told
+    codes.clear()
+    find(woman, codes, crop=(0, 0, width, 320))
+    assert ("face_cut" in codes) == told
+
+
 def test_a_cut_out_keeps_its_alpha(woman: Path, tmp_path: Path) -> None:
     rgb = read_image(woman).rgb
     alpha = np.zeros(rgb.shape[:2], np.float32)
