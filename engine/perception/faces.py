@@ -15,6 +15,22 @@ SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
 SURE = 0.5
 """Confidence of a detection by which a picture is said to show several faces."""
+MOST = 20
+"""Faces of a picture that are looked for, at most."""
+SEEN_SHARE = 1 / 12
+"""Width of a face, as a share of the side of the square that is looked at, from which the full-range detector misses none.
+Lone faces are found down to a half of it, and of the eighteen in a group of 1800 x 900 pixels, 0.07 wide, ten."""
+BESIDE = 1 / 3
+"""Width of the least face that counts beside the largest one, in its widths: in the usual portrait, whose face takes a
+quarter of the picture or more, nobody is looked for part by part."""
+MOST_PARTS = 30
+"""Parts of one size that are looked at, at most: who is smaller in a large picture is found in a crop of it."""
+LEAST_PART = 450
+"""Pixels of the least part that is looked at: faces that go unseen in it have eyes less than 16 pixels apart, and are too
+small to be animated."""
+REACHES = (1.25, 0.7)
+"""Half sides of the crops on which a face is measured, in sides of its box; the narrow one is for faces that a detector
+saw: on the rim of a large face the tracker takes whatever it is shown for another."""
 
 
 class FaceTracker:
@@ -57,52 +73,122 @@ class FaceTracker:
         return sorted(meshes, key=_area, reverse=True)
 
 
-def find_faces(rgb: NDArray[np.uint8], most: int = 8, confidence: float = 0.3) -> list[NDArray[np.float32]]:
-    """All faces of a picture, the largest first, each looked at closely.
+def find_faces(
+    rgb: NDArray[np.uint8],
+    most: int = MOST,
+    confidence: float = 0.3,
+    within: tuple[int, int, int, int] | None = None,
+) -> list[NDArray[np.float32]]:
+    """The faces of a picture, the largest first, each looked at closely; `most` of them at most.
 
-    Faces too small for the whole picture's scale are looked for by the full-range detector and then
-    measured in a crop of their own. Shapes and units are those of `FaceTracker`.
+    What the tracker sees by itself is near. All others are looked for by the full-range detector: in the whole picture, and
+    in ever smaller parts of it as long as faces may be left that count beside the largest one found (`BESIDE`). Each is
+    then measured in a crop of its own, and is none if nothing is seen there. Shapes and units are those of `FaceTracker`.
+    With `within` (x0, y0, x1, y1) they are those whose middle lies in that part of the picture, however small they are in
+    the whole; measured by what is around them all the same.
     """
+    x0, y0, x1, y1 = within or (0, 0, rgb.shape[1], rgb.shape[0])
+    seen, corner = rgb[y0:y1, x0:x1], np.array([x0, y0, x0, y0])
     with FaceTracker(most, confidence) as tracker:
-        coarse = tracker(rgb)
-    boxes = [_box(mesh[:, :2]) for mesh in coarse] or _detect(rgb, confidence)
-    meshes: list[NDArray[np.float32]] = []
-    for box in boxes:
-        mesh = _settled(rgb, box, confidence)
-        if mesh is not None and not any(_same(mesh, other) for other in meshes):
-            meshes.append(mesh)
+        near = [_box(mesh[:, :2]) + corner for mesh in tracker(seen)]
+    meshes = _looked_at(rgb, near, [], most, REACHES[:1], confidence)
+    side = max(seen.shape[:2])
+    with _detector(confidence, far=True) as detector:
+        while len(meshes) < most and len(parts := overlapping_parts(seen.shape, side)) <= MOST_PARTS:
+            boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
+            meshes = _looked_at(rgb, boxes, meshes, most, REACHES, confidence)
+            least = max((BESIDE * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
+            if side * SEEN_SHARE <= least or side < 2 * LEAST_PART:
+                break
+            side = -(-side // 2)
+    middles = [(mesh, mesh[:, :2].mean(axis=0)) for mesh in meshes]
+    meshes = [mesh for mesh, (x, y) in middles if within is None or (x0 <= x < x1 and y0 <= y < y1)]
     return sorted(meshes, key=_area, reverse=True)
 
 
-def _settled(rgb: NDArray[np.uint8], box: NDArray[np.float64], confidence: float) -> NDArray[np.float32] | None:
-    """The mesh of the face in `box` (x0, y0, x1, y1), looked at on a crop of it until it is at rest."""
+def overlapping_parts(shape: tuple[int, ...], side: int) -> list[tuple[int, int, int, int]]:
+    """Squares of this side, cut at the picture's edges, that cover a picture (H, W, ...): x0, y0, x1, y1. They overlap by a
+    quarter, so that one of them holds the whole of each face that is too small to be seen in squares of twice the side."""
+    starts = []
+    for length in (shape[1], shape[0]):
+        count = int(np.ceil(max(length - side, 0) / (0.75 * side))) + 1
+        starts.append([int(start) for start in np.linspace(0, max(length - side, 0), count)])
+    return [(x, y, min(x + side, shape[1]), min(y + side, shape[0])) for y in starts[1] for x in starts[0]]
+
+
+def _looked_at(
+    rgb: NDArray[np.uint8],
+    boxes: list[NDArray[np.float64]],
+    known: list[NDArray[np.float32]],
+    most: int,
+    reaches: tuple[float, ...],
+    confidence: float,
+) -> list[NDArray[np.float32]]:
+    """The meshes that are `known`, and those of further faces in these boxes (x0, y0, x1, y1), larger ones first."""
+    meshes = list(known)
+    for box in sorted(boxes, key=lambda box: -float(np.prod(box[2:] - box[:2]))):
+        if len(meshes) == most:
+            break
+        if any(_lies_on(mesh, box) for mesh in meshes):
+            continue
+        mesh = _settled(rgb, box, reaches, confidence)
+        if mesh is not None and not any(same_face(mesh, other) for other in meshes):
+            meshes.append(mesh)
+    return meshes
+
+
+def _settled(
+    rgb: NDArray[np.uint8], box: NDArray[np.float64], reaches: tuple[float, ...], confidence: float
+) -> NDArray[np.float32] | None:
+    """The mesh of the face in `box` (x0, y0, x1, y1), looked at on a crop of it until it is at rest; on a narrower one where
+    a neighbour is seen in the first instead. `reaches`: half sides of these crops, in sides of the box."""
     height, width = rgb.shape[:2]
-    centre, reach = (box[:2] + box[2:]) / 2, 1.25 * float((box[2:] - box[:2]).max())
-    x0, y0 = np.maximum(np.floor(centre - reach), 0).astype(int)
-    x1, y1 = np.minimum(np.ceil(centre + reach), (width, height)).astype(int)
-    if x1 - x0 < 8 or y1 - y0 < 8:
-        return None
-    with FaceTracker(1, confidence) as tracker:
-        meshes = tracker(rgb[y0:y1, x0:x1])
-    return meshes[0] + np.array([x0, y0, 0], np.float32) if meshes else None
+    for reach in reaches:
+        centre, half = (box[:2] + box[2:]) / 2, reach * float((box[2:] - box[:2]).max())
+        x0, y0 = np.maximum(np.floor(centre - half), 0).astype(int)
+        x1, y1 = np.minimum(np.ceil(centre + half), (width, height)).astype(int)
+        if x1 - x0 < 8 or y1 - y0 < 8:
+            return None
+        with FaceTracker(1, confidence) as tracker:
+            meshes = tracker(rgb[y0:y1, x0:x1])
+        if not meshes:
+            return None
+        mesh = meshes[0] + np.array([x0, y0, 0], np.float32)
+        if _lies_on(mesh, box):
+            return mesh
+    return None
+
+
+def same_face(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
+    """Whether two meshes are of one face: they share half of the smaller one's place."""
+    one, other = _box(a[:, :2]), _box(b[:, :2])
+    shared = np.maximum(np.minimum(one[2:], other[2:]) - np.maximum(one[:2], other[:2]), 0)
+    return bool(np.prod(shared) > 0.5 * min(_area(a), _area(b)))
 
 
 def several_faces(rgb: NDArray[np.uint8]) -> bool:
     """Whether a picture shows more than one face, by a quick look at those that are near."""
-    return len(_detect(rgb, SURE, far=False)) > 1
+    with _detector(SURE, far=False) as detector:
+        return len(_detected(detector, rgb, (0, 0, rgb.shape[1], rgb.shape[0]))) > 1
 
 
-def _detect(rgb: NDArray[np.uint8], confidence: float, far: bool = True) -> list[NDArray[np.float64]]:
-    height, width = rgb.shape[:2]
-    kind = solution("face_detection").FaceDetection
-    with kind(model_selection=int(far), min_detection_confidence=confidence) as detector:
-        found = detector.process(np.ascontiguousarray(rgb)).detections or []
+def _detector(confidence: float, far: bool) -> Any:
+    return solution("face_detection").FaceDetection(model_selection=int(far), min_detection_confidence=confidence)
+
+
+def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, int]) -> list[NDArray[np.float64]]:
+    """Boxes (4,) of the faces in a part of a picture, both as x0, y0, x1, y1 in pixels of the picture; without those that the
+    part cuts: other parts hold the whole of them."""
+    x0, y0, x1, y1 = part
+    size, whole = np.array([x1 - x0, y1 - y0]), np.array(rgb.shape[1::-1])
     boxes = []
-    for face in found:
-        b = face.location_data.relative_bounding_box
-        boxes.append(
-            np.array([b.xmin * width, b.ymin * height, (b.xmin + b.width) * width, (b.ymin + b.height) * height])
-        )
+    for face in detector.process(np.ascontiguousarray(rgb[y0:y1, x0:x1])).detections or []:
+        box = face.location_data.relative_bounding_box
+        low = np.array([x0, y0]) + size * [box.xmin, box.ymin]
+        high = low + size * [box.width, box.height]
+        before, after = low < [x0, y0], high > [x1, y1]
+        if not (before & (np.array([x0, y0]) > 0)).any() and not (after & ([x1, y1] < whole)).any():
+            boxes.append(np.concatenate([low, high]))
     return boxes
 
 
@@ -131,5 +217,8 @@ def _area(mesh: NDArray[np.float32]) -> float:
     return float(np.prod(np.ptp(mesh[:, :2], axis=0)))
 
 
-def _same(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
-    return bool(np.linalg.norm(a[:, :2].mean(axis=0) - b[:, :2].mean(axis=0)) < 0.25 * np.sqrt(_area(a)))
+def _lies_on(mesh: NDArray[np.float32], box: NDArray[np.float64]) -> bool:
+    """Whether a mesh is that of the face in a box (x0, y0, x1, y1)."""
+    found = _box(mesh[:, :2])
+    apart = np.linalg.norm((found[:2] + found[2:] - box[:2] - box[2:]) / 2)
+    return bool(apart < 0.5 * min(np.ptp(found.reshape(2, 2), axis=0).max(), (box[2:] - box[:2]).max()))

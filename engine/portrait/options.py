@@ -38,7 +38,8 @@ class PortraitOptions(BaseModel):
         None, description="Frame of the driver that matches the target's expression. Default: found automatically."
     )
     face_index: Annotated[int, Field(ge=0)] = Field(
-        0, description="Which face of the target, counted from the largest."
+        0,
+        description="Which face of the target, counted from the largest; with a crop by numbers, of those in the crop.",
     )
     driver_face_index: Annotated[int, Field(ge=0)] = Field(
         0,
@@ -55,7 +56,7 @@ class PortraitOptions(BaseModel):
     )
     crop: Literal["none", "face", "bust"] | tuple[Coordinate, Coordinate, Coordinate, Coordinate] = Field(
         "none",
-        description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels.",
+        description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels. Faces are looked for within such a crop, however small they are in the whole.",
     )
     trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
         None, description="Start and end of the part of the driver to use, in seconds."
@@ -68,7 +69,7 @@ class PortraitOptions(BaseModel):
         None,
         min_length=68,
         max_length=68,
-        description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.",
+        description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off. They say whose face it is: `face_index` does not count beside them.",
     )
 
     reactive: bool | tuple[str, ...] = Field(

@@ -15,9 +15,9 @@ from engine.errors import InputError
 from engine.imaging.resample import even_size
 from engine.media.image import read_image
 from engine.media.limits import Limits
-from engine.perception.faces import find_faces
+from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
-from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
+from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
 from engine.perception.segmentation import people_in
 from engine.portrait.expression import EXPRESSION, expression
 from engine.portrait.lower_lids import fit_lower_lids
@@ -40,6 +40,11 @@ NEUTRAL = (12.0, 12.0, 0.08, 0.03)
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
+CUT = 0.95
+"""Share of the face that lies in the result below which it counts as cut."""
+LEAST_INSIDE = 0.5
+"""Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
+CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
 SHUT = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.portrait.eyes`): calm
 people have 0.22 to 0.43, a laugh 0.2."""
@@ -48,7 +53,8 @@ people have 0.22 to 0.43, a laugh 0.2."""
 @dataclass(frozen=True)
 class TargetFace:
     """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
-    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture; `people` (h, w) in
+    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture, or in a crop of it that
+    numbers give, the placed one among them; `people` (h, w) in
     [0, 1], at whatever size, where people are believed to be, if the picture is not cropped."""
 
     rgb: NDArray[np.uint8]
@@ -84,32 +90,25 @@ def find_target_face(
 
     Raises
     ------
-    InputError : `no_face`, `face_index_out_of_range`, `face_too_small`, `face_too_turned`, `mouth_too_open`, and what
-    reading a picture may raise.
+    InputError : `no_face`, `crop_outside`, `landmarks_invalid`, `face_index_out_of_range`, `face_too_small`,
+    `face_too_turned`, `mouth_too_open`, and what reading a picture may raise.
     """
     picture = read_image(path, limits)
     height, width = picture.rgb.shape[:2]
     with ThreadPoolExecutor(1, thread_name_prefix="people") as beside:
         whole = options.crop == "none" and picture.alpha is None
         people = beside.submit(people_in, picture.rgb).result if whole else lambda: None
-        if options.landmarks is not None:
-            meshes = [mesh_from_fiducials(np.array(options.landmarks))]
-        else:
-            meshes = find_faces(over_grey(picture.rgb, picture.alpha))
-        if not meshes:
-            raise InputError(
-                "no_face",
-                "No face was found in the picture: use one that shows a face from the front, or place the landmarks by hand.",
-                ("landmarks",),
-            )
+        meshes, index = _look(over_grey(picture.rgb, picture.alpha), options, warn)
     boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
     found = {"faces": in_pixels(boxes)}
-    index = options.face_index if options.landmarks is None else 0
     if index >= len(meshes):
+        where, mends = (
+            ("crop", ("face_index", "crop")) if isinstance(options.crop, tuple) else ("picture", ("face_index",))
+        )
         raise InputError(
             "face_index_out_of_range",
-            f"The picture shows {len(meshes)} face(s): face_index counts from 0.",
-            ("face_index",),
+            f"The {where} shows {len(meshes)} face(s): face_index counts from 0.",
+            mends,
             found,
         )
     mesh = meshes[index]
@@ -128,9 +127,71 @@ def find_target_face(
             ("crop", "size", "face_index"),
             found,
         )
+    if share_inside(moved, size) < CUT:
+        warn(
+            "face_cut",
+            "The picture cuts the face: what lies beyond its edge is not known, and cannot move in. Use a picture, or a crop, that shows all of it.",
+        )
     if options.landmarks is None:
         moved = fit_lower_lids(rgb, moved)
     return TargetFace(rgb, alpha, moved, boxes, (width, height), place, people())
+
+
+def _look(
+    rgb: NDArray[np.uint8], options: PortraitOptions, warn: Callable[[str, str], None]
+) -> tuple[list[NDArray[np.float32]], int]:
+    """The faces of a picture, the largest first, and which of them is to act. With a crop by numbers, those in the crop."""
+    height, width = rgb.shape[:2]
+    x0, y0, x1, y1 = _part(options, (width, height))
+    part = (int(x0), int(y0), int(np.ceil(x1)), int(np.ceil(y1)))
+    meshes = find_faces(rgb, within=part)
+    if options.landmarks is not None:
+        return _with_placed(mesh_from_fiducials(np.array(options.landmarks)), meshes, (width, height), options, warn)
+    if not meshes and part != (0, 0, width, height):  # it may cut a face so that it is no longer seen in it alone
+        everybody = find_faces(rgb)
+        meshes = [mesh for mesh in everybody if _mostly_in(mesh, (x0, y0, x1, y1))]
+        if everybody and not meshes:
+            raise InputError("crop_outside", CROP_WITHOUT_FACE, ("crop",))
+    if not meshes:
+        raise InputError(
+            "no_face",
+            "No face was found in the picture: use one that shows a face from the front, crop to where it is, or place the landmarks by hand.",
+            ("landmarks", "crop"),
+        )
+    return meshes, options.face_index
+
+
+def _with_placed(
+    placed: NDArray[np.float32],
+    meshes: list[NDArray[np.float32]],
+    size: tuple[int, int],
+    options: PortraitOptions,
+    warn: Callable[[str, str], None],
+) -> tuple[list[NDArray[np.float32]], int]:
+    """The faces that were found, with the placed one instead of the one that it lies on, or after all of them; and its
+    place among them."""
+    if share_inside(placed, size) < LEAST_INSIDE:
+        raise InputError(
+            "landmarks_invalid",
+            "The placed landmarks lie outside of the picture: give them in pixels of the picture as it was uploaded, with more than half of the face inside.",
+            ("landmarks",),
+        )
+    index = next((i for i, mesh in enumerate(meshes) if same_face(mesh, placed)), len(meshes))
+    if options.face_index not in (0, index):
+        warn(
+            "face_index_ignored",
+            f"The placed landmarks are not those of the face that face_index {options.face_index} names: the landmarks count.",
+        )
+    return [*meshes[:index], placed, *meshes[index + 1 :]], index
+
+
+def share_inside(mesh: NDArray[np.floating], size: tuple[int, int]) -> float:
+    """How much of a face's mesh (478, 2 or 3) lies in a picture of `size` (w, h): a share of its area."""
+    oval = cv2.convexHull(mesh[list(FACE_OVAL), :2].astype(np.float32))
+    (width, height), start = size, -0.5
+    picture = np.array([[0, 0], [width, 0], [width, height], [0, height]], np.float32) + np.float32(start)
+    area = float(cv2.contourArea(oval))
+    return float(cv2.intersectConvexConvex(oval, picture)[0]) / max(area, 1e-6)
 
 
 def in_pixels(boxes: NDArray[np.float32]) -> list[list[float]]:
@@ -198,24 +259,33 @@ def _crop_box(mesh: NDArray[np.float32], size: tuple[int, int], options: Portrai
     if options.crop == "none":
         return 0.0, 0.0, float(size[0]), float(size[1])
     if isinstance(options.crop, tuple):
-        x, y, w, h = options.crop
-        x0, y0 = max(x, 0.0), max(y, 0.0)
-        x1, y1 = min(x + w, float(size[0])), min(y + h, float(size[1]))
-        if x1 - x0 < 16 or y1 - y0 < 16:
-            raise InputError(
-                "crop_outside", "The crop lies outside the picture or is smaller than 16 pixels.", ("crop",)
-            )
-        (left, top), (right, bottom) = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
-        if min(x1, right) - max(x0, left) < (right - left) / 2 or min(y1, bottom) - max(y0, top) < (bottom - top) / 2:
-            raise InputError(
-                "crop_outside", "The crop leaves the face out: let it hold more than half of it.", ("crop",)
-            )
+        x0, y0, x1, y1 = part = _part(options, size)
+        if not _mostly_in(mesh, part):
+            raise InputError("crop_outside", CROP_WITHOUT_FACE, ("crop",))
         return x0, y0, x1 - x0, y1 - y0
     centre = mesh[:, :2].mean(axis=0)
     side = float(np.ptp(mesh[:, 1])) * (1.9 if options.crop == "face" else 3.2)
     up = 0.55 if options.crop == "face" else 0.4
     x0, y0 = max(centre[0] - side / 2, 0.0), max(centre[1] - side * up, 0.0)
     return x0, y0, min(side, size[0] - x0), min(side, size[1] - y0)
+
+
+def _part(options: PortraitOptions, size: tuple[int, int]) -> tuple[float, float, float, float]:
+    """What a crop by numbers leaves of a picture of `size` (w, h), or all of it: x0, y0, x1, y1."""
+    if not isinstance(options.crop, tuple):
+        return 0.0, 0.0, float(size[0]), float(size[1])
+    x, y, width, height = options.crop
+    x0, y0 = max(x, 0.0), max(y, 0.0)
+    x1, y1 = min(x + width, float(size[0])), min(y + height, float(size[1]))
+    if x1 - x0 < 16 or y1 - y0 < 16:
+        raise InputError("crop_outside", "The crop lies outside the picture or is smaller than 16 pixels.", ("crop",))
+    return x0, y0, x1, y1
+
+
+def _mostly_in(mesh: NDArray[np.float32], part: tuple[float, float, float, float]) -> bool:
+    """Whether more than half of a face's width and height lies in a part of the picture: x0, y0, x1, y1."""
+    low, high = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
+    return bool((np.minimum(part[2:], high) - np.maximum(part[:2], low) >= (high - low) / 2).all())
 
 
 def _warp(image: NDArray, place: NDArray[np.float64], size: tuple[int, int]) -> NDArray:

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.media.image import read_image
-from engine.perception.faces import FaceTracker, find_faces
+from engine.perception.faces import FaceTracker, find_faces, overlapping_parts
 from engine.perception.landmarks import MESH_SIZE, eye_distance, fiducials
 
 HALF = np.array([0.5, 0.5, 0])
@@ -101,6 +101,77 @@ def test_a_small_face_in_a_large_picture_is_found_and_measured_closely(woman: ND
     assert len(found) == 1
     expected = (mesh + HALF) / 2 - HALF + (800, 500, 0)
     assert apart(found[0], expected) < 0.05
+
+
+@pytest.fixture(scope="module")
+def cells(media: Callable[[str], Path]) -> list[NDArray[np.uint8]]:
+    """Squares of 300 pixels, each with one person."""
+    names = ("photo_woman_white.png", "photo_man_suit.png", "photo_biden.jpg", "photo_bw_einstein.jpg")
+    pictures = [read_image(media(f"portraits/{name}")).rgb for name in names]
+    return [
+        cv2.resize(p[: min(p.shape[:2]), : min(p.shape[:2])], (300, 300), interpolation=cv2.INTER_AREA)
+        for p in pictures
+    ]
+
+
+def of_each(found: list[NDArray[np.float32]], size: int, rows: int, columns: int) -> NDArray[np.int_]:
+    """(rows, columns) how many of the faces lie in each cell of a grid."""
+    count = np.zeros((rows, columns), int)
+    for mesh in found:
+        x, y = mesh[:, :2].mean(axis=0) // size
+        count[int(y), int(x)] += 1
+    return count
+
+
+def test_who_is_small_beside_a_large_face_is_found(woman: NDArray, media: Callable[[str], Path]) -> None:
+    """The tracker sees the large one alone, and used to be the only one to be asked."""
+    large = cv2.resize(read_image(media("portraits/photo_man_suit.png")).rgb, (1200, 1200))
+    scene = np.full((1200, 1600, 3), 128, np.uint8)
+    scene[:, :1200] = large
+    scene[300:700, 1200:] = portrait(media("portraits/photo_woman_white.png"), 400)
+    with FaceTracker(8) as tracker:
+        assert len(tracker(scene)) == 1
+    first, second = find_faces(scene)
+    assert first[4, 0] < 1200 < second[4, 0] and 300 < second[4, 1] < 700
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(1, 9), (3, 6), (6, 1)])
+def test_everybody_of_a_group_is_found_once(cells: list[NDArray], rows: int, columns: int) -> None:
+    group = np.vstack([np.hstack([cells[(x + y) % 4] for x in range(columns)]) for y in range(rows)])
+    assert (of_each(find_faces(group), 300, rows, columns) == 1).all()
+
+
+def test_no_more_are_looked_for_than_are_asked_for(cells: list[NDArray]) -> None:
+    assert len(find_faces(np.hstack(cells[:3]), 1)) == 1
+    assert len(find_faces(np.hstack([*cells] * 2), 5)) == 5
+
+
+def test_a_tiny_face_in_a_large_picture_is_found(woman: NDArray, mesh: NDArray) -> None:
+    """Of its 105 pixels, of 4000, the full-range detector gets five, in the whole picture."""
+    large = np.full((3000, 4000, 3), 110, np.uint8)
+    small = cv2.resize(woman, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    large[1900 : 1900 + small.shape[0], 2700 : 2700 + small.shape[1]] = small
+    (found,) = find_faces(large)
+    assert apart(found, (mesh + HALF) / 2 - HALF + (2700, 1900, 0)) < 0.05
+
+
+@pytest.mark.parametrize(("shape", "side"), [((300, 1000), 400), ((777, 555), 777), ((777, 555), 200), ((90, 90), 200)])
+def test_parts_cover_the_picture_and_hold_small_faces_whole(shape: tuple[int, int], side: int) -> None:
+    """A face of a sixth of the part's side, wherever it is, lies whole in one of them."""
+    parts = np.array(overlapping_parts(shape, side))
+    assert (parts[:, :2] >= 0).all() and (parts[:, 2:] <= shape[::-1]).all()
+    assert (np.ptp(parts.reshape(-1, 2, 2), axis=1) == np.minimum(shape[::-1], side)).all()
+    face = min(side // 6, *shape)
+    for x, y in np.random.default_rng(0).integers(0, np.array(shape[::-1]) - face + 1, (200, 2)):
+        assert ((parts[:, :2] <= (x, y)) & (parts[:, 2:] >= (x + face, y + face))).all(axis=1).any()
+
+
+@pytest.mark.parametrize(
+    "name", ["portraits/photo_biden.jpg", "portraits/photo_bw_dylan.jpg", "fullbody/photo_bw_einstein_library.jpg"]
+)
+def test_one_person_has_one_face(media: Callable[[str], Path], name: str) -> None:
+    """On the rim of the first one's face the tracker of several imagines another; the third stands before full shelves."""
+    assert len(find_faces(read_image(media(name)).rgb)) == 1
 
 
 @pytest.mark.parametrize("name", ["noise", "plain"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import cv2
 import numpy as np
 import pytest
@@ -132,6 +134,72 @@ def test_points_that_are_no_face_are_refused(points: NDArray) -> None:
         mesh_from_fiducials(points)
     assert caught.value.code == "landmarks_invalid"
     assert caught.value.correctable == ("landmarks",)
+
+
+def drawn(change: Callable[[NDArray], None]) -> NDArray[np.float64]:
+    """Landmarks of a canonical face of 60 pixels between the eyes, after a change in eye distances."""
+    points = fiducials(canonical_face())[:, :2].astype(float)
+    change(points)
+    return 60 * points + (150, 120)
+
+
+def dots_and_a_line(points: NDArray) -> None:
+    points[36:42], points[42:48] = points[36:42].mean(axis=0), points[42:48].mean(axis=0)
+    points[27:36], points[48:, 1] = points[30], points[48:, 1].mean()
+
+
+def huge_eyes(points: NDArray) -> None:
+    for eye in (points[36:42], points[42:48]):
+        eye += 1.5 * (eye - eye.mean(axis=0))
+    points[17:27, 1] -= 0.6
+
+
+def huge_mouth(points: NDArray) -> None:
+    points[48:] += (points[48:] - points[48:].mean(axis=0)) * [1.2, 2.0]
+
+
+def round_and_flat(points: NDArray) -> None:
+    points *= [1.6, 0.6]
+
+
+def upside_down(points: NDArray) -> None:
+    points *= -1
+
+
+@pytest.mark.parametrize("change", [dots_and_a_line, huge_eyes, huge_mouth, round_and_flat, upside_down])
+def test_drawn_faces_are_faces(change: Callable[[NDArray], None]) -> None:
+    """Emoji, cartoons, masks, and pictures that hang upside down."""
+    points = drawn(change)
+    assert np.abs(fiducials(mesh_from_fiducials(points))[:, :2] - points).max() < 4.0
+
+
+@pytest.mark.parametrize("yaw", [-60, 60])
+def test_turned_faces_are_faces(yaw: float) -> None:
+    """Triangles on the far cheek are folded over, though the face is none the less one."""
+    points = fiducials(seen(yaw, 0, 0, 60))[:, :2]
+    assert np.abs(fiducials(mesh_from_fiducials(points))[:, :2] - points).max() < 1.0
+
+
+@pytest.mark.parametrize("way", [(-1, 1), (1, -1)], ids=["left to right", "head over heels"])
+def test_mirrored_landmarks_are_refused(way: tuple[int, int]) -> None:
+    with pytest.raises(InputError, match="mirrored") as caught:
+        mesh_from_fiducials(drawn(lambda points: None) * way + (600, 600))
+    assert (caught.value.code, caught.value.correctable) == ("landmarks_invalid", ("landmarks",))
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.random.default_rng(0).random((68, 2)) * 300,
+        np.array([[200, 200], [100, 300], [250, 100], [220, 240]] * 17),
+        np.random.default_rng(1).permutation(fiducials(canonical_face())[:, :2]) * 60 + 200,
+    ],
+    ids=["anywhere", "four spots", "another order"],
+)
+def test_points_without_a_face_s_order_are_refused(points: NDArray) -> None:
+    with pytest.raises(InputError, match="order") as caught:
+        mesh_from_fiducials(points)
+    assert (caught.value.code, caught.value.correctable) == ("landmarks_invalid", ("landmarks",))
 
 
 def test_pose_of_a_flat_picture_of_a_face_is_frontal(media) -> None:

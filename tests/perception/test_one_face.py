@@ -61,3 +61,22 @@ def test_before_anybody_is_seen_nothing_is_chosen(pair) -> None:
     with OneFace() as follow:
         assert follow(np.full_like(pair[0], 120)) is None
         assert follow(pair[0]) is not None and len(follow.boxes) == 2
+
+
+def test_one_who_is_small_beside_a_large_face_is_followed(media) -> None:
+    """The tracker does not see that one in the whole frame; it goes as far as its own width, and back."""
+    large = cv2.resize(read_image(media("portraits/photo_man_suit.png")).rgb, (1200, 1200))
+    small = cv2.resize(
+        read_image(media("portraits/photo_woman_white.png")).rgb, (400, 400), interpolation=cv2.INTER_AREA
+    )
+    shifts = [0, 20, 40, 60, 80, 100, 120, 100, 80]
+    frames = []
+    for shift in shifts:
+        frame = np.full((1200, 1760, 3), 128, np.uint8)
+        frame[:, :1200] = large
+        frame[300:700, 1210 + shift : 1610 + shift] = small
+        frames.append(frame)
+    with OneFace(1) as follow:
+        seen = middles(follow, frames)
+        np.testing.assert_allclose(seen - seen[0], shifts, atol=2)
+        assert 1330 < seen[0] < 1480 and len(follow.boxes) == 2

@@ -26,6 +26,7 @@ from engine.portrait.target import (
     MOST_TURNED,
     TargetFace,
     find_target_face,
+    share_inside,
 )
 
 Small = Callable[[str, int], Path]
@@ -80,8 +81,8 @@ def test_no_face_is_refused_and_says_what_helps(tmp_path: Path) -> None:
     write_image(tmp_path / "blotches.png", np.clip(blotches, 0, 255).astype(np.uint8))
     error = refusal(tmp_path / "blotches.png")
     assert error.code == "no_face"
-    assert "landmarks" in error.correctable
-    assert "landmarks" in error.detail
+    assert error.correctable == ("landmarks", "crop")
+    assert "landmarks" in error.detail and "crop" in error.detail
 
 
 @pytest.mark.parametrize("yaw", [-90, 90, 180, 135])
@@ -265,10 +266,65 @@ def test_a_crop_without_the_face_is_refused(woman: Path, crop: tuple[float, ...]
 
 
 def test_landmarks_by_hand_say_whose_face_it_is(couple: Path) -> None:
-    """A revision of a job that chose the second face may place landmarks."""
+    """A revision of a job that chose the second face may place landmarks; that another one is meant is told."""
     second = fiducials(find(couple, face_index=1).mesh[:, :2])
-    placed = find(couple, face_index=1, landmarks=tuple(map(tuple, second.tolist())))
-    np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+    landmarks = tuple(map(tuple, second.tolist()))
+    for index, told in ((0, []), (1, []), (2, ["face_index_ignored"])):
+        codes: list[str] = []
+        placed = find(couple, codes, face_index=index, landmarks=landmarks)
+        np.testing.assert_allclose(fiducials(placed.mesh[:, :2]), second, atol=2)
+        assert [code for code in codes if code != "target_not_neutral"] == told
+
+
+def test_others_are_listed_beside_the_placed_face(couple: Path) -> None:
+    """In their order: the placed one where it was found, or last where nothing was found."""
+    found = find(couple)
+    for index in (0, 1):
+        placed = fiducials(find(couple, face_index=index).mesh[:, :2])
+        target = find(couple, landmarks=tuple(map(tuple, placed.tolist())))
+        np.testing.assert_allclose(target.faces, found.faces, atol=12)  # the forehead has no landmarks
+    nowhere = fiducials(found.mesh[:, :2])
+    nowhere = (nowhere - nowhere.mean(axis=0)) * 0.3 + (470, 285)
+    target = find(couple, landmarks=tuple(map(tuple, nowhere.tolist())))
+    np.testing.assert_array_equal(target.faces[:2], found.faces)
+    own, others = target.face_boxes()
+    assert len(target.faces) == 3 and len(others) == 2
+    np.testing.assert_allclose(own, target.faces[2], atol=1e-3)
+
+
+@pytest.fixture(scope="module")
+def crowd(small: Small, tmp_path_factory) -> Path:
+    """4000 x 3000 pixels: a large face on the left, and one on the right of 30 pixels."""
+    picture = np.full((3000, 4000, 3), 128, np.uint8)
+    large = cv2.resize(read_image(small("photo_man_suit.png", 640)).rgb, None, fx=4, fy=4)
+    tiny = read_image(small("photo_woman_white.png", 100)).rgb
+    picture[300 : 300 + large.shape[0], 100 : 100 + large.shape[1]] = large
+    picture[1300 : 1300 + tiny.shape[0], 3300 : 3300 + tiny.shape[1]] = tiny
+    path = tmp_path_factory.mktemp("target") / "crowd.png"
+    write_image(path, picture)
+    return path
+
+
+def test_a_crop_finds_who_is_tiny_in_the_picture(crowd: Path) -> None:
+    """The crop's own size counts, and what lies beside it does not."""
+    whole = find(crowd)
+    assert len(whole.faces) == 1 and whole.faces[0, 0] < 2000
+    crop = (3260, 1260, 200, 200)
+    target = find(crowd, crop=crop, size=(400, 400))
+    (box,) = target.faces
+    assert 3300 < box[0] < 3400 and 1300 < box[1] < 1400 and 25 < box[2] < 40
+    np.testing.assert_allclose(target.face_boxes()[0], [*(box[:2] - crop[:2]) * 2, *box[2:] * 2], atol=6)
+
+
+def test_a_crop_around_the_second_person_means_that_one(couple: Path) -> None:
+    second = find(couple, face_index=1)
+    target = find(couple, crop=(320, 0, 240, 240))
+    assert len(target.faces) == 1
+    assert apart(target.mesh + np.array([320, 0, 0]), second.mesh) < 1.0
+    error = refusal(couple, crop=(320, 0, 240, 240), face_index=1)
+    assert (
+        error.code == "face_index_out_of_range" and "crop shows 1 face" in error.detail and "crop" in error.correctable
+    )
 
 
 def test_named_crops_hold_the_face_and_differ(woman: Path) -> None:
@@ -313,6 +369,44 @@ def test_placed_landmarks_win_over_detected_ones(woman: Path, whole: TargetFace)
 def test_landmarks_that_are_no_face_are_refused(woman: Path) -> None:
     error = refusal(woman, landmarks=((5.0, 5.0),) * 68)
     assert error.code == "landmarks_invalid" and error.correctable == ("landmarks",)
+
+
+@pytest.mark.parametrize(("scale", "shift"), [(1, (2000, 0)), (1, (-300, -300)), (20, (0, 0)), (1, (0, -220))], ids=str)
+def test_landmarks_beside_the_picture_are_refused(
+    woman: Path, whole: TargetFace, scale: float, shift: tuple[float, float]
+) -> None:
+    points = fiducials(whole.mesh[:, :2])
+    points = (points - points.mean(axis=0)) * scale + points.mean(axis=0) + shift
+    error = refusal(woman, landmarks=tuple(map(tuple, points.tolist())))
+    assert error.code == "landmarks_invalid" and error.correctable == ("landmarks",)
+    assert "outside of the picture" in error.detail
+
+
+def test_how_much_of_a_face_is_inside() -> None:
+    mesh = placed(60, (150, 118))
+    (left, top), (right, bottom) = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
+    middle = (float((left + right) / 2), float((top + bottom) / 2))
+    assert share_inside(mesh, (300, 300)) == pytest.approx(1)
+    assert share_inside(mesh, (round(middle[0]), 300)) == pytest.approx(0.5, abs=0.02)
+    assert share_inside(mesh - [middle[0], 0, 0], (300, 300)) == pytest.approx(0.5, abs=0.02)
+    assert share_inside(mesh - [1000, 0, 0], (300, 300)) == 0
+    assert share_inside(20 * mesh, (300, 300)) < 0.05
+
+
+@pytest.mark.parametrize(("part", "told"), [(1.0, False), (0.75, True), (0.6, True)])
+def test_a_face_that_the_picture_cuts_is_told(
+    woman: Path, whole: TargetFace, part: float, told: bool, tmp_path: Path
+) -> None:
+    """So is one that a crop cuts: what moves in from there is not known."""
+    left, right = float(whole.mesh[:, 0].min()), float(whole.mesh[:, 0].max())
+    width = round(left + part * (right - left)) + 4
+    write_image(tmp_path / "cut.png", np.ascontiguousarray(read_image(woman).rgb[:, :width]))
+    codes: list[str] = []
+    find(tmp_path / "cut.png", codes)
+    assert ("face_cut" in codes) == told
+    codes.clear()
+    find(woman, codes, crop=(0, 0, width, 320))
+    assert ("face_cut" in codes) == told
 
 
 def test_a_cut_out_keeps_its_alpha(woman: Path, tmp_path: Path) -> None:

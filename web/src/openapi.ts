@@ -1605,7 +1605,7 @@ export interface components {
              */
             neutral_frame?: number | null;
             /**
-             * @description Which face of the target, counted from the largest.
+             * @description Which face of the target, counted from the largest; with a crop by numbers, of those in the crop.
              * @default 0
              */
             face_index?: number;
@@ -1635,7 +1635,7 @@ export interface components {
              */
             head_3d?: boolean;
             /**
-             * @description Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels.
+             * @description Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels. Faces are looked for within such a crop, however small they are in the whole.
              * @default none
              */
             crop?: ("none" | "face" | "bust") | [
@@ -1663,7 +1663,7 @@ export interface components {
              */
             sound?: boolean;
             /**
-             * @description Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off.
+             * @description Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off. They say whose face it is: `face_index` does not count beside them.
              * @default null
              */
             landmarks?: [
