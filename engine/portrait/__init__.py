@@ -117,7 +117,7 @@ def animate(
         Run(StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic) as run,
     ):
         _work(inputs, chosen, folder, run)
-    return next(folder.glob("animation.*"))
+    return folder / chosen.animation
 
 
 def _driver(given: str) -> Given:

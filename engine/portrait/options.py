@@ -91,6 +91,11 @@ class PortraitOptions(BaseModel):
             raise ValueError("a reactive profile is made of MP4 clips: leave the format out")
         return self
 
+    @property
+    def animation(self) -> str:
+        """The name of the animation's file."""
+        return "animation." + {"png": "zip"}.get(self.format, self.format)
+
     def framing(self) -> PortraitOptions:
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
         kept = {name: getattr(self, name) for name in ("size", "crop", "face_index", "landmarks")}

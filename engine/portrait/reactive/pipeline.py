@@ -92,7 +92,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
             ],
             "states": {act.state.name: len(act.poses) for act in acts},
             "bridges": {act.state.name: len(act.exits.frames) for act in acts},
-            "animation": "animation.mp4",
+            "animation": options.animation,
         },
         quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performed])))},
     )
@@ -149,7 +149,7 @@ def _draw(
     height, width = target.rgb.shape[:2]
     size = (width, height)
     mark = run.mark_synthetic
-    with VideoWriter(out / "animation.mp4", size, fps, synthetic=mark) as whole:
+    with VideoWriter(out / options.animation, size, fps, synthetic=mark) as whole:
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
                 track, neutral, ratios = act.performed.track, act.performed.neutral, act.performed.ratios
