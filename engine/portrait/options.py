@@ -35,7 +35,8 @@ class PortraitOptions(BaseModel):
         "mp4", description="Container of the animation; png is a zip of numbered pictures."
     )
     neutral_frame: Annotated[int, Field(ge=0)] | None = Field(
-        None, description="Frame of the driver that matches the target's expression. Default: found automatically."
+        None,
+        description="Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.",
     )
     face_index: Annotated[int, Field(ge=0)] = Field(
         0, description="Which face of the target, counted from the largest."

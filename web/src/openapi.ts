@@ -1600,7 +1600,7 @@ export interface components {
              */
             format?: "mp4" | "webm" | "webp" | "png";
             /**
-             * @description Frame of the driver that matches the target's expression. Default: found automatically.
+             * @description Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.
              * @default null
              */
             neutral_frame?: number | null;

@@ -73,7 +73,8 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     profile = _describe(acts, prepared.face, fps)
     (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
     write_bundle(out / "profile.zip", out, profile)
-    write_landmarks(out / "landmarks.json", prepared.face, performed[0].track, performed[0].neutral)
+    told = performed[-1 if states[-1].own else 0]  # the one whose neutral frame can be chosen, if there is one
+    write_landmarks(out / "landmarks.json", prepared.face, told.track, told.neutral)
     height, width = prepared.face.rgb.shape[:2]
     write_report(
         out / "report.json",
