@@ -102,7 +102,9 @@ def read_video(
     seconds = clip.timetable.seconds
     if not 0 <= start < end or start >= seconds:
         raise InputError(
-            "trim_outside", f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s."
+            "trim_outside",
+            f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s.",
+            ("trim",),
         )
     damage = Damage()
     converter = SrgbConverter(clip.scaled_size(longest_side))

@@ -70,7 +70,7 @@ KIND = Kind(
     ),
     options=PortraitOptions,
     work=_work,
-    correctable=("landmarks", "neutral_frame", "face_index", "driver_face_index", "crop", "size"),
+    correctable=("landmarks", "neutral_frame", "face_index", "driver_face_index", "trim", "crop", "size"),
     prepare=_prepare,
     rehearse=_rehearse,
 )

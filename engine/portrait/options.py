@@ -59,7 +59,7 @@ class PortraitOptions(BaseModel):
         description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels.",
     )
     trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
-        None, description="Start and end of the part of the driver to use, in seconds."
+        None, description="Start and end of the part of the driver to use, in seconds; the end comes after the start."
     )
     loop: bool = Field(
         False, description="Ease the end back into the beginning, so that the result repeats without a jump."
@@ -85,6 +85,13 @@ class PortraitOptions(BaseModel):
         if reactive == ():
             raise ValueError("the list of states is empty: name some, or say true")
         return reactive
+
+    @field_validator("trim")
+    @classmethod
+    def _ends_after_its_start(cls, trim: tuple[float, float] | None) -> tuple[float, float] | None:
+        if trim is not None and trim[1] <= trim[0]:
+            raise ValueError(f"the part ends at {trim[1]:g} s, which is not after its start at {trim[0]:g} s")
+        return trim
 
     @model_validator(mode="after")
     def _reactive_is_mp4(self) -> Self:

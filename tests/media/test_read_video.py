@@ -84,7 +84,7 @@ def test_trim_outside(tmp_path: Path) -> None:
     path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(10)])
     with pytest.raises(InputError) as caught:
         next(read_video(path, trim=(3.0, 4.0)))
-    assert caught.value.code == "trim_outside"
+    assert (caught.value.code, caught.value.correctable) == ("trim_outside", ("trim",))
 
 
 @pytest.mark.parametrize("fps", [24000 / 1001, 30000 / 1001, 60, 120, 15, 12.5, 7])

@@ -1645,7 +1645,7 @@ export interface components {
                 number
             ];
             /**
-             * @description Start and end of the part of the driver to use, in seconds.
+             * @description Start and end of the part of the driver to use, in seconds; the end comes after the start.
              * @default null
              */
             trim?: [
