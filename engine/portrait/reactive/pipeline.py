@@ -63,6 +63,8 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     run.plan(STAGES, dict.fromkeys(PER_DRIVER, len(states)))
     if options.sound:
         run.warn("profile_is_silent", "A reactive profile has no sound.")
+    if without_effect := _without_effect(options, states):
+        run.warn("options_without_effect", f"A profile like this has no use for {', '.join(without_effect)}.")
     prepared = prepare_target(look_for_face(image, options, run), out, run)
     fps = options.fps or float(FPS)
     performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
@@ -97,6 +99,14 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
         },
         quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performed])))},
     )
+
+
+def _without_effect(options: PortraitOptions, states: Sequence[State]) -> list[str]:
+    """The options that were chosen and change nothing: built-in performances are played as they are, and every clip
+    returns to the rest by itself."""
+    of_one_s_own = () if any(state.own for state in states) else ("neutral_frame", "trim", "driver_face_index")
+    usual = PortraitOptions.model_fields
+    return [name for name in ("loop", *of_one_s_own) if getattr(options, name) != usual[name].default]
 
 
 def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
