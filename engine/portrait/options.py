@@ -26,6 +26,7 @@ class PortraitOptions(BaseModel):
 
     size: tuple[Side, Side] | None = Field(
         None,
+        examples=[(300, 300)],
         description="Width and height of the result in pixels; the target is fitted into it. Default: the target's own size, the longest side at most 1920.",
     )
     fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
@@ -56,10 +57,13 @@ class PortraitOptions(BaseModel):
     )
     crop: Literal["none", "face", "bust"] | tuple[Coordinate, Coordinate, Coordinate, Coordinate] = Field(
         "none",
+        examples=["bust", (10, 20, 300, 400)],
         description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels.",
     )
     trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
-        None, description="Start and end of the part of the driver to use, in seconds; the end comes after the start."
+        None,
+        examples=[(0.5, 2.0)],
+        description="Start and end of the part of the driver to use, in seconds; the end comes after the start.",
     )
     loop: bool = Field(
         False, description="Ease the end back into the beginning, so that the result repeats without a jump."
