@@ -12,7 +12,7 @@ import shutil
 import tempfile
 import time
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
@@ -105,9 +105,10 @@ class StageStore:
 def trim(stores: Iterable[Path], most: float) -> None:
     """Erase the outputs that were not used for longest until these stores hold no more than `most` bytes together.
 
-    What was used within the last hour stays: a running job may be about to read it.
+    What was used within the last hour stays: a running job may be about to read it. Others may publish and erase at the
+    same time: what is gone when its turn comes is passed over.
     """
-    entries = sorted((one.stat().st_mtime, _size(one), one) for store in stores for one in store.glob("*"))
+    entries = sorted(_entries(stores))
     total = sum(size for _, size, _ in entries)
     limit = time.time() - IN_USE
     for used, size, folder in entries:
@@ -116,7 +117,8 @@ def trim(stores: Iterable[Path], most: float) -> None:
             continue
         # First out of sight in one step, so that nobody finds half of it.
         doomed = folder.with_name(f".draft-erased-{folder.name}")
-        folder.rename(doomed)
+        with suppress(FileNotFoundError):
+            folder.rename(doomed)
         shutil.rmtree(doomed, ignore_errors=True)
         total -= size
 
@@ -161,5 +163,20 @@ def _unpack(kind: Any, value: Any, arrays: dict[str, np.ndarray], folder: Path, 
     return value
 
 
+def _entries(stores: Iterable[Path]) -> Iterator[tuple[float, int, Path]]:
+    """(seconds since the epoch of its last use, bytes, folder) of each output and draft in these stores."""
+    for store in stores:
+        with suppress(FileNotFoundError):
+            for one in store.iterdir():
+                with suppress(FileNotFoundError):
+                    yield one.stat().st_mtime, _size(one), one
+
+
 def _size(folder: Path) -> int:
-    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    """Bytes of the files in a folder, of those that are still there when they are looked at."""
+    size = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with suppress(FileNotFoundError):
+                size += Path(place, name).stat().st_size
+    return size

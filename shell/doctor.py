@@ -128,9 +128,11 @@ def _template(settings: Settings) -> Iterator[Finding]:
 
 def _encoders(settings: Settings) -> Iterator[Finding]:
     import av
+    from PIL import features
 
-    for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("libwebp_anim", "animated WebP")):
-        there = encoder in av.codecs_available
+    known = {*av.codecs_available, *(["webp"] if features.check("webp") else [])}
+    for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("webp", "animated WebP")):
+        there = encoder in known
         yield Finding("ok" if there else "missing", f"{encoder} encodes {use}", "" if there else SETUP)
 
 

@@ -26,10 +26,21 @@ from service.kinds.unknown_options import explained
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced
-from shell.option_flags import flag_of, given_options, option_flags
+from shell.option_flags import flag_of, form_of, given_options, option_flags
 from shell.settings import read_settings
 
 EXAMPLE = """'{"fps": 24}'"""
+MISFORMED = (
+    "tuple_type",
+    "missing",
+    "too_short",
+    "too_long",
+    "literal_error",
+    "int_parsing",
+    "int_type",
+    "float_parsing",
+)
+"""What pydantic calls a value that does not have the form of a list of numbers."""
 
 
 def kind_command(kind: Kind) -> click.Command:
@@ -107,7 +118,8 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
         first = explained(error.errors(), kind.options)[0]
         place = [str(part) for part in first["loc"]]
         if place and place[0] in flags:
-            raise Complaint(f"{flag_of(place[0])}: {first['msg']}") from error
+            form = form_of(kind.options.model_fields[place[0]]) if first["type"] in MISFORMED else None
+            raise Complaint(f"{flag_of(place[0])}: {f'give {form}' if form else first['msg']}") from error
         raise Complaint(f"--options: {'.'.join(place) or 'the whole'}: {first['msg']}") from error
     except ValueError as error:
         raise Complaint(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error

@@ -41,9 +41,25 @@ def flag_of(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
+def form_of(field: FieldInfo) -> str | None:
+    """How an option that may be a list of numbers is said, with an example; None where there is no such example."""
+    said = _example(field)
+    return said and f"{_metavar(field.annotation)}, such as {said}"
+
+
+def _example(field: FieldInfo) -> str | None:
+    """A list that the option may be, as a flag says it: `300x300`, `0.5,2`."""
+    parts = next((one for one in field.examples or () if isinstance(one, tuple)), ())
+    return ("x" if len(parts) == 2 and all(isinstance(one, int) for one in parts) else ",").join(
+        f"{one:g}" for one in parts
+    ) or None
+
+
 def _flag(name: str, field: FieldInfo) -> click.Option:
     usual = field.default
     told = "" if usual is None or isinstance(usual, bool | tuple | dict) or field.is_required() else f" [{usual}]"
+    if example := _example(field):
+        told = f" For instance {example}.{told}"
     given = {"default": None, "help": (field.description or "") + told}
     if field.annotation is bool:
         return click.Option([f"{flag_of(name)}/--no-{flag_of(name)[2:]}", DEST + name], **given)

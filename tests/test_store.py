@@ -178,3 +178,35 @@ def test_a_trimmed_store_loses_what_was_not_used_for_longest(tmp_path: Path) -> 
     trim([store.folder], 0)
     assert [path.name for path in tmp_path.iterdir()] == ["d"], "a running job may be about to read it"
     assert store.find("d") is not None
+
+
+def test_a_store_is_trimmed_while_others_publish_and_erase(tmp_path: Path) -> None:
+    """Two writers whose outputs and drafts come and go, and two that trim: nobody stumbles, and what is new stays."""
+    until, errors, saved = time.time() + 2, [], [0, 0]
+
+    def publish(who: int) -> None:
+        store = StageStore(tmp_path)
+        while time.time() < until:
+            key = f"{who}-{saved[who]}"
+            store.save(key, (np.zeros(10),))
+            if saved[who] % 2:
+                os.utime(tmp_path / key, (1, 1))
+            saved[who] += 1
+
+    def erase() -> None:
+        try:
+            while time.time() < until:
+                trim([tmp_path, tmp_path / "gone"], 0)
+        except OSError as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=publish, args=(who,)) for who in (0, 1)]
+    threads += [threading.Thread(target=erase) for _ in (0, 1)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    trim([tmp_path], 0)
+    assert errors == []
+    assert {one.name for one in tmp_path.iterdir()} == {f"{who}-{k}" for who in (0, 1) for k in range(0, saved[who], 2)}
+    assert min(saved) > 10

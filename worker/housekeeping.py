@@ -141,4 +141,4 @@ def _without_record(
 def _older(folder: Path, before: datetime) -> list[Path]:
     if not folder.is_dir():
         return []
-    return [path for path in folder.iterdir() if path.stat().st_mtime < before.timestamp()]
+    return [path for path in folder.iterdir() if _is_older(path, before)]

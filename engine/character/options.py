@@ -68,6 +68,7 @@ class CharacterOptions(BaseModel):
     seconds: Annotated[float, Field(ge=1, le=30)] = Field(4.0, description="Length of the video, at most.")
     size: tuple[Side, Side] | None = Field(
         None,
+        examples=[(300, 300)],
         description="Width and height of the video in pixels; the picture is fitted into it. Default: the picture's own size, the longest side at most 1280.",
     )
     fps: Annotated[float, Field(ge=1, le=60)] = Field(30.0, description="Frames a second of clips and video.")
@@ -100,7 +101,9 @@ class CharacterOptions(BaseModel):
         description="Joints placed by hand, by their names in skeleton.json: [x, y] in pixels of the picture.",
     )
     person_box: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
-        None, description="x, y, width and height in pixels of the picture: the person is looked for in there."
+        None,
+        examples=[(120, 40, 200, 560)],
+        description="x, y, width and height in pixels of the picture: the person is looked for in there.",
     )
     person_index: Annotated[int, Field(ge=0, le=99)] | Literal["all"] | None = Field(
         None,

@@ -83,7 +83,6 @@ _CODINGS = {
         {},
         threads=2,
     ),
-    "webp": _Coding("libwebp_anim", {"quality": "90", "compression_level": "1"}, {}, threads=1),
 }
 
 
@@ -122,12 +121,8 @@ the last frame and the first: 0.01 grey levels; largest step 1.85, median 0.39),
 | webm, crf 10 | 0.68 | 1.95 | 0.53 | 637 | 3 |
 | webm, crf 14, `cpu-used` 4, which is used | 0.67 | 1.90 | 0.50 | 301 | 7 |
 | webm, crf 14, deadline `good` | 0.59 | 1.86 | 0.45 | 226 | 18 |
-| webp as usual | 1.74 | 2.42 | 0.48 | 2148 | 7 |
-| webp, quality 95 | 1.26 | 2.22 | 0.52 | 3340 | 8 |
-| webp, quality 98 | 0.84 | 2.07 | 0.59 | 5324 | 9 |
 
-libvpx takes no quantiser for single frames. A WebP is left as it is: each picture is coded on its own, and what helps more
-than doubles the file.
+libvpx takes no quantiser for single frames.
 """
 
 
@@ -135,7 +130,7 @@ def _looped(target: Target, usual: dict[str, str]) -> dict[str, str]:
     """Options of a video that loops, in place of the `usual` ones."""
     if target.format == "webm":
         return _LOOPED_WEBM
-    if target.format == "webp" or target.frames is None:
+    if target.frames is None:
         return {}
     ending = min(_SEAM_FRAMES, target.frames // 2)
     fall = np.linspace(_SEAM_START, _SEAM_QUANTISER, ending + 1)[1:].round().astype(int)
@@ -145,41 +140,34 @@ def _looped(target: Target, usual: dict[str, str]) -> dict[str, str]:
 
 
 class StreamEncoder:
-    """MP4 (H.264), WebM (VP9) and animated WebP, by FFmpeg."""
+    """MP4 (H.264) and WebM (VP9), by FFmpeg."""
 
     def __init__(self, target: Target, transparent: bool):
         coding = _CODINGS[target.format]
-        options = coding.container | ({"loop": "0" if target.loop else "1"} if target.format == "webp" else {})
         self._target = target
-        self._webp = target.format == "webp"
         self._transparent = transparent
         self._rate = exact_rate(target.fps)
         self._entries = target.entries or frozenset()
         self._count = 0
-        self._container = av.open(str(target.path), "w", format=target.format, options=options)
+        self._container = av.open(str(target.path), "w", format=target.format, options=coding.container)
         if target.synthetic:
             self._container.metadata.update(synthetic.TAGS)
         self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
         self._stream.width, self._stream.height = target.size
-        crf = {} if target.crf is None or self._webp else {"crf": str(target.crf)}
+        crf = {} if target.crf is None else {"crf": str(target.crf)}
         special = ENTERED if target.entries else _looped(target, coding.options) if target.loop else {}
         self._stream.options = {**coding.options, **special, **crf}
         self._stream.codec_context.thread_count = coding.threads
-        if self._webp:
-            self._stream.pix_fmt = "bgra"
-        else:
-            self._stream.pix_fmt = "yuva420p" if transparent else "yuv420p"
-            context = self._stream.codec_context
-            context.colorspace = context.color_primaries = context.color_trc = BT709
-            context.color_range = LIMITED
+        self._stream.pix_fmt = "yuva420p" if transparent else "yuv420p"
+        context = self._stream.codec_context
+        context.colorspace = context.color_primaries = context.color_trc = BT709
+        context.color_range = LIMITED
         self.sound: SoundTrack | None = None
-        if target.sound is not None and not self._webp:
+        if target.sound is not None:
             self.sound = open_sound(target.sound, self._container, target.format, target.sound_trim)
 
     def prepare(self, rgb: np.ndarray, alpha: np.ndarray | None) -> VideoFrame:
         """The frame as the codec takes it."""
-        if self._webp:
-            return av.VideoFrame.from_ndarray(_bgra(rgb, alpha), "bgra")
         if self._transparent and alpha is None:
             alpha = np.ones(rgb.shape[:2], np.float32)
         return frame_from_rgb(rgb, alpha if self._transparent else None)
@@ -201,8 +189,6 @@ class StreamEncoder:
         self._close_sound()
         if self._target.synthetic and self._target.format == "mp4":
             synthetic.append_to_mp4(self._target.path)
-        elif self._target.synthetic and self._webp:
-            synthetic.append_to_webp(self._target.path, self._target.size)
 
     def abandon(self) -> None:
         """Close the file, whatever state it is in."""

@@ -37,7 +37,6 @@ _JPEG_NAME = b"http://ns.adobe.com/xap/1.0/\0"
 _PNG_KEYWORD = b"XML:com.adobe.xmp"
 _PNG_SIGNATURE = 8
 _IHDR = 25
-_VP8X_XMP, _VP8X_ALPHA = 0x04, 0x10
 
 
 def mark_image(path: Path) -> None:
@@ -51,32 +50,6 @@ def append_to_mp4(path: Path) -> None:
     box = UUID + XMP
     with path.open("ab") as file:
         file.write((8 + len(box)).to_bytes(4, "big") + b"uuid" + box)
-
-
-def append_to_webp(path: Path, size: tuple[int, int]) -> None:
-    """Add the mark as the last chunk of a WebP of this (width, height), and say in its extended header that it is
-    there. An animation whose frames are all alike is written as a plain picture, which has no such header yet."""
-    data = path.read_bytes() if _plain(path) else b""
-    with path.open("r+b") as file:
-        if data:
-            alpha = _VP8X_ALPHA if data[12:16] == b"VP8L" and data[24] & 0x10 else 0
-            sides = b"".join((side - 1).to_bytes(3, "little") for side in size)
-            file.seek(12)
-            file.write(b"VP8X" + (10).to_bytes(4, "little") + bytes([alpha, 0, 0, 0]) + sides + data[12:])
-        file.seek(0, 2)
-        file.write(b"XMP " + len(XMP).to_bytes(4, "little") + XMP + bytes(len(XMP) % 2))
-        riff = file.tell() - 8
-        file.seek(4)
-        file.write(riff.to_bytes(4, "little"))
-        file.seek(20)
-        flags = file.read(1)[0]
-        file.seek(20)
-        file.write(bytes([flags | _VP8X_XMP]))
-
-
-def _plain(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.read(16)[12:] in (b"VP8 ", b"VP8L")
 
 
 def marked_png(png: bytes) -> bytes:

@@ -12,6 +12,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from engine.export.animated_webp import WebpEncoder
 from engine.export.encoders import Encoder, Format, PngEncoder, StreamEncoder, Target
 
 Warn = Callable[[str, str], None]
@@ -118,6 +119,8 @@ class VideoWriter:
         encoder: Encoder
         if target.format == "png":
             encoder, has_sound = PngEncoder(target), False
+        elif target.format == "webp":
+            encoder, has_sound = WebpEncoder(target, transparent), False
         else:
             encoder = stream = StreamEncoder(target, transparent)
             has_sound = stream.sound is not None

@@ -50,7 +50,7 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     except Image.DecompressionBombError:
         raise _too_large("", limits) from None
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, RuntimeError, UnidentifiedImageError) as error:
-        raise _broken(error) from error
+        raise _broken(error, media_type == "image/webp" and _ends_early(path)) from error
     rgb, alpha = _to_srgb(image)
     return Picture(rgb, alpha, media_type)
 
@@ -115,8 +115,14 @@ def _too_large(size: str, limits: Limits) -> InputError:
     )
 
 
-def _broken(error: BaseException) -> InputError:
-    if "truncated" in str(error).lower() or isinstance(error, EOFError):
+def _ends_early(path: Path) -> bool:
+    """Whether a RIFF file is shorter than it says: libwebp does not tell cut pictures from damaged ones."""
+    with path.open("rb") as file:
+        return int.from_bytes(file.read(8)[4:], "little") + 8 > path.stat().st_size
+
+
+def _broken(error: BaseException, cut: bool) -> InputError:
+    if cut or "truncated" in str(error).lower() or isinstance(error, EOFError):
         return InputError("image_truncated", "The picture file ends too early: send it again.")
     return InputError("image_unreadable", "The picture file is damaged: open it in a viewer and save it anew.")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from math import inf
 from pathlib import Path
 
@@ -88,7 +89,8 @@ def read_video(
     fps : frames a second to give; None keeps each frame of a clip of constant rate, and takes `VideoInfo.fps` for one
         of variable rate. Frames are picked by their timestamps, never blended; over frames that do not decode, the one
         before is held.
-    trim : (start, end) seconds of the clip; the frames' times still count from the clip's beginning.
+    trim : (start, end) seconds of the clip; the frames' times still count from the clip's beginning. However short it
+        is, and the clip at a low rate, there is one frame.
     warn : called with (code, message): `video_truncated` (the end is missing; what there is, is used),
         `video_damaged` (some frames do not decode).
     longest_side : pixels; frames whose longer side is longer are scaled down to it (cheaper than doing it after).
@@ -100,7 +102,9 @@ def read_video(
     seconds = clip.timetable.seconds
     if not 0 <= start < end or start >= seconds:
         raise InputError(
-            "trim_outside", f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s."
+            "trim_outside",
+            f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s.",
+            ("trim",),
         )
     damage = Damage()
     converter = SrgbConverter(clip.scaled_size(longest_side))
@@ -111,6 +115,10 @@ def read_video(
         if shown is None or shown[0] is not frame:
             shown = frame, clip.orientation.apply(converter.convert(frame))
         yield Frame(shown[1], time)
+    if shown is None:  # the part is shorter than half a frame: what is on show in its middle stands for it
+        for time, frame in islice(clip.frames(1 / (min(end, seconds) - start), start, Damage()), 1):
+            shown = frame, clip.orientation.apply(converter.convert(frame))
+            yield Frame(shown[1], time)
     if shown is None:
         raise unreadable()
     if damage.frames < 2 and trim is None:

@@ -70,7 +70,7 @@ KIND = Kind(
     ),
     options=PortraitOptions,
     work=_work,
-    correctable=("landmarks", "neutral_frame", "face_index", "driver_face_index", "crop", "size"),
+    correctable=("landmarks", "neutral_frame", "face_index", "driver_face_index", "trim", "crop", "size"),
     prepare=_prepare,
     rehearse=_rehearse,
 )
@@ -117,7 +117,7 @@ def animate(
         Run(StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic) as run,
     ):
         _work(inputs, chosen, folder, run)
-    return next(folder.glob("animation.*"))
+    return folder / chosen.animation
 
 
 def _driver(given: str) -> Given:

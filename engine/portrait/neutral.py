@@ -37,7 +37,7 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
 
     Parameters
     ----------
-    target : (478, 3) the target's mesh. chosen : the user's own choice.
+    target : (478, 3) the target's mesh. chosen : the user's own choice, a frame of the track.
 
     Raises `InputError` `neutral_frame_out_of_range`.
     """
@@ -45,7 +45,8 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
         if chosen >= len(track):
             raise InputError(
                 "neutral_frame_out_of_range",
-                f"The driver has {len(track)} frames: neutral_frame counts from 0.",
+                f"neutral_frame counts the driver's frames that are used, from 0: after trim, at {track.fps:g} a second, there "
+                f"are {len(track)}.",
                 ("neutral_frame",),
             )
         return chosen

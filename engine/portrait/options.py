@@ -26,6 +26,7 @@ class PortraitOptions(BaseModel):
 
     size: tuple[Side, Side] | None = Field(
         None,
+        examples=[(300, 300)],
         description="Width and height of the result in pixels; the target is fitted into it. Default: the target's own size, the longest side at most 1920.",
     )
     fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
@@ -35,7 +36,8 @@ class PortraitOptions(BaseModel):
         "mp4", description="Container of the animation; png is a zip of numbered pictures."
     )
     neutral_frame: Annotated[int, Field(ge=0)] | None = Field(
-        None, description="Frame of the driver that matches the target's expression. Default: found automatically."
+        None,
+        description="Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.",
     )
     face_index: Annotated[int, Field(ge=0)] = Field(
         0,
@@ -56,10 +58,13 @@ class PortraitOptions(BaseModel):
     )
     crop: Literal["none", "face", "bust"] | tuple[Coordinate, Coordinate, Coordinate, Coordinate] = Field(
         "none",
+        examples=["bust", (10, 20, 300, 400)],
         description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels. Faces are looked for within such a crop, however small they are in the whole.",
     )
     trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
-        None, description="Start and end of the part of the driver to use, in seconds."
+        None,
+        examples=[(0.5, 2.0)],
+        description="Start and end of the part of the driver to use, in seconds; the end comes after the start.",
     )
     loop: bool = Field(
         False, description="Ease the end back into the beginning, so that the result repeats without a jump."
@@ -86,11 +91,23 @@ class PortraitOptions(BaseModel):
             raise ValueError("the list of states is empty: name some, or say true")
         return reactive
 
+    @field_validator("trim")
+    @classmethod
+    def _ends_after_its_start(cls, trim: tuple[float, float] | None) -> tuple[float, float] | None:
+        if trim is not None and trim[1] <= trim[0]:
+            raise ValueError(f"the part ends at {trim[1]:g} s, which is not after its start at {trim[0]:g} s")
+        return trim
+
     @model_validator(mode="after")
     def _reactive_is_mp4(self) -> Self:
         if self.reactive and self.format != "mp4":
             raise ValueError("a reactive profile is made of MP4 clips: leave the format out")
         return self
+
+    @property
+    def animation(self) -> str:
+        """The name of the animation's file."""
+        return "animation." + {"png": "zip"}.get(self.format, self.format)
 
     def framing(self) -> PortraitOptions:
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""

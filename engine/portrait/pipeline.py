@@ -76,7 +76,7 @@ def animate_portrait(
     layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
         frames = render(track, neutral, performed.ratios, target, layers, rig, options, misfit)
-        name = _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
+        _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
     write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(
         out / "report.json",
@@ -90,7 +90,7 @@ def animate_portrait(
             "neutral_frame": neutral,
             "driver_size": list(track.size),
             "driver_faces": in_pixels(track.faces),
-            "animation": name,
+            "animation": options.animation,
             **choice,
         },
         quality={"driver_face_share": float(track.found.mean())},
@@ -160,13 +160,12 @@ def analyse_driver(
 def _write_animation(
     frames: Iterator[NDArray[np.uint8]], size: tuple[int, int], track: DriverTrack, neutral: int,
     options: PortraitOptions, driver: Path, out: Path, run: Run,
-) -> str:  # fmt: skip
-    name = "animation." + {"png": "zip"}.get(options.format, options.format)
+) -> None:  # fmt: skip
     sound = driver if options.sound and track.has_sound else None
     if options.sound and sound is None:
         run.warn("driver_has_no_sound", "The driver has no sound to keep.")
     with VideoWriter(
-        out / name,
+        out / options.animation,
         size,
         track.fps,
         options.format,
@@ -182,7 +181,6 @@ def _write_animation(
             if index == neutral:
                 write_still(out / "poster.jpg", frame[..., :3], run.mark_synthetic)
             run.tick((index + 1) / len(track))
-    return name
 
 
 def write_landmarks(path: Path, target: TargetFace, track: DriverTrack, neutral: int) -> None:

@@ -98,6 +98,29 @@ def test_webp_keeps_alpha_and_loops(tmp_path: Path) -> None:
         assert np.abs(pixels[32, 208, :3].astype(int) - chart(2)[32, 208]).max() < 12
 
 
+def test_any_frame_of_a_webp_stands_by_itself(tmp_path: Path) -> None:
+    """Whole pictures with times that keep to the rate, read here from the bytes as the container's specification has
+    them: what lies in one frame alone is that frame."""
+    path = write(tmp_path / "out.webp", 30, 24, format="webp", synthetic=False)
+    data = path.read_bytes()
+    assert (data[:4], data[8:12], int.from_bytes(data[4:8], "little")) == (b"RIFF", b"WEBP", len(data) - 8)
+    chunks, at = [], 12
+    while at < len(data):
+        length = int.from_bytes(data[at + 4 : at + 8], "little")
+        chunks.append((data[at : at + 4], data[at + 8 : at + 8 + length]))
+        at += 8 + length + length % 2
+    assert [name for name, _ in chunks] == [b"VP8X", b"ANIM", *[b"ANMF"] * 30] and at == len(data)
+    frames = [content for name, content in chunks if name == b"ANMF"]
+    for k, frame in enumerate(frames):
+        assert frame[:12] == bytes(6) + (223).to_bytes(3, "little") + (63).to_bytes(3, "little")
+        assert frame[15] & 0b11 == 0b10, "in place of the one before, which is left"
+        alone = b"RIFF" + (4 + len(frame) - 16).to_bytes(4, "little") + b"WEBP" + frame[16:]
+        with Image.open(io.BytesIO(alone)) as image:
+            assert np.abs(bars_of(np.asarray(image)) - bars_of(chart(k))).max() <= 6
+    ends = np.cumsum([int.from_bytes(frame[12:15], "little") for frame in frames])
+    assert np.abs(ends - (np.arange(30) + 1) * 1000 / 24).max() <= 0.5
+
+
 def swaying() -> list[np.ndarray]:
     """A grainy picture that sways and comes to rest where it began: each frame uint8 (200, 200, 3)."""
     grain = np.random.default_rng(0).normal(0, 12, (200, 200, 3)).astype(np.float32)
@@ -236,6 +259,33 @@ def test_a_full_disk_is_an_os_error_and_leaves_nothing(tmp_path: Path, format: s
     script = [sys.executable, "-c", FULL_DISK, str(tmp_path), format]
     done = subprocess.run(script, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["refused ['whole']"] * 3
+
+
+WRITING = """
+import re, sys
+from pathlib import Path
+import numpy as np
+from engine.export.video import VideoWriter
+rng = np.random.default_rng(0)
+def peak():
+    return int(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+with VideoWriter(Path(sys.argv[1]), (320, 240), 30, sys.argv[2]) as writer:
+    for k in range(900):
+        writer.write(rng.integers(0, 255, (240, 320, 3), dtype=np.uint8))
+        if k == 60:
+            before = peak()
+print(peak() - before)
+"""
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+def test_a_writer_lets_go_of_what_it_has_written(tmp_path: Path, format: str) -> None:
+    """From the third second to the thirtieth memory grows by a small part of what the file does."""
+    script = [sys.executable, "-c", WRITING, str(tmp_path / "out"), format]
+    done = subprocess.run(script, capture_output=True, text=True, check=True)
+    written = (tmp_path / "out").stat().st_size / 1e6
+    assert written > 30
+    assert int(done.stdout) / 1000 < 8, written
 
 
 MEMORY = """

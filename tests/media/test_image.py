@@ -257,8 +257,18 @@ def test_truncated(tmp_path: Path, format: str) -> None:
     content = path.read_bytes()
     path.write_bytes(content[: len(content) // 2])
     assert refusal(path) in ("image_truncated", "image_unreadable")
-    if format in ("png", "jpeg"):
+    if format in ("png", "jpeg", "webp"):
         assert refusal(path) == "image_truncated"
+
+
+def test_a_whole_webp_that_is_damaged_is_not_called_cut(tmp_path: Path) -> None:
+    path = tmp_path / "picture.webp"
+    Image.fromarray(PIXELS).save(path)
+    content = path.read_bytes()
+    path.write_bytes(content[:20] + bytes(len(content) - 20))
+    assert refusal(path) == "image_unreadable"
+    path.write_bytes(content[:-1])
+    assert refusal(path) == "image_truncated"
 
 
 def test_empty_and_foreign_files(tmp_path: Path) -> None:

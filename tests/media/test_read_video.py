@@ -56,11 +56,35 @@ def test_trim_takes_the_frames_of_its_span(tmp_path: Path, ending: str, codec: s
     assert frames[0].time == pytest.approx(2.0, abs=1e-3)
 
 
+@pytest.mark.parametrize(("ending", "codec", "layout"), CONTAINERS)
+@pytest.mark.parametrize(
+    ("options", "shown"),
+    [
+        ({"trim": (0.0, 0.01)}, 0),
+        ({"trim": (0.125, 0.135)}, 3),
+        ({"trim": (0.03, 0.055)}, 1),  # begins nearer to the next frame, and ends before its middle
+        ({"trim": (0.39, 9.0)}, 9),
+        ({"fps": 1.0}, 5),
+        ({"fps": 1.0, "trim": (0.2, 0.24)}, 5),
+    ],
+)
+def test_the_shortest_part_has_a_frame(
+    tmp_path: Path, ending: str, codec: str, layout: str, options: dict, shown: int
+) -> None:
+    """The one in its middle, where no moment falls inside at which a frame would be taken."""
+    path = write_clip(tmp_path / f"clip.{ending}", [counter(k) for k in range(10)], codec=codec, layout=layout)
+    warned: list[str] = []
+    frames = list(read_video(path, warn=lambda code, message: warned.append(code), **options))
+    assert [number(frame.rgb) for frame in frames] == [shown]
+    assert frames[0].time == pytest.approx(options.get("trim", (0.0,))[0], abs=0.02)
+    assert not warned
+
+
 def test_trim_outside(tmp_path: Path) -> None:
     path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(10)])
     with pytest.raises(InputError) as caught:
         next(read_video(path, trim=(3.0, 4.0)))
-    assert caught.value.code == "trim_outside"
+    assert (caught.value.code, caught.value.correctable) == ("trim_outside", ("trim",))
 
 
 @pytest.mark.parametrize("fps", [24000 / 1001, 30000 / 1001, 60, 120, 15, 12.5, 7])

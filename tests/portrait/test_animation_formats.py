@@ -24,6 +24,17 @@ def test_size_and_rate_are_the_asked_ones(animation, woman, driver) -> None:
     assert report["inputs"]["fps"] == 10
 
 
+def test_the_neutral_frame_is_counted_as_the_result_s_frames_are(animation, woman, driver) -> None:
+    """Eight frames are left of the driver's 24 in this part: the last of them shows the picture."""
+    made = animation(woman, driver, trim=OPENS, fps=10, neutral_frame=7)
+    picture = read_image(woman).rgb.astype(int)
+    apart = [float(np.abs(frame - picture).mean()) for frame in made.frames]
+    assert len(apart) == 8 and int(np.argmin(apart)) == 7
+    report = json.loads((made.out / "report.json").read_text())["inputs"]
+    landmarks = json.loads((made.out / "landmarks.json").read_text())
+    assert [(told["neutral_frame"], told["frames"]) for told in (report, landmarks)] == [(7, 8)] * 2
+
+
 @pytest.mark.parametrize("format", ["webm", "webp", "png"])
 def test_formats(animation, opens, woman, driver, format: str) -> None:
     made = animation(woman, driver, trim=OPENS, neutral_frame=0, format=format)

@@ -56,6 +56,13 @@ def test_three_lines_of_python(woman, driver, tmp_path: Path, monkeypatch: pytes
     assert {p.stage for p in seen} >= {"find_face", "separate_layers", "track_driver", "animate"}
 
 
+def test_a_folder_that_holds_another_animation_gives_the_new_one(woman, driver, tmp_path: Path) -> None:
+    for format, name in (("webm", "animation.webm"), ("png", "animation.zip"), ("mp4", "animation.mp4")):
+        made = animate(woman, driver, tmp_path / "out", cache=tmp_path / "cache", trim=(1.9, 2.0), format=format)
+        assert made == tmp_path / "out" / name and made.is_file()
+        assert json.loads((tmp_path / "out" / "report.json").read_text())["inputs"]["animation"] == name
+
+
 def test_a_cache_folder_spares_the_second_call(woman, driver, tmp_path: Path) -> None:
     for name in ("one", "two"):
         animate(woman, driver, tmp_path / name, cache=tmp_path / "cache", trim=(1.9, 2.1))

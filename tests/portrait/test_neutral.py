@@ -100,6 +100,7 @@ def test_a_choice_beyond_the_clip_is_refused(track: DriverTrack, rest: NDArray, 
         choose_neutral_frame(track, rest, chosen)
     assert caught.value.code == "neutral_frame_out_of_range"
     assert caught.value.correctable == ("neutral_frame",)
+    assert "after trim, at 25 a second, there are 20" in caught.value.detail
 
 
 def test_costs_are_least_for_a_match_and_finite(track: DriverTrack, rest: NDArray) -> None:

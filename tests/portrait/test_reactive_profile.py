@@ -29,6 +29,7 @@ pytestmark = pytest.mark.timeout(900)  # one profile is made for all
 
 NOISE = 2.0
 """Grey levels, in the mean: two codings of one picture differ by less."""
+CODE = "options_without_effect"
 
 Frames = list[NDArray[np.float32]]
 
@@ -186,6 +187,29 @@ def test_a_performance_without_a_video_is_refused(monkeypatch, tmp_path: Path) -
     with pytest.raises(InputError) as caught:
         choose_states(options, None)
     assert caught.value.code == "performance_not_installed"
+
+
+def test_options_of_one_s_own_driver_count_with_one_alone(made: Made, woman: Path, tmp_path: Path) -> None:
+    """Of a profile without one, those that were chosen are told; of one that has it, none was warned of."""
+    options = PortraitOptions.model_validate(
+        {
+            "reactive": ["idle"],
+            "size": [128, 128],
+            "loop": True,
+            "trim": [0, 1],
+            "neutral_frame": 3,
+            "driver_face_index": 2,
+        }
+    )
+    KIND.work({"image": woman}, options, tmp_path, Run())
+    without, with_one = (
+        [one["message"] for one in json.loads((out / "report.json").read_text())["warnings"] if one["code"] == CODE]
+        for out in (tmp_path, made.out)
+    )
+    assert without == ["A profile like this has no use for loop, neutral_frame, trim, driver_face_index."]
+    assert with_one == []
+    told = json.loads((made.out / "landmarks.json").read_text())
+    assert (told["neutral_frame"], told["frames"]) == (0, 24), "they count the driver's own frames"
 
 
 @pytest.mark.parametrize(

@@ -68,6 +68,29 @@ def test_options_are_flags_and_these_count_more(tmp_path: Path, environment: dic
     assert ended.returncode == 2 and ended.stderr.startswith("Error: --seconds: "), ended.stderr
 
 
+@pytest.mark.parametrize(
+    ("flag", "said", "complaint"),
+    [
+        ("--size", "200", "--size: give N,N, such as 300x300"),
+        ("--size", "200x", "--size: give N,N, such as 300x300"),
+        ("--size", "1x2x3", "--size: give N,N, such as 300x300"),
+        ("--size", "20x30", "--size: Input should be greater than or equal to 64"),
+        ("--trim", "3", "--trim: give NUMBER,NUMBER, such as 0.5,2"),
+        ("--trim", "3,1", "--trim: Value error, the part ends at 1 s, which is not after its start at 3 s"),
+        ("--crop", "fac", "--crop: give none|face|bust|NUMBER,NUMBER,NUMBER,NUMBER, such as 10,20,300,400"),
+        ("--strength", "much", "--strength: Input should be a valid number, unable to parse string as a number"),
+        ("--follow", "noes", "--follow: Input should be 'eyes', 'mouth', 'brows' or 'head'"),
+    ],
+)
+def test_a_flag_of_the_wrong_form_is_told_the_right_one(
+    tmp_path: Path, environment: dict[str, str], flag: str, said: str, complaint: str
+) -> None:
+    (tmp_path / "a.png").write_bytes(PICTURE)
+    order = ("portrait", tmp_path / "a.png", "--driver", "wink", "-o", tmp_path / "out", flag, said)
+    ended = galatea(environment | {"GALATEA_KINDS": "engine.kinds:KINDS"}, *order)
+    assert (ended.returncode, ended.stderr) == (2, f"Error: {complaint}\n")
+
+
 def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "a.png").write_bytes(PICTURE)
     (tmp_path / "options.json").write_text('{"crash": "refuse"}')

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from engine.character.options import CharacterOptions
 from engine.portrait.options import PARTS, PortraitOptions
-from shell.option_flags import DEST, flag_of, given_options, option_flags
+from shell.option_flags import DEST, flag_of, form_of, given_options, option_flags
 
 
 @pytest.mark.parametrize("options", [PortraitOptions, CharacterOptions])
@@ -46,6 +46,21 @@ def test_every_option_has_a_flag_but_those_that_are_taken(options: type[BaseMode
 def test_a_flag_says_what_json_says(options: type[BaseModel], name: str, said: Any, means: Any) -> None:
     chosen = options.model_validate(given_options(options, {DEST + name: said, DEST + "fps": None}))
     assert getattr(chosen, name) == means
+
+
+def test_lists_of_numbers_tell_their_form_by_an_example_that_is_right() -> None:
+    told = {}
+    for options in (PortraitOptions, CharacterOptions):
+        flags = {option.name: option for option in option_flags(options, ())}
+        for name, field in options.model_fields.items():
+            if form := form_of(field):
+                told[flag_of(name)] = form
+                example = form.split("such as ")[1]
+                assert options.model_validate(given_options(options, {DEST + name: example}))
+                assert f"For instance {example}." in (flags[DEST + name].help or "")
+    assert told["--size"] == "N,N, such as 300x300"
+    assert told["--trim"] == "NUMBER,NUMBER, such as 0.5,2"
+    assert told["--crop"] == "none|face|bust|NUMBER,NUMBER,NUMBER,NUMBER, such as 10,20,300,400"
 
 
 def test_json_may_be_in_a_file(tmp_path: Path) -> None:

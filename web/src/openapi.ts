@@ -1399,6 +1399,10 @@ export interface components {
             /**
              * @description Width and height of the video in pixels; the picture is fitted into it. Default: the picture's own size, the longest side at most 1280.
              * @default null
+             * @example [
+             *       300,
+             *       300
+             *     ]
              */
             size?: [
                 number,
@@ -1475,6 +1479,12 @@ export interface components {
             /**
              * @description x, y, width and height in pixels of the picture: the person is looked for in there.
              * @default null
+             * @example [
+             *       120,
+             *       40,
+             *       200,
+             *       560
+             *     ]
              */
             person_box?: [
                 number,
@@ -1583,6 +1593,10 @@ export interface components {
             /**
              * @description Width and height of the result in pixels; the target is fitted into it. Default: the target's own size, the longest side at most 1920.
              * @default null
+             * @example [
+             *       300,
+             *       300
+             *     ]
              */
             size?: [
                 number,
@@ -1600,7 +1614,7 @@ export interface components {
              */
             format?: "mp4" | "webm" | "webp" | "png";
             /**
-             * @description Frame of the driver that matches the target's expression. Default: found automatically.
+             * @description Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.
              * @default null
              */
             neutral_frame?: number | null;
@@ -1637,6 +1651,13 @@ export interface components {
             /**
              * @description Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels. Faces are looked for within such a crop, however small they are in the whole.
              * @default none
+             * @example bust
+             * @example [
+             *       10,
+             *       20,
+             *       300,
+             *       400
+             *     ]
              */
             crop?: ("none" | "face" | "bust") | [
                 number,
@@ -1645,8 +1666,12 @@ export interface components {
                 number
             ];
             /**
-             * @description Start and end of the part of the driver to use, in seconds.
+             * @description Start and end of the part of the driver to use, in seconds; the end comes after the start.
              * @default null
+             * @example [
+             *       0.5,
+             *       2
+             *     ]
              */
             trim?: [
                 number,

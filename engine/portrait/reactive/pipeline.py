@@ -63,6 +63,8 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     run.plan(STAGES, dict.fromkeys(PER_DRIVER, len(states)))
     if options.sound:
         run.warn("profile_is_silent", "A reactive profile has no sound.")
+    if without_effect := _without_effect(options, states):
+        run.warn("options_without_effect", f"A profile like this has no use for {', '.join(without_effect)}.")
     prepared = prepare_target(look_for_face(image, options, run), out, run)
     fps = options.fps or float(FPS)
     performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
@@ -73,7 +75,8 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     profile = _describe(acts, prepared.face, fps)
     (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
     write_bundle(out / "profile.zip", out, profile)
-    write_landmarks(out / "landmarks.json", prepared.face, performed[0].track, performed[0].neutral)
+    told = performed[-1 if states[-1].own else 0]  # the one whose neutral frame can be chosen, if there is one
+    write_landmarks(out / "landmarks.json", prepared.face, told.track, told.neutral)
     height, width = prepared.face.rgb.shape[:2]
     write_report(
         out / "report.json",
@@ -92,10 +95,18 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
             ],
             "states": {act.state.name: len(act.poses) for act in acts},
             "bridges": {act.state.name: len(act.exits.frames) for act in acts},
-            "animation": "animation.mp4",
+            "animation": options.animation,
         },
         quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performed])))},
     )
+
+
+def _without_effect(options: PortraitOptions, states: Sequence[State]) -> list[str]:
+    """The options that were chosen and change nothing: built-in performances are played as they are, and every clip
+    returns to the rest by itself."""
+    of_one_s_own = () if any(state.own for state in states) else ("neutral_frame", "trim", "driver_face_index")
+    usual = PortraitOptions.model_fields
+    return [name for name in ("loop", *of_one_s_own) if getattr(options, name) != usual[name].default]
 
 
 def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
@@ -149,7 +160,7 @@ def _draw(
     height, width = target.rgb.shape[:2]
     size = (width, height)
     mark = run.mark_synthetic
-    with VideoWriter(out / "animation.mp4", size, fps, synthetic=mark) as whole:
+    with VideoWriter(out / options.animation, size, fps, synthetic=mark) as whole:
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
                 track, neutral, ratios = act.performed.track, act.performed.neutral, act.performed.ratios

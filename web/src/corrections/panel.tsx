@@ -138,7 +138,7 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
         {job.inputs.driver && sameFrames(wishes, asMade) && (
           <NeutralFrame
             video={performanceUrl(job, report?.inputs.driver_chosen)}
-            report={report}
+            report={made.reactive ? null : report} // a profile's counts the frames of all its states
             start={made.trim?.[0] ?? 0}
             value={wishes.neutral}
             onChange={(neutral) => wish({ neutral })}

@@ -11,7 +11,7 @@ export const failures = {
     driver_face_out_of_range: 'The performance has not so many faces',
     landmarks_invalid: 'The landmarks cannot be used',
     crop_outside: 'The crop does not fit the picture',
-    neutral_frame_out_of_range: 'There is no such frame in the performance',
+    neutral_frame_out_of_range: 'The part of the performance has no such frame',
     trim_outside: 'There is nothing in that part of the video',
     no_driver_fits: 'No performance fits the picture',
     performance_not_installed: 'A performance is not installed',
