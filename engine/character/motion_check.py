@@ -32,7 +32,8 @@ class MotionOptions(BaseModel):
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     """Leaves `motion.json` and `report.json` in `out`. A skeleton that is nobody's is told of, and no failure."""
-    from engine.motion.check import check_motion  # the service reads KIND alone: it stays light
+    from engine.motion.beginning import length_warning  # the service reads KIND alone: it stays light
+    from engine.motion.check import check_motion
     from engine.motion.reading import motion_clips, read_motion
 
     path = inputs["motion"]
@@ -42,6 +43,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
         motion = read_motion(path, options.motion_clip)
     with run.timed("map_joints"):
         checked = check_motion(motion, options.motion_joints)
+    if too_long := length_warning(motion):
+        run.warn("motion_cut", too_long)
     error = None
     if checked.refused is not None:
         error = {"code": checked.refused.code, "detail": checked.refused.detail}
@@ -70,7 +73,7 @@ def _prepare() -> None:
 KIND = Kind(
     name="motion",
     summary="A motion file is read: its skeleton, and which of its joints move a character's.",
-    inputs=(Input("motion", "motion", "A BVH file, or a GLB with an animated skeleton."),),
+    inputs=(Input("motion", "motion", "A BVH file, or a GLB with an animated skeleton.", corrects=True),),
     options=MotionOptions,
     work=_work,
     correctable=("motion_joints", "motion_clip"),

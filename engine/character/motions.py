@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,17 +12,17 @@ from scipy.spatial.transform import Rotation
 from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
+from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep
 from engine.motion.library import built_in
 from engine.motion.reading import read_motion
 from engine.motion.retarget import retarget
+from engine.motion.source_motion import SourceMotion
 from engine.motion.step_out import step_out
 
 NEAREST = 0.3
 """How near to the camera the film lets the person come, as a share of the distance at which they are pictured."""
-LONGEST = 60.0
-"""Seconds of a file's motion that are used, at most."""
 
 
 @dataclass(frozen=True)
@@ -35,30 +35,52 @@ class Played:
     joints: Mapping[str, str] = field(default_factory=dict)
 
 
+def motion_in_use(
+    file: Path | None, clip: str | None, joints: Mapping[str, str | None], warn: Callable[[str, str], None]
+) -> SourceMotion | None:
+    """What is used of a file's motion, or of its animation `clip`; None without a file, where neither this nor `joints`
+    means anything.
+
+    Raises
+    ------
+    InputError : what reading a motion may raise.
+    """
+    if file is None:
+        unused = [name for name, given in (("motion_joints", joints), ("motion_clip", clip)) if given]
+        if unused:
+            warn("motion_options_unused", f"{' and '.join(unused)}: of no use to a built-in motion, send a file.")
+        return None
+    motion = read_motion(file, clip)
+    if too_long := length_warning(motion):
+        warn("motion_cut", too_long)
+    return beginning(motion)
+
+
 def choose_motion(
     character: Character,
     start: Clip,
     name: str,
-    file: Path | None,
+    motion: SourceMotion | None,
     kept: Sequence[str],
     seconds: float,
     fps: float,
     joints: Mapping[str, str | None] | None = None,
-    file_clip: str | None = None,
 ) -> Played:
-    """The character's clips at `fps` frames a second, beginning from the pose `start`; parts of the body that are `kept`
-    stay as they are there. `joints` overrides which joint of a file's motion moves which, `file_clip` which of its animations is played.
+    """The character's clips at `fps` frames a second, beginning from the pose `start`: the built-in one of that `name`, or a
+    file's `motion`, of which `joints` overrides which joint moves which. Parts of the body that are `kept` stay as they
+    are there.
 
     Raises
     ------
-    InputError : what reading and mapping a file's motion may raise.
+    InputError : what mapping a file's motion may raise.
     """
     skeleton = character.mesh.skeleton
     mapping: dict[str, str] = {}
-    if file is None:
+    if motion is None:
         clip = built_in(name, skeleton, fps)
     else:
-        clip, mapping = _carried_over(character, file, fps, joints, file_clip)
+        carried = retarget(motion, skeleton, joints, fps=fps)
+        clip, mapping = replace(carried.clip, name="motion"), carried.mapping
     length = seconds if clip.loops else None
     stepped = step_out(skeleton, start, clip, length=length)
     if kept:
@@ -93,16 +115,6 @@ def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, f
     posed = replace(character.pictured, name="posed", rotations=rotations)
     lowest = [posed_vertices(character, clip)[:, 1].min() for clip in (character.pictured, posed)]
     return replace(posed, root=posed.root + np.array([0, lowest[0] - lowest[1], 0], np.float32))
-
-
-def _carried_over(
-    character: Character, file: Path, fps: float, joints: Mapping[str, str | None] | None, clip_name: str | None
-) -> tuple[Clip, dict[str, str]]:
-    carried = retarget(read_motion(file, clip_name), character.mesh.skeleton, joints, fps=fps)
-    clip = carried.clip
-    if len(clip.rotations) < 1:
-        raise InputError("motion_empty", "The motion has no frames: send one that has.")
-    return replace(_cut(clip, LONGEST), name="motion"), carried.mapping
 
 
 def _cut(clip: Clip, seconds: float) -> Clip:

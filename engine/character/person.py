@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from engine.character.figure import Figure
 from engine.character.label_map import Labels
@@ -12,6 +11,7 @@ from engine.character.options import CharacterOptions
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
 from engine.character.template_fit import FittedBody
+from engine.motion.source_motion import SourceMotion
 
 
 @dataclass
@@ -24,11 +24,10 @@ class Person:
     labels: Labels
     character: Character
 
-    def act(self, options: CharacterOptions, motion: Path | None) -> None:
+    def act(self, options: CharacterOptions, motion: SourceMotion | None) -> None:
         """Choose the pose they `start` from and what is `played`."""
         self.start = posed_by_hand(self.character, options.pose)
         self.played = choose_motion(
             *(self.character, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
             options.motion_joints,
-            options.motion_clip,
         )

@@ -14,6 +14,7 @@ from engine.character.film import cast_of, film, film_size
 from engine.character.findings import character_names, write_findings
 from engine.character.lit import lit_picture
 from engine.character.measures import measure, picture_camera
+from engine.character.motions import motion_in_use
 from engine.character.options import CharacterOptions
 from engine.character.person import Person
 from engine.character.silhouette import Silhouette, cut_out
@@ -81,8 +82,9 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         for one, silhouette in zip(figures, silhouettes, strict=True)
     ]
     with run.timed("write_character"):
+        source = motion_in_use(motion, options.motion_clip, options.motion_joints, run.warn)
         for person in people:
-            person.act(options, motion)
+            person.act(options, source)
         for name, person in zip(character_names(people), people, strict=True):
             write_character(out, name, person, options, run)
         write_findings(out, people)

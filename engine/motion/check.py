@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from engine.errors import InputError
+from engine.motion.beginning import beginning, duration
 from engine.motion.joint_map import REQUIRED, map_joints
 from engine.motion.retarget import cleaned
 from engine.motion.source_motion import SourceMotion
@@ -17,7 +18,8 @@ class CheckedMotion:
 
     `joints` are the names of its joints and `parents` those of their parents, None for roots; `mapping` is
     `{our joint: its joint}`, and `missing` our joints that must have one and have none: `refused` says so then, and the
-    motion is of use only with overrides. `loops` whether it is played on and on; None where that is not known, either.
+    motion is of use only with overrides, if at all. `loops` whether it is played on and on; None where that is not known,
+    either.
     """
 
     fps: float
@@ -41,16 +43,15 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
     refused = loops = None
     try:
         mapping = map_joints(motion, overrides)
-        loops = bool(cleaned(motion, mapping)[0].loops)
+        loops = bool(cleaned(beginning(motion), mapping)[0].loops)
     except InputError as error:
         if "mapping" not in error.found:
             raise
         mapping, refused = dict(error.found["mapping"]), error
-    frames = len(motion.rotations)
     return CheckedMotion(
         fps=motion.fps,
-        frames=frames,
-        seconds=max(frames - 1, 0) / motion.fps,
+        frames=len(motion.rotations),
+        seconds=duration(motion),
         joints=motion.names,
         parents=tuple(motion.names[parent] if parent >= 0 else None for parent in motion.parents),
         mapping=mapping,
