@@ -38,7 +38,8 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
     Raises
     ------
     InputError : `motion_joint_unknown`, an override names a joint that is not there; `motion_not_humanoid`, hips, arms
-        or legs were not found (`found["mapping"]` is what was, `found["joints"]` the motion's joints).
+        or legs were not found, or one joint would move several of those that must have one (`found["mapping"]` is what was found,
+        `found["joints"]` the motion's joints).
     """
     overrides = dict(overrides or {})
     _check(motion, overrides)
@@ -52,13 +53,30 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
     mapping = {name: motion.names[found[name]] for name in TARGET_NAMES if name in found}
     missing = [name for name in REQUIRED if name not in mapping]
     if missing:
-        raise InputError(
-            "motion_not_humanoid",
+        raise not_humanoid(
+            motion,
+            mapping,
             f"In the motion's skeleton no joint was found for {', '.join(missing)}: say which they are.",
-            ("motion_joints",),
-            {"mapping": mapping, "joints": list(motion.names)},
         )
+    _each_its_own(motion, mapping)
     return mapping
+
+
+def not_humanoid(motion: SourceMotion, mapping: Mapping[str, str], detail: str) -> InputError:
+    """The error for a skeleton that is nobody's as it is mapped."""
+    found = {"mapping": dict(mapping), "joints": list(motion.names)}
+    return InputError("motion_not_humanoid", detail, ("motion_joints", "motion"), found)
+
+
+def _each_its_own(motion: SourceMotion, mapping: Mapping[str, str]) -> None:
+    """Limbs between one joint and itself have no length and no direction."""
+    moved: dict[str, list[str]] = {}
+    for name in REQUIRED:
+        moved.setdefault(mapping[name], []).append(name)
+    for joint, names in moved.items():
+        if len(names) > 1:
+            detail = f"The motion's joint {joint!r} cannot move all of {', '.join(names)}: say which others do."
+            raise not_humanoid(motion, mapping, detail)
 
 
 def _check(motion: SourceMotion, overrides: Mapping[str, str | None]) -> None:

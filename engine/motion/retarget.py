@@ -20,7 +20,7 @@ from engine.motion.clip import Clip
 from engine.motion.foot_contact import FeetReport
 from engine.motion.foot_hold import hold_feet
 from engine.motion.glitches import without_flips
-from engine.motion.joint_map import map_joints
+from engine.motion.joint_map import map_joints, not_humanoid
 from engine.motion.kinematics import local_rotations
 from engine.motion.looping import as_loop
 from engine.motion.reference_pose import t_pose_turns
@@ -33,6 +33,10 @@ from engine.motion.treadmill import walked_on
 Array = NDArray[np.float64]
 
 Facing = Literal["start", "main", "keep"]
+
+SHORTEST = 0.05
+"""Thigh and shin of somebody, as a share of the way from the hips to the farthest of their joints: the legs of any figure
+are longer, and by those that are not no way can be measured."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +68,7 @@ def retarget(
 
     Raises
     ------
-    InputError : see `map_joints`.
+    InputError : see `map_joints` and `cleaned`.
     """
     joints = map_joints(motion, mapping)
     motion, upright = cleaned(motion, joints)
@@ -91,9 +95,15 @@ def retarget(
 
 
 def cleaned(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[SourceMotion, Array]:
-    """The motion without joints that flip over, as a loop if it is one; and its `world_upright`."""
+    """The motion without joints that flip over, as a loop if it is one; and its `world_upright`.
+
+    Raises
+    ------
+    InputError : `motion_not_humanoid`, the legs have no length (see `map_joints`).
+    """
     motion = without_flips(motion)
     places = motion.world()[1]
+    _require_legs(motion, joints, places)
     upright = world_upright(motion, joints, places)
     heights = rotation.rotate(upright, places[:, motion.names.index(joints["Hips"])])[:, 1]
     return as_loop(motion, heights / _leg_length(places, motion.names, joints)), upright
@@ -155,7 +165,20 @@ def _leg_length(places: Array, names: tuple[str, ...], joints: Mapping[str, str]
     sides = ("Left", "Right")
     thighs = [np.linalg.norm(at[f"{side}Leg"] - at[f"{side}UpLeg"], axis=1) for side in sides]
     shins = [np.linalg.norm(at[f"{side}Foot"] - at[f"{side}Leg"], axis=1) for side in sides]
-    return max(float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0))), 1e-9)
+    return float(np.median(np.mean(thighs, axis=0) + np.mean(shins, axis=0)))
+
+
+def _require_legs(motion: SourceMotion, joints: Mapping[str, str], places: Array) -> None:
+    mapped = places[:, [motion.names.index(source) for source in joints.values()]]
+    hips = places[:, motion.names.index(joints["Hips"]), None]
+    reach = float(np.median(np.linalg.norm(mapped - hips, axis=-1).max(1)))
+    legs = _leg_length(places, motion.names, joints)
+    if legs <= SHORTEST * reach:
+        raise not_humanoid(
+            motion,
+            joints,
+            "The motion's legs have hardly any length: say which joints are theirs, or send another file.",
+        )
 
 
 def _facing_turn(hips: Array, facing: Facing, fps: float) -> Array:

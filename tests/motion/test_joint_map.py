@@ -108,3 +108,16 @@ def test_a_character_maps_to_itself(skeleton: Skeleton) -> None:
     motion = told_by(skeleton, clip, rotation.identity(len(skeleton.names)), rotation.identity(), 0.01)
     assert map_joints(motion) == {name: f"mixamorig:{name}" for name in map_joints(motion)}
     assert set(map_joints(motion)) == set(skeleton.names)
+
+
+def test_one_joint_cannot_move_both_legs(skeleton: Skeleton) -> None:
+    clip = built_in("idle", skeleton)
+    motion = told_by(skeleton, clip, rotation.identity(len(skeleton.names)), rotation.identity(), 0.01, prefix="")
+    legs = [f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot")]
+    with pytest.raises(
+        InputError, match="'LeftLeg' cannot move all of LeftUpLeg, LeftLeg, LeftFoot, RightUpLeg"
+    ) as error:
+        map_joints(motion, dict.fromkeys(legs, "LeftLeg"))
+    assert (error.value.code, error.value.correctable) == ("motion_not_humanoid", ("motion_joints", "motion"))
+    assert error.value.found["joints"] == list(motion.names)
+    assert map_joints(motion, {"Spine1": "Spine2"})["Spine1"] == "Spine2", "the trunk may share"

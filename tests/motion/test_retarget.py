@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton, told_by
 
+from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.bvh import read_bvh
+from engine.motion.check import check_motion
 from engine.motion.clip import Clip
 from engine.motion.foot_contact import find_contacts, sinking, sliding, sole_places
 from engine.motion.glitches import without_flips
@@ -160,3 +162,26 @@ def test_a_joint_that_flips_over_and_back_is_bridged(skeleton: Skeleton) -> None
     off = rotation.angle(rotation.multiply(rotation.inverse(motion.rotations), mended.rotations))
     assert np.degrees(off.max()) < 12  # a straight line through a knee that bends meanwhile
     assert without_flips(motion) is motion
+
+
+@pytest.mark.parametrize("part", ["everything", "legs", "all of the legs but a hundredth"])
+def test_legs_without_length_are_refused(skeleton: Skeleton, part: str) -> None:
+    """By them the root's way would be scaled beyond all measure."""
+    motion = told_by(skeleton, built_in("walk", skeleton), no_turns(skeleton), rotation.identity(), 0.01)
+    below = [index for index, name in enumerate(skeleton.names) if name.endswith(("Leg", "Foot")) and "Up" not in name]
+    joints = list(range(1, len(skeleton.names))) if part == "everything" else below
+    motion.translations[:, joints] *= 0.01 if "but" in part else 0
+    with pytest.raises(InputError) as error:
+        retarget(motion, skeleton)
+    assert (error.value.code, error.value.correctable) == ("motion_not_humanoid", ("motion_joints", "motion"))
+    checked = check_motion(motion)
+    assert checked.refused is not None and checked.refused.detail == error.value.detail
+    assert checked.mapping == error.value.found["mapping"] and checked.missing == () and checked.loops is None
+
+
+def test_short_legs_are_legs(skeleton: Skeleton) -> None:
+    """A drawn figure's, a fifth as long as a person's."""
+    motion = told_by(skeleton, built_in("walk", skeleton), no_turns(skeleton), rotation.identity(), 0.01)
+    below = [index for index, name in enumerate(skeleton.names) if name.endswith(("Leg", "Foot")) and "Up" not in name]
+    motion.translations[:, below] *= 0.2
+    assert retarget(motion, skeleton).clip.loops is False
