@@ -28,7 +28,8 @@ from engine.motion.source_motion import (
     unique_names,
 )
 
-CHANNELS = {f"{axis.upper()}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
+CHANNELS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
+"""By their names in small letters: programs do not agree on which are large."""
 
 UNITS = {"metre": 1.0, "foot": 0.3048, "decimetre": 0.1, "CMU unit": 0.0254 / 0.45, "inch": 0.0254, "centimetre": 0.01}
 UNITS["millimetre"] = 0.001
@@ -39,7 +40,7 @@ MAX_HIERARCHY = 1 << 20
 HUGE = 1e7
 """No number of a BVH file is larger: ten kilometres in millimetres."""
 
-_MOTION = re.compile(r"^[^\S\n]*MOTION\s+Frames:\s*(\S+)\s+Frame Time:\s*(\S+)[^\S\n]*$", re.MULTILINE)
+_MOTION = re.compile(r"^[^\S\n]*MOTION\s+Frames\s*:\s*(\S+)\s+Frame Time\s*:\s*(\S+)[^\S\n]*$", re.MULTILINE)
 
 
 def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
@@ -59,8 +60,9 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
     assert found is not None
     joints = _read_hierarchy(text[: found.start()])
     parents = np.array([joint.parent for joint in joints], np.int32)
-    channels = [(index, *CHANNELS[channel]) for index, joint in enumerate(joints) for channel in joint.channels]
+    channels = [(index, *CHANNELS[channel.lower()]) for index, joint in enumerate(joints) for channel in joint.channels]
     frames, fps = _frame_header(found.group(1), found.group(2))
+    _require_few_numbers(frames, len(joints), len(channels))
     offsets = np.array([joint.offset for joint in joints], np.float64)
     ends = np.array([joint.end for joint in joints], np.float64)
     values = _read_frames(text[found.end() :], frames, len(channels))
@@ -168,7 +170,7 @@ def _read_hierarchy(text: str) -> list[_Joint]:
         Path(file.name).unlink()
     joints: list[_Joint] = []
     _list_joints(root, -1, joints)
-    unknown = sorted({channel for joint in joints for channel in joint.channels} - set(CHANNELS))
+    unknown = sorted({name for joint in joints for name in joint.channels if name.lower() not in CHANNELS})
     if unknown:
         raise InputError(
             "motion_channels", f"The BVH file has channels that BVH does not know, such as {unknown[0]!r}."
@@ -193,7 +195,10 @@ def _frame_header(count: str, seconds: str) -> tuple[int, float]:
     try:
         frames, step = int(count), float(seconds)
     except ValueError:
-        raise InputError("motion_unreadable", "The BVH file's count of frames cannot be read.") from None
+        raise InputError(
+            "motion_unreadable",
+            "The BVH file's count of frames or its frame time is no number: export it again, with points in decimals.",
+        ) from None
     if frames <= 0:
         raise InputError("motion_empty", "The BVH file has no frames: export the motion, not the skeleton alone.")
     if frames > MAX_FRAMES:
@@ -203,26 +208,42 @@ def _frame_header(count: str, seconds: str) -> tuple[int, float]:
     return frames, 1 / step
 
 
-def _read_frames(text: str, frames: int, width: int) -> Array:
-    """(F, width) numbers of the frames; what lies behind the stated count of frames is left aside."""
+def _require_few_numbers(frames: int, joints: int, width: int) -> None:
     if width == 0:
         raise InputError("motion_channels", "The BVH file's joints have no channels: nothing in it moves.")
-    if frames * width > MAX_NUMBERS:
+    if frames * max(width, 3 * joints) > MAX_NUMBERS:  # a joint without channels has its turn in every frame, too
         raise InputError("motion_too_large", "The motion has too many frames for so many joints: cut the recording.")
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore", DeprecationWarning
-            )  # numpy's word for numbers that end before the text does
-            values = np.fromstring(text, np.float64, sep=" ")[: frames * width]
-    except ValueError as error:
-        raise InputError("motion_truncated", "The BVH file's frames break off: export or upload it again.") from error
+
+
+def _read_frames(text: str, frames: int, width: int) -> Array:
+    """(F, width) numbers of the frames; those behind the stated count of frames are left aside."""
+    values = _numbers(text)
+    if values is None:
+        *before, _ = text.rsplit(maxsplit=1)  # half a number, where a file breaks off
+        values = _numbers("".join(before))
+    if values is None:
+        raise InputError(
+            "motion_unreadable",
+            "The BVH file's frames hold something that is no number: export it again, with points in decimals.",
+        )
     if len(values) < frames * width:
         raise InputError(
             "motion_truncated",
             f"The BVH file breaks off in frame {len(values) // width + 1} of {frames}: export or upload it again.",
         )
-    return values.reshape(frames, width)
+    return values[: frames * width].reshape(frames, width)
+
+
+def _numbers(text: str) -> Array | None:
+    """The numbers in a text; None where something else is among them."""
+    if not text or text.isspace():
+        return np.empty(0)  # numpy finds a number there
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DeprecationWarning)  # what is an error in newer versions of numpy
+        try:
+            return np.fromstring(text, np.float64, sep=" ")
+        except (ValueError, DeprecationWarning):
+            return None
 
 
 def _to_local(values: Array, channels: list[tuple[int, str, str]], offsets: Array) -> tuple[Array, Array]:

@@ -107,7 +107,22 @@ def test_names_may_be_long_and_of_many_words_and_come_twice() -> None:
 
 def test_line_ends_and_spaces_do_not_matter() -> None:
     windows = ARM.replace("\n", "\r\n").replace("Frames: 2", "Frames:\t2")
-    assert np.allclose(read_bvh(windows.encode()).rotations, read_bvh(ARM.encode()).rotations)
+    spaced = ARM.replace("Frames:", "Frames :").replace("Time:", "Time  :")
+    for text in (windows, spaced):
+        assert np.allclose(read_bvh(text.encode()).rotations, read_bvh(ARM.encode()).rotations)
+
+
+@pytest.mark.parametrize("spelt", [str.lower, str.upper])
+def test_channels_mean_the_same_however_they_are_spelt(spelt: Callable[[str], str]) -> None:
+    text = ARM
+    for channel in ("Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"):
+        text = text.replace(channel, spelt(channel))
+    read, known = read_bvh(text.encode()), read_bvh(ARM.encode())
+    assert np.array_equal(read.rotations, known.rotations) and np.array_equal(read.translations, known.translations)
+
+
+def test_numbers_behind_the_last_frame_are_left_aside() -> None:
+    assert np.array_equal(read_bvh((ARM + "7 7 7\n").encode()).rotations, read_bvh(ARM.encode()).rotations)
 
 
 def joints(count: int, nested: bool) -> str:
@@ -136,11 +151,16 @@ HOSTILE = {
     "not a number": (ARM.replace("1 2 3 90", "1 nan 3 90").encode(), "motion_not_finite"),
     "infinite": (ARM.replace("1 2 3 90", "1 1e999 3 90").encode(), "motion_not_finite"),
     "an offset not a number": (ARM.replace("OFFSET 1 2 3", "OFFSET 1 nan 3").encode(), "motion_not_finite"),
-    "a word among numbers": (ARM.replace("1 2 3 90", "1 two 3 90").encode(), "motion_truncated"),
+    "a word among numbers": (ARM.replace("1 2 3 90", "1 two 3 90").encode(), "motion_unreadable"),
+    "commas in decimals": (ARM.replace("1 2 3 90", "1,0 2,0 3,0 90,0").encode(), "motion_unreadable"),
+    "commas in the time": (ARM.replace("0.04", "0,04").encode(), "motion_unreadable"),
+    "ends in a number": (ARM[: ARM.index("90 0 0 0 0 90")].encode() + b"-", "motion_truncated"),
+    "ends before the first frame": (ARM[: ARM.index("0 0 0 0 0 0 0 0 0")].encode(), "motion_truncated"),
     "braces missing": (ARM.replace("}", "", 1).encode(), "motion_unreadable"),
     "braces too many": (ARM.replace("}", "}\n}\n}\n", 1).encode(), "motion_unreadable"),
     "a joint without a name": (ARM.replace("JOINT Fore", "JOINT").encode(), "motion_unreadable"),
     "two skeletons": (ARM.replace("MOTION", ARM[10 : ARM.index("MOTION")] + "MOTION").encode(), "motion_unreadable"),
+    "more turns than numbers": (joints(500, nested=False).replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 0").replace("Frames: 2", "Frames: 70000").encode(), "motion_too_large"),
     "a thousand joints": (joints(1000, nested=False).encode(), "motion_too_large"),
     "a million joints": (joints(1_000_000, nested=False).encode(), "motion_too_large"),
     "lines beyond measure": (b"HIERARCHY" + b"\n" * 30_000_000, "motion_too_large"),
