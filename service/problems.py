@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from errno import EDQUOT, ENOSPC
 from http import HTTPStatus
+from types import MappingProxyType
 from typing import Any
 
 import structlog
@@ -102,21 +103,31 @@ class Problem(Exception):
         )
 
 
-def field_errors(errors: Sequence[Any], prefix: str = "") -> list[FieldError]:
-    """pydantic's errors as JSON pointers."""
+def field_errors(
+    errors: Sequence[Any], prefix: str = "", elsewhere: Mapping[str, str] = MappingProxyType({})
+) -> list[FieldError]:
+    """pydantic's errors as JSON pointers below `prefix`, or below what `elsewhere` has for the outermost name."""
 
     def pointer(location: Sequence[Any]) -> str:
-        return prefix + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
+        place = elsewhere.get(str(location[0]), prefix) if location else prefix
+        return place + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
 
     return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors]
 
 
-def invalid(error: ValidationError, code: str, prefix: str = "", options: type[BaseModel] | None = None) -> Problem:
-    """The 422 problem for a pydantic error; of an option that is none of a job kind's `options`, with those that are."""
+def invalid(
+    error: ValidationError,
+    code: str,
+    prefix: str = "",
+    options: type[BaseModel] | None = None,
+    elsewhere: Mapping[str, str] = MappingProxyType({}),
+) -> Problem:
+    """The 422 problem for a pydantic error (see `field_errors`); of an option that is none of a job kind's `options`, with
+    those that are."""
     told = error.errors(include_url=False, include_context=False, include_input=False)
     if options is not None:
         told = explained(told, options)
-    errors = field_errors(told, prefix)
+    errors = field_errors(told, prefix, elsewhere)
     first = errors[0]
     return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}", errors)
 

@@ -93,7 +93,9 @@ def resolve(
                 resolved.sources[item.name] = source
             elif item.needed(chosen) and item.name not in resolved.sources:
                 detail = f"The input “{item.name}” is missing: {item.description}"
-                errors.append(_error(item.name, "missing_input", detail))
+                by_option = revised is not None and item.name not in given  # the one that makes it needed was changed
+                at = (str(item.spared_by), "/options") if by_option else (item.name, place)
+                errors.append(_error(at[0], "missing_input", detail, at[1]))
         except Refused as refused:
             errors.append(_error(item.name, refused.code, refused.detail, place))
     if errors:

@@ -91,7 +91,7 @@ def revise(
     if not Status(parent.status).final:
         raise Problem(409, "job_not_finished", f"The job is {parent.status}: wait for its end, or cancel it first.")
     wanted = {**parent.options, **asked.options, **corrected}
-    options = _options(kind, {name: value for name, value in wanted.items() if value is not None})
+    options = _options(kind, {name: value for name, value in wanted.items() if value is not None}, corrected)
     document = {"revision_of": job_id, **_document(asked)}
     if uploaded:
         document["uploaded"] = {name: [file.sha256 for file in files] for name, files in sorted(uploaded.items())}
@@ -244,11 +244,13 @@ def _be_told(job: Job, url: str | None, types: Sequence[str] | None) -> None:
     job.webhook_url, job.webhook_events = url, list(types) if types is not None else None
 
 
-def _options(kind: Kind, given: Mapping[str, object]) -> dict[str, object]:
+def _options(kind: Kind, given: Mapping[str, object], corrected: Iterable[str] = ()) -> dict[str, object]:
+    """The options as a job has them; those by the names `corrected` came as corrections, and are told of as such."""
     try:
         return kind.options.model_validate(given).model_dump(mode="json", exclude_unset=True)
     except ValidationError as error:
-        raise invalid(error, "invalid_options", "/options", kind.options) from error
+        came = dict.fromkeys(corrected, "/corrections")
+        raise invalid(error, "invalid_options", "/options", kind.options, came) from error
 
 
 def _new_job(owner: str, kind: Kind, options: dict[str, object], metadata: dict[str, Any]) -> Job:

@@ -184,6 +184,18 @@ def test_another_key_sees_nothing_of_it(service: Running, mine: dict[str, Any], 
         assert told(answer) == (404, "motion_not_found")
 
 
+def test_a_wrong_correction_is_shown_to_the_number(service: Running, photo: str) -> None:
+    asked = {"kind": "character", "inputs": {"photo": photo}, "options": {"seconds": 1}}
+    job = service.client.post("/v1/jobs", json=asked).raise_for_status().json()
+    service.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
+    knee = {"corrections": {"joints": {"LeftKnee": ["left", 310]}}, "options": {"fps": 0}}
+    answer = service.client.post(f"/v1/jobs/{job['id']}/revisions", json=knee)
+    assert told(answer) == (422, "invalid_options")
+    pointers = {error["pointer"] for error in answer.json()["errors"]}
+    assert pointers == {"/corrections/joints/LeftKnee/0", "/options/fps"}
+    service.client.delete(f"/v1/jobs/{job['id']}").raise_for_status()
+
+
 def test_characters_move_by_ones_own_motion_until_both_are_gone(
     service: Running, mine: dict[str, Any], photo: str
 ) -> None:

@@ -89,6 +89,26 @@ def test_what_cannot_be_revised_so(running: Running, done: dict[str, Any], body:
     assert problem(revise(running, done["id"], body)) == (status, code)
 
 
+@pytest.mark.parametrize(
+    ("body", "pointers"),
+    [
+        ({"corrections": {"level": "high"}}, ["/corrections/level"]),
+        ({"options": {"level": "high"}}, ["/options/level"]),
+        ({"options": {"polls": "maybe"}, "corrections": {"level": "high"}}, ["/options/polls", "/corrections/level"]),
+        (
+            {"options": {"level": 1, "nonsense": 1}, "corrections": {"level": []}},
+            ["/corrections/level", "/options/nonsense"],
+        ),
+    ],
+)
+def test_what_is_wrong_is_shown_where_the_request_has_it(
+    running: Running, done: dict[str, Any], body: dict, pointers: list[str]
+) -> None:
+    answer = revise(running, done["id"], body).json()
+    assert [error["pointer"] for error in answer["errors"]] == pointers
+    assert answer["detail"].startswith(pointers[0])
+
+
 def test_a_correction_may_be_a_file(start: Callable[..., Running], picture: bytes) -> None:
     """It is an input of the new job, stays with its revisions until it is taken back, and lives as long as they do."""
     running = start()
