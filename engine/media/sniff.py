@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 _HEAD = 4096
@@ -10,6 +11,12 @@ _HEAD = 4096
 _HEIF_BRANDS = {b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"mif1", b"msf1", b"mif2"}
 _AVIF_BRANDS = {b"avif", b"avis"}
 _AUDIO_BRANDS = {b"M4A ", b"M4B ", b"M4P "}
+
+# JSON that begins with one of the members that glTF's outermost object has, in whichever order they come.
+_GLTF = re.compile(
+    rb'\{\s*"(accessors|animations|asset|buffers|bufferViews|cameras|extensions|extensionsRequired|extensionsUsed|extras|images'
+    rb'|materials|meshes|nodes|samplers|scene|scenes|skins|textures)"\s*:'
+)
 
 IMAGE_TYPES = frozenset({"image/jpeg", "image/png", "image/webp", "image/heic", "image/avif", "image/gif"})
 """The media types that `engine.media.image.read_image` takes."""
@@ -20,7 +27,7 @@ VIDEO_TYPES = frozenset(
 )
 """The media types that `engine.media.video.read_video` takes."""
 
-MOTION_TYPES = frozenset({"text/x-bvh", "model/gltf-binary"})
+MOTION_TYPES = frozenset({"text/x-bvh", "model/gltf-binary", "model/gltf+json"})
 """The media types that `engine.motion` reads motions from."""
 
 
@@ -52,8 +59,11 @@ def sniff_bytes(head: bytes) -> str | None:
         return "image/gif"
     if head[:4] == b"glTF":
         return "model/gltf-binary"
-    if head.removeprefix(b"\xef\xbb\xbf").lstrip()[:9] == b"HIERARCHY":
+    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    if text.startswith(b"HIERARCHY"):
         return "text/x-bvh"
+    if _GLTF.match(text):
+        return "model/gltf+json"
     if head[:4] == b"RIFF":
         return {b"WEBP": "image/webp", b"AVI ": "video/x-msvideo", b"WAVE": "audio/wav"}.get(head[8:12])
     if head.startswith(b"\x1a\x45\xdf\xa3"):

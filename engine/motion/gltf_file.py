@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import binascii
 import json
+import re
 import struct
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from engine.errors import InputError
 from engine.motion.source_motion import MAX_BYTES, MAX_NUMBERS
 
 MAX_JSON = 8 << 20
+"""Bytes of a file's JSON beside the buffers in it."""
 
 MOST_READ = 4 * MAX_NUMBERS
 """Numbers that a file may have read in all: many accessors can point to the same bytes."""
@@ -23,6 +25,12 @@ MOST_READ = 4 * MAX_NUMBERS
 _TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _MAGIC = b"glTF"
+_BUFFER = re.compile(rb'"data:[^"\\]*"')
+
+
+def begins_as_gltf(head: bytes) -> bool:
+    """Whether a file with these first bytes (64 are enough) is a GLB, or JSON, as glTF is."""
+    return head[:4] == _MAGIC or head[:64].removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{")
 
 
 def unreadable(why: str) -> InputError:
@@ -144,15 +152,20 @@ def _read(source: Path | bytes) -> tuple[bytes, bytes]:
     if size > MAX_BYTES:
         raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
     data = source.read_bytes() if isinstance(source, Path) else source
+    if not begins_as_gltf(data):
+        raise unreadable("it is neither GLB nor glTF")
     if data[:4] != _MAGIC:
-        if not data[:64].lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
-            raise unreadable("it is neither GLB nor glTF")
+        _require_few_parts(len(data) - sum(len(found.group()) for found in _BUFFER.finditer(data)))
         return data, b""
     if len(data) < 20:
         raise unreadable("it breaks off")
     version, length, first = struct.unpack_from("<III", data, 4)
     if version != 2 or length > len(data) or first > len(data) - 20:
         raise unreadable("it breaks off")
-    if first > MAX_JSON:
-        raise InputError("motion_too_large", "The GLB file describes too many parts: export the skeleton alone.")
+    _require_few_parts(first)
     return data[20 : 20 + first], data[28 + first :]
+
+
+def _require_few_parts(size: int) -> None:
+    if size > MAX_JSON:
+        raise InputError("motion_too_large", "The glTF file describes too many parts: export the skeleton alone.")

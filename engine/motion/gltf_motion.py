@@ -20,6 +20,9 @@ FEWEST_JOINTS = 10
 USUAL_FPS = 30.0
 """For clips whose keys are sparse."""
 
+INTERPOLATIONS = (None, "LINEAR", "STEP", "CUBICSPLINE")
+"""None stands for LINEAR."""
+
 
 @dataclass(frozen=True)
 class _Track:
@@ -219,6 +222,8 @@ def _tracks(file: GltfFile, animation: Any, index: dict[int, int]) -> list[tuple
             sampler = animation.samplers[channel.sampler]
         except (IndexError, TypeError) as error:
             raise unreadable("a sampler is not there") from error
+        if sampler.interpolation not in INTERPOLATIONS:
+            raise unreadable("an animation goes from key to key in a way that glTF does not know")
         times, values = file.numbers(sampler.input)[:, 0], file.numbers(sampler.output)
         spline = sampler.interpolation == "CUBICSPLINE"
         if values.shape != (len(times) * (3 if spline else 1), width) or (np.diff(times) < 0).any():

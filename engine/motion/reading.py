@@ -6,28 +6,33 @@ from pathlib import Path
 
 from engine.errors import InputError
 from engine.motion.bvh import read_bvh
+from engine.motion.gltf_file import begins_as_gltf
 from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
 from engine.motion.source_motion import SourceMotion
 
 
 def read_motion(path: Path, clip: str | None = None) -> SourceMotion:
-    """Read a BVH file, or a GLB with an animated skeleton, told apart by their first bytes; of a GLB the animation named
-    `clip`, or the first in which something moves.
+    """Read a BVH file, or a GLB or glTF file with an animated skeleton, told apart by their first bytes; of the latter the
+    animation named `clip`, or the first in which something moves.
 
     Raises
     ------
-    InputError : see `read_bvh` and `read_gltf_motion`; `motion_clip_unknown` for a clip of a BVH file, too.
+    InputError : see `read_bvh` and `read_gltf_motion`; `motion_clip_unknown` for a clip of a BVH file, too. Where no other
+        correction helps, another `motion` does.
     """
-    if _is_gltf(path):
-        return read_gltf_motion(path, clip)
-    if clip is not None:
-        raise InputError(
-            "motion_clip_unknown",
-            "A BVH file holds one motion without a name: leave motion_clip out.",
-            ("motion_clip",),
-            {"clips": []},
-        )
-    return read_bvh(path)
+    try:
+        if _is_gltf(path):
+            return read_gltf_motion(path, clip)
+        if clip is not None:
+            raise InputError(
+                "motion_clip_unknown",
+                "A BVH file holds one motion without a name: leave motion_clip out.",
+                ("motion_clip",),
+                {"clips": []},
+            )
+        return read_bvh(path)
+    except InputError as error:
+        raise InputError(error.code, error.detail, error.correctable or ("motion",), error.found) from error
 
 
 def motion_clips(path: Path) -> tuple[str, ...]:
@@ -42,4 +47,4 @@ def motion_clips(path: Path) -> tuple[str, ...]:
 
 def _is_gltf(path: Path) -> bool:
     with path.open("rb") as file:
-        return file.read(4) == b"glTF"
+        return begins_as_gltf(file.read(64))

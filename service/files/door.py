@@ -21,7 +21,7 @@ def recognise(head: bytes, name: str, declared: str) -> str:
             "media_type_unsupported",
             f"“{name}” is no picture, video or motion that can be read"
             + (f" ({found})" if found else "")
-            + ": send JPEG, PNG, WebP, HEIC, AVIF or GIF, MP4, MOV, WebM, MKV or AVI, or BVH or GLB.",
+            + ": send JPEG, PNG, WebP, HEIC, AVIF or GIF, MP4, MOV, WebM, MKV or AVI, or BVH, GLB or glTF.",
         )
     family = declared.split("/")[0]
     if family in ("image", "video", "audio", "text") and family != found.split("/")[0] and found != "image/gif":

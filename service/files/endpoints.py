@@ -30,7 +30,9 @@ UPLOAD: dict[str, Any] = {
                     "properties": {"file": {"type": "string", "format": "binary"}},
                     "additionalProperties": False,
                 },
-                "encoding": {"file": {"contentType": "image/*, video/*, text/x-bvh, model/gltf-binary"}},
+                "encoding": {
+                    "file": {"contentType": "image/*, video/*, text/x-bvh, model/gltf-binary, model/gltf+json"}
+                },
             }
         },
     }

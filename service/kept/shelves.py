@@ -41,7 +41,7 @@ class Shelf:
 
 
 DRIVERS = Shelf("performances", Driver, "driver", "a video", VIDEO_TYPES, "moments", "moments.json")
-MOTIONS = Shelf("motions", Motion, "motion", "a BVH or GLB file", MOTION_TYPES, "motion", "motion.json")
+MOTIONS = Shelf("motions", Motion, "motion", "a BVH, GLB or glTF file", MOTION_TYPES, "motion", "motion.json")
 
 SHELVES: Mapping[str, Shelf] = {shelf.library: shelf for shelf in (DRIVERS, MOTIONS)}
 """By the names of their libraries."""

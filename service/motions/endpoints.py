@@ -1,4 +1,4 @@
-"""GET, POST and DELETE /motions: the built-in motions and the user's own BVH and GLB files."""
+"""GET, POST and DELETE /motions: the built-in motions and the user's own BVH and glTF files."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def list_motions(caller: Reader, context: InContext) -> MotionList:
     "",
     status_code=201,
     operation_id="create_motion",
-    openapi_extra=body("text/x-bvh, model/gltf-binary"),
+    openapi_extra=body("text/x-bvh, model/gltf-binary, model/gltf+json"),
     responses=responses(409, 413, 415, 422, 507),
 )
 async def create_motion(request: Request, response: Response, caller: Submitter, context: InContext) -> MotionOut:

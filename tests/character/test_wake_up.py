@@ -207,7 +207,8 @@ def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path) -> None
 ])  # fmt: skip
 def test_motions_that_are_none_are_refused(tmp_path: Path, picture: Path, content: bytes, code: str) -> None:
     (tmp_path / "motion").write_bytes(content)
-    assert refused(tmp_path, picture, tmp_path / "motion").code == code
+    error = refused(tmp_path, picture, tmp_path / "motion")
+    assert (error.code, error.correctable) == (code, ("motion",))
 
 
 @pytest.mark.parametrize("name", ["iper_apose_1.jpg", "man_mug_arm_across.png", "cartoon_basketball.jpg"])

@@ -14,10 +14,12 @@ import pytest
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.clip import Clip
+from engine.motion.gltf_file import MAX_JSON
 from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
 from engine.motion.joint_map import map_joints
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
+from engine.motion.reading import motion_clips, read_motion
 from engine.motion.retarget import retarget
 from engine.motion.skeleton import Skeleton
 
@@ -226,6 +228,8 @@ def broken(skeleton: Skeleton, how: str) -> bytes:
             file.bufferViews[2].byteOffset = -64
         case "a sampler that is not there":
             animation.channels[2].sampler = 9999
+        case "keys that are joined by nobody knows what":
+            animation.samplers[3].interpolation = "BEZIER"
         case "keys of the wrong kind":
             file.accessors[animation.samplers[3].output].type = "VEC2"
         case "a joint that is not there":
@@ -265,6 +269,7 @@ BROKEN = {
     "an accessor that is not there": "motion_unreadable",
     "an accessor before its buffer": "motion_unreadable",
     "a sampler that is not there": "motion_unreadable",
+    "keys that are joined by nobody knows what": "motion_unreadable",
     "keys of the wrong kind": "motion_unreadable",
     "a joint that is not there": "motion_unreadable",
     "nodes in a ring": "motion_unreadable",
@@ -316,10 +321,50 @@ def test_a_cube_has_no_skeleton() -> None:
     assert error.value.code == "motion_without_skeleton"
 
 
-def test_gltf_with_its_numbers_inside_is_read(skeleton: Skeleton) -> None:
-    writer = character(skeleton, built_in("bow", skeleton))
+def as_text(writer: Writer, uri: str | None = None) -> bytes:
+    """The file as JSON, its numbers in itself, or where `uri` says."""
     writer.bytes()
     writer.file.set_binary_blob(None)
-    uri = "data:application/octet-stream;base64," + base64.b64encode(writer.data).decode()
+    uri = uri or "data:application/octet-stream;base64," + base64.b64encode(writer.data).decode()
     writer.file.buffers = [gltf.Buffer(byteLength=len(writer.data), uri=uri)]
-    assert read_gltf_motion(writer.file.to_json().encode()).name == "bow"
+    return writer.file.to_json().encode()
+
+
+@pytest.mark.parametrize("begin", [b"", b"\xef\xbb\xbf", b"\r\n  "])
+def test_gltf_with_its_numbers_inside_is_read(skeleton: Skeleton, tmp_path: Path, begin: bytes) -> None:
+    """Told by how it begins, as every motion, whatever it is called."""
+    path = tmp_path / "bow.bvh"
+    path.write_bytes(begin + as_text(character(skeleton, built_in("bow", skeleton))))
+    assert read_motion(path).name == "bow"
+    assert motion_clips(path) == ("bow",)
+
+
+def test_gltf_with_its_numbers_elsewhere_says_what_to_do(skeleton: Skeleton, tmp_path: Path) -> None:
+    path = tmp_path / "bow.gltf"
+    path.write_bytes(as_text(character(skeleton, built_in("bow", skeleton)), "bow.bin"))
+    with pytest.raises(InputError, match="in another file: export it as one GLB file") as error:
+        read_motion(path)
+    assert (error.value.code, error.value.correctable) == ("motion_unreadable", ("motion",))
+
+
+def test_parts_of_a_text_are_counted_without_the_numbers_in_it(skeleton: Skeleton) -> None:
+    writer = character(skeleton, built_in("bow", skeleton))
+    writer.data += bytes(MAX_JSON)
+    assert read_gltf_motion(as_text(writer)).name == "bow"
+    many = b'{"asset": {}, "extras": [' + b"[]," * (MAX_JSON // 3) + b"0]}"
+    with pytest.raises(InputError) as error:
+        read_gltf_motion(many)
+    assert error.value.code == "motion_too_large"
+
+
+@pytest.mark.parametrize("how", ["bones without length", "a scale of nothing"])
+def test_a_skeleton_without_size_moves_nobody(skeleton: Skeleton, how: str) -> None:
+    writer = character(skeleton, built_in("walk", skeleton), skin=False)
+    if how == "a scale of nothing":
+        writer.file.nodes[0].scale = [0, 0, 0]
+    else:
+        for node in writer.file.nodes[2:]:
+            node.translation = [0, 0, 0]
+    with pytest.raises(InputError) as error:
+        retarget(read_gltf_motion(writer.bytes()), skeleton)
+    assert error.value.code == "motion_not_humanoid"

@@ -35,6 +35,7 @@ schemathesis.openapi.media_type("image/png", st.integers(0, 9).map(picture))
 schemathesis.openapi.media_type("video/mp4", st.integers(8, 40).map(video))
 schemathesis.openapi.media_type("text/x-bvh", st.integers(1, 9).map(lambda frames: bvh(frames=frames)))
 schemathesis.openapi.media_type("model/gltf-binary", st.integers(8, 40).map(lambda length: b"glTF" + bytes(length)))
+schemathesis.openapi.media_type("model/gltf+json", st.integers(0, 9).map(lambda n: b'{"asset":{}}' + b" " * n))
 schemathesis.serializer.alias(["application/offset+octet-stream"], "application/octet-stream")
 
 

@@ -154,6 +154,33 @@ def test_what_is_wrong_is_told(service: Running) -> None:
         service.client.delete(f"/v1/motions/{name}").raise_for_status()
 
 
+def test_another_file_mends_what_cannot_be_read(service: Running) -> None:
+    create(service, "commas", bvh().replace(b"\n0 95 0", b"\n0 95,5 0"))
+    commas = checked(service, "commas")
+    assert commas["error"]["code"] == "motion_unreadable"
+    job = service.job(commas["check_job"])
+    assert job["error"]["correctable"] == ["motion"]
+    revisions = f"/v1/jobs/{job['id']}/revisions"
+    for corrections, code, pointer in (
+        ({"motion": None}, "missing_input", "/corrections/motion"),
+        ({"motion_joints": {"LeftHand": 5}}, "invalid_options", "/corrections/motion_joints/LeftHand"),
+    ):
+        answer = service.client.post(revisions, json={"corrections": corrections})
+        assert told(answer) == (422, code)
+        assert [error["pointer"] for error in answer.json()["errors"]] == [pointer]
+    mended = service.client.post(revisions, files={"motion": ("m.bvh", bvh())}).raise_for_status().json()
+    assert service.until(mended["id"], "succeeded", "failed", seconds=300)["error"] is None
+    service.client.delete(f"/v1/jobs/{mended['id']}").raise_for_status()
+    service.client.delete("/v1/motions/commas").raise_for_status()
+
+
+def test_gltf_may_be_a_text(service: Running) -> None:
+    create(service, "text", b'{"asset": {"version": "2.0"}, "nodes": [{"name": "cube"}]}')
+    text = checked(service, "text")
+    assert (text["content_type"], text["error"]["code"]) == ("model/gltf+json", "motion_without_animation")
+    service.client.delete("/v1/motions/text").raise_for_status()
+
+
 def test_half_a_character_in_a_name_does_no_harm(service: Running) -> None:
     document = b'{"asset":{"version":"2.0"},"animations":[],"nodes":[{"name":"\\ud800"}]}'
     padded = document + b" " * (-len(document) % 4)

@@ -2,13 +2,13 @@
 
 const pictures = /\.(jpe?g|png|webp|hei[cf]|avif)$/i;
 const videos = /\.(mp4|m4v|mov|webm|mkv|gif)$/i;
-const motions = /\.(bvh|glb)$/i;
+const motions = /\.(bvh|glb|gltf)$/i;
 
 export const pictureTypes = 'image/jpeg,image/png,image/webp,image/heic,image/heif,image/avif,.heic,.heif,.avif';
 /** Of masks, which every browser reads and which lose nothing: PNG before all. */
 export const maskTypes = 'image/png,image/webp,image/bmp,image/jpeg';
 export const videoTypes = 'video/*,image/gif,.mkv,.mov';
-export const motionTypes = '.bvh,.glb,model/gltf-binary';
+export const motionTypes = '.bvh,.glb,.gltf,model/gltf-binary,model/gltf+json';
 
 export const isPicture = (file: File): boolean =>
   pictures.test(file.name) || (file.type.startsWith('image/') && file.type !== 'image/gif');
@@ -16,4 +16,4 @@ export const isPicture = (file: File): boolean =>
 export const isVideo = (file: File): boolean =>
   videos.test(file.name) || file.type.startsWith('video/') || file.type === 'image/gif';
 
-export const isMotion = (file: File): boolean => motions.test(file.name) || file.type === 'model/gltf-binary';
+export const isMotion = (file: File): boolean => motions.test(file.name) || file.type.startsWith('model/gltf');

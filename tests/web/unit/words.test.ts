@@ -36,6 +36,7 @@ describe('what a file may be', () => {
 
   it('knows a motion by its name: browsers have no type for most', () => {
     expect([isMotion(file('Jump.BVH', '')), isMotion(file('walk.glb', 'model/gltf-binary'))]).toEqual([true, true]);
+    expect([isMotion(file('walk.gltf', '')), isMotion(file('walk', 'model/gltf+json'))]).toEqual([true, true]);
     expect([isMotion(file('walk.fbx', '')), isPicture(file('walk.glb', 'model/gltf-binary'))]).toEqual([false, false]);
   });
 
