@@ -3,6 +3,9 @@
 Compiled functions are kept beside the modules that they are of. Jobs may use them but not leave any (`worker.child`),
 so somebody who is trusted must have been there before. Once for each state of the engine and each machine.
 
+Unlike jobs it does not give way to all others (`worker.niceness`): jobs wait for it, and on a machine that has other work
+to do it would take as long as that lasts. It is one process; the API stays quick beside it.
+
 `python -m worker.rehearsal KIND...`
 """
 
@@ -26,7 +29,6 @@ import structlog
 import engine
 from service.kinds.registry import load_kinds
 from service.settings import Settings
-from worker.niceness import give_way
 from worker.tether import tethered
 
 NAME = "rehearsed"
@@ -96,7 +98,6 @@ def _processor() -> str:
 
 
 def main() -> None:
-    give_way(os.getpid())
     for kind in load_kinds(sys.argv[1:]).values():
         if kind.rehearse is not None:
             with tempfile.TemporaryDirectory(prefix="galatea-") as folder:

@@ -62,6 +62,16 @@ def test_it_is_not_done_again_for_another_data_folder(start: Start, tmp_path: Pa
     assert said(first, "rehearsal_ended") and not said(second, "rehearsal_began")
 
 
+def test_what_jobs_wait_for_does_not_give_way(start: Start, rehearsed_when: Path) -> None:
+    """Not to what else the machine has to do, as jobs do."""
+    running = start(kinds="rehearsing_kind:KIND")
+    eventually(lambda: running.processes("worker.rehearsal") != [], "it rehearses")
+    (rehearsal,) = running.processes("worker.rehearsal")
+    ranked = f"/proc/{rehearsal.pid}/autogroup"
+    assert rehearsal.nice() == rehearsal.parent().nice()
+    assert not Path(ranked).exists() or Path(ranked).read_text().endswith(" nice 0\n")
+
+
 def test_a_worker_that_rehearses_ends_when_it_is_told_to(start: Start, rehearsed_when: Path) -> None:
     running = start(kinds="rehearsing_kind:KIND")
     eventually(lambda: running.processes("worker.rehearsal") != [], "it rehearses")
