@@ -16,6 +16,7 @@ from threading import local
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
 
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
@@ -39,9 +40,11 @@ UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
 SMOOTHING = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
-BELIEVED, LARGEST = 2.0, 8.0
-"""Pixels of the crop up to which the measured rest is believed, and from which on it is a misfit of the flow. Between them
-belief fades: cut off at once, a rest that noise takes past the limit and back would make the skin jump."""
+BELIEVED, LARGEST = 6.0, 8.0
+"""Pixels of the crop up to which the measured rest is believed, and from which on it is a misfit of the flow."""
+EASED = 3.0
+"""Frames over which belief comes and goes (width of a Gaussian): a rest that noise takes past the limit and back would make
+the skin jump."""
 LIGHT = 20.0
 """Pixels over which the light of the two frames is made equal first."""
 RIM = 0.35
@@ -71,7 +74,7 @@ def register_track(
     weight = _trust(rest)
     own = local()
 
-    def offsets(frame: int) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
+    def offsets(frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float64]]:
         if not hasattr(own, "flow"):
             own.flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_FAST)
         face = track.in_crop(frame)
@@ -81,18 +84,21 @@ def register_track(
         moved = np.clip(moved * (light / _wide(np.asarray(moved))), 0, 255)
         aligned = np.where(origin[..., 0] > -1000, moved, reference).astype(np.uint8)
         half = cv2.resize(own.flow.calc(reference, aligned, None), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-        left = cv2.GaussianBlur(half, (0, 0), SMOOTHING / 2)
-        at = cv2.remap(left, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
-        doubt = np.clip((np.linalg.norm(at, axis=1, keepdims=True) - BELIEVED) / (LARGEST - BELIEVED), 0, 1)
-        at *= 1 - doubt * doubt * (3 - 2 * doubt)
+        even = cv2.GaussianBlur(half, (0, 0), SMOOTHING / 2)
+        at = cv2.remap(even, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
+        size = np.linalg.norm(at, axis=1)
+        at *= np.minimum(1, LARGEST / np.maximum(size, 1e-6))[:, None]
         offset = np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
-        return offset, eye_contrast(grey, face, rest)
+        belief = np.clip((LARGEST - size) / (LARGEST - BELIEVED), 0, 1)
+        return offset, np.asarray(belief, np.float32), eye_contrast(grey, face, rest)
 
+    left, belief = np.empty((len(track), 468, 2), np.float32), np.empty((len(track), 468), np.float32)
     meshes, contrast = track.meshes.copy(), np.empty((len(track), 2, 2))
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
-        for frame, (offset, contrast[frame]) in enumerate(pool.map(offsets, range(len(track)))):
-            meshes[frame, :468, :2] += weight[:, None] * offset
+        for frame, (left[frame], belief[frame], contrast[frame]) in enumerate(pool.map(offsets, range(len(track)))):
             tick((frame + 1) / len(track))
+    belief = gaussian_filter1d(belief, EASED, axis=0, mode="nearest")
+    meshes[:, :468, :2] += (weight * belief)[..., None] * left
     moved = np.flatnonzero(weight)
     for some in np.array_split(moved, 8):  # a part at a time: long clips have many frames
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
