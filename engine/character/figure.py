@@ -62,8 +62,8 @@ class Choice:
 @dataclass(frozen=True)
 class Figure:
     """`rgb` (H, W, 3) the picture, `alpha` (H, W) its own where it has one. `points` (33, 2) pixels, `confidence` (33,) and
-    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `scale`: pixels of `rgb` for
-    each of the original picture. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
+    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `original`: width and height of
+    the picture as it was given, of which `rgb` may be a smaller copy. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
     `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
     `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
     `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen."""
@@ -74,12 +74,17 @@ class Figure:
     confidence: NDArray[np.float32]
     world: NDArray[np.float32]
     spatial: bool
-    scale: float
+    original: tuple[int, int]
     people: NDArray[np.float32]
     index: int
     others: NDArray[np.bool_]
     face: NDArray[np.float32] | None
     hands: tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
+
+    @property
+    def scale(self) -> NDArray[np.float64]:
+        """Pixels of `rgb` for each of the original picture's, along x and y (2,): both sides are rounded to whole pixels."""
+        return np.array(self.rgb.shape[1::-1]) / self.original
 
     def point(self, name: str) -> NDArray[np.float32]:
         """The pixel (2,) of one of the landmarks."""
@@ -99,12 +104,9 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     joints = {name: (x, y) for name, x, y in choice.placed}
     _check_joints(joints, (height, width))
     size = size_within(picture.rgb.shape, LONGEST_SIDE)
-    scale = min(1.0, size[0] / width)
-    rgb = (
-        picture.rgb if scale == 1 else np.asarray(cv2.resize(picture.rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
-    )
-    rgb = np.ascontiguousarray(rgb)
-    alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, (rgb.shape[1], rgb.shape[0])), 0, 1)
+    scale = np.array(size) / (width, height)
+    rgb = np.ascontiguousarray(resized(picture.rgb, size))
+    alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, size), 0, 1)
     people = find_people(rgb)
     body, index = _chosen(rgb, people, choice, scale)
     if body is not None and index == len(people):  # found in a box alone
@@ -134,7 +136,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         confidence=confidence,
         world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else _moved_along(body, points, tuple(joints)),
         spatial=body is not None,
-        scale=scale,
+        original=(width, height),
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
         index=index,
         others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
@@ -156,20 +158,22 @@ def _moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str])
     return np.asarray(world, np.float32)
 
 
-def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: float) -> tuple[Body | None, int]:
-    """The one who is meant, and their number among those found."""
+def _chosen(
+    rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: NDArray[np.float64]
+) -> tuple[Body | None, int]:
+    """The one who is meant, and their number among those found. `scale` (2,) as in `Figure`."""
     height, width = rgb.shape[:2]
     if choice.box is not None:
-        x, y, wide, high = (value * scale for value in choice.box)
+        x, y, wide, high = (float(value) for value in np.array(choice.box) * np.tile(scale, 2))
         if not (x < width and y < height and x + wide > 0 and y + high > 0 and wide > 0 and high > 0):
             raise InputError(
                 "person_box_outside",
-                f"The person's box lies outside the picture: draw it within {width / scale:.0f} x {height / scale:.0f}.",
+                f"The person's box lies outside the picture: draw it within {width / scale[0]:.0f} x {height / scale[1]:.0f}.",
                 ("person_box",),
             )
         body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
         return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
-    boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
+    boxes = [(person_box(one, rgb.shape) / np.tile(scale, 2)).round().astype(int).tolist() for one in people]
     index = choice.index or 0
     if not people and index == 0:
         return None, 0

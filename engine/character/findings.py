@@ -34,9 +34,8 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
         own = cv2.warpAffine(coloured, back, (width, height), flags=cv2.INTER_NEAREST)
         shown = np.asarray(np.where(own.any(-1, keepdims=True), own, shown), np.uint8)
     write_image(out / "labels.png", shown)
-    scale = first.figure.scale
     found = {
-        "size": [round(width / scale), round(height / scale)],
+        "size": list(first.figure.original),
         **_skeleton(first),
         "camera": {
             "eye": np.round(first.character.eye, 5).tolist(),
@@ -98,5 +97,5 @@ def _skeleton(person: Person) -> dict[str, Any]:
             name: {"place": place, "parent": parent}
             for name, place, parent in zip(skeleton.names, fitted_at, above, strict=True)
         },
-        "reprojection": round(fitted.fit.reprojection / figure.scale, 2),
+        "reprojection": round(fitted.fit.reprojection / float(figure.scale.mean()), 2),
     }

@@ -126,7 +126,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             "fps": options.fps,
             "frames": frames,
             "animation": animation,
-            "people": np.round(figure.people / figure.scale, 1).tolist(),
+            "people": np.round(figure.people / np.tile(figure.scale, 2), 1).tolist(),
             "person": options.person_index if options.person_index == "all" else figure.index,
         }
         | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {}),

@@ -83,9 +83,7 @@ def cut_out(
     if mask is None:
         alpha = _found(figure, model)
     else:
-        original = (round(width / figure.scale), round(height / figure.scale))
-        alpha = np.asarray(cv2.resize(read_mask(mask, [original, (width, height)], limits), (width, height),
-                                      interpolation=cv2.INTER_AREA), np.float32)  # fmt: skip
+        alpha = resized(read_mask(mask, [figure.original, (width, height)], limits), (width, height))
     alpha = repaint_mask(alpha, strokes, figure.scale)
     piece, rest = _own_piece(np.asarray(alpha > 0.5), _limbs(figure) > 0)
     if piece.sum() < LEAST:

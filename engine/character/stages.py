@@ -62,8 +62,7 @@ def label(
     height, width = figure.rgb.shape[:2]
     given = None
     if file is not None:
-        original = (round(width / figure.scale), round(height / figure.scale))
-        read = read_labels(file, [original, (width, height)], limits)
+        read = read_labels(file, [figure.original, (width, height)], limits)
         read = np.asarray(cv2.resize(read, (width, height), interpolation=cv2.INTER_NEAREST_EXACT), np.int8)
         size = (silhouette.mask.shape[1], silhouette.mask.shape[0])
         given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,

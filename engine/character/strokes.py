@@ -63,13 +63,13 @@ def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, 
 
 
 def painted(
-    strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: float
+    strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: NDArray[np.float64]
 ) -> Iterator[NDArray[np.float32]]:
-    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale`: its pixels for each of
-    those in which strokes are counted."""
+    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale` (2,): its
+    pixels for each of those in which strokes are counted, along x and y."""
     for stroke in strokes:
         drawn = np.zeros(shape, np.uint8)
-        radius = stroke.radius * scale
+        radius = stroke.radius * float(scale.mean())
         path = (np.array(stroke.path, np.float64) + 0.5) * scale - 0.5
         if len(path) == 1:
             path = np.repeat(path, 2, axis=0)
@@ -79,8 +79,10 @@ def painted(
         yield drawn.astype(np.float32) / np.float32(255)
 
 
-def repaint_mask(alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scale: float) -> NDArray[np.float32]:
-    """A mask (H, W) with strokes over it, in their order."""
+def repaint_mask(
+    alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scale: NDArray[np.float64]
+) -> NDArray[np.float32]:
+    """A mask (H, W) with strokes over it, in their order; `scale` (2,) as in `painted`."""
     out = alpha.copy()
     for stroke, cover in zip(strokes, painted(strokes, (alpha.shape[0], alpha.shape[1]), scale), strict=True):
         out = out * (1 - cover) + (cover if stroke.person else 0)
@@ -90,12 +92,12 @@ def repaint_mask(alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scal
 def relabel(
     labels: NDArray[np.int8],
     strokes: Sequence[LabelStroke],
-    scale: float,
+    scale: NDArray[np.float64],
     to_grid: NDArray[np.float64],
     shape: tuple[int, int],
 ) -> NDArray[np.int8]:
-    """Labels on a grid (h, w) with strokes over those of the person, in their order. `scale` and `shape` (H, W) are of the
-    picture, `to_grid` (2, 3) from its pixels to the grid's."""  # fmt: skip
+    """Labels on a grid (h, w) with strokes over those of the person, in their order. `scale` (2,) and `shape` (H, W) are of
+    the picture, `to_grid` (2, 3) from its pixels to the grid's."""  # fmt: skip
     out = labels.copy()
     size = (labels.shape[1], labels.shape[0])
     for stroke, cover in zip(strokes, painted(strokes, shape, scale), strict=True):

@@ -164,7 +164,7 @@ def test_somebody_found_in_a_box_alone_is_cut_out_there(tmp_path: Path) -> None:
     left = min(set(range(MOST + 1)) - seen) * wide
     figure = found(tmp_path / "many.png", Choice(box=(left, 0, wide, high)))
     assert len(figure.people) == len(people) + 1 and figure.index == len(people)
-    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale
+    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale[0]
     assert left < columns[0] and columns[-1] < left + wide
 
 
