@@ -111,9 +111,9 @@ def cut_out(
 
 
 def _own_piece(mask: NDArray[np.bool_], limbs: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int]:
-    """The connected piece of a mask that holds most of the limbs, the largest where none does; and the pixels of the largest
-    of all others."""
-    count, pieces, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    """The piece of a mask, joined by the sides of its pixels, that holds most of the limbs, the largest where none does; and
+    the pixels of the largest of all others."""
+    count, pieces, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
     if count == 1:
         return mask, 0
     sizes, held = stats[1:, cv2.CC_STAT_AREA], np.bincount(pieces[limbs], minlength=count)[1:]

@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from engine.body.parts import PARTS
-from engine.character.figure import Choice, find_figure
+from engine.character.figure import Choice, Figure, find_figure
+from engine.character.occlusion import largest
 from engine.character.options import MaskStroke
 from engine.character.sample import FLOOR, WALL, sample_picture
-from engine.character.silhouette import cut_out
-from engine.character.stages import fit_template, label
+from engine.character.silhouette import Silhouette, cut_out
+from engine.character.stages import build_mesh, fit_template, label
 from engine.character.strokes import LABEL_COLOURS, painted
+from engine.character.template_fit import FittedBody
 from engine.media.image import write_image
 from engine.media.limits import Limits
 
@@ -36,10 +38,20 @@ def written(path: Path, mask: np.ndarray) -> Path:
 
 
 @pytest.fixture(scope="module")
-def photo(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def figure(tmp_path_factory: pytest.TempPathFactory) -> Figure:
     path = tmp_path_factory.mktemp("photo") / "photo.png"
     write_image(path, sample_picture())
-    return path
+    return find_figure(path, Choice(), False, LIMITS, quiet)
+
+
+@pytest.fixture(scope="module")
+def silhouette(figure: Figure) -> Silhouette:
+    return cut_out(figure, None, (), LIMITS, None, None, quiet)
+
+
+@pytest.fixture(scope="module")
+def fitted(figure: Figure, silhouette: Silhouette) -> FittedBody:
+    return fit_template(figure, silhouette)
 
 
 def test_a_mask_has_the_size_of_a_picture_whose_copy_has_not_its_proportions(tmp_path: Path) -> None:
@@ -64,3 +76,25 @@ def test_a_mask_has_the_size_of_a_picture_whose_copy_has_not_its_proportions(tmp
     write_image(tmp_path / "labels.png", parts)
     found = label(figure, cut, fitted, tmp_path / "labels.png", (), LIMITS)
     assert (found.labels[cut.mask] == PARTS.index("torso")).all()
+
+
+def test_pixels_that_meet_in_a_corner_are_no_piece() -> None:
+    mask = np.zeros((9, 9), np.bool_)
+    mask[:4, :4] = mask[4:, 4:] = True
+    expected = np.zeros_like(mask)
+    expected[4:, 4:] = True
+    np.testing.assert_array_equal(largest(mask), expected)
+
+
+def test_a_ragged_mask_makes_a_surface(
+    figure: Figure, silhouette: Silhouette, fitted: FittedBody, tmp_path: Path
+) -> None:
+    """Three of ten pixels are missing: what is left hangs together by corners, too, over which depth cannot go."""
+    holes = np.random.default_rng(0).random(figure.rgb.shape[:2]) > 0.7
+    mask = written(tmp_path / "mask.png", (silhouette.alpha > 0.5) & ~holes)
+    cut = cut_out(figure, mask, (), LIMITS, None, None, quiet)
+    assert cv2.connectedComponents(cut.mask.astype(np.uint8), connectivity=4)[0] == 2
+    mesh = build_mesh(figure, cut, fitted, label(figure, cut, fitted, None, (), LIMITS))
+    deep = mesh.vertices[:, 2]
+    assert np.isfinite(mesh.vertices).all()
+    assert np.ptp(deep) < 0.4 * cut.mask.shape[0], "people are not so thick"
