@@ -197,7 +197,8 @@ def reconstruct(
 ) -> Person:
     """From the mask to the character."""
     fitted = run.stage("fit_template", fit_template, figure, silhouette)
-    labels = run.stage("label_parts", label, figure, silhouette, fitted, label_map, options.label_strokes, run.limits)
+    given = (label_map, options.label_strokes, run.limits, run.warn)
+    labels = run.stage("label_parts", label, figure, silhouette, fitted, *given)
     if (labels.hidden >= 0).any():
         run.warn(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."

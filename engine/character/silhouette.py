@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.doubts import doubt_mask
 from engine.character.figure import Figure
 from engine.character.gaps import gaps
 from engine.character.occlusion import largest
@@ -77,7 +78,7 @@ def cut_out(
     Raises
     ------
     InputError : `no_person` where no mask was found around the joints, and what `read_mask` may raise. Warns of
-    `mask_in_pieces`.
+    `mask_in_pieces`, `mask_misses_joints`, `mask_too_large`.
     """
     height, width = figure.rgb.shape[:2]
     if mask is None:
@@ -85,7 +86,8 @@ def cut_out(
     else:
         alpha = resized(read_mask(mask, [figure.original, (width, height)], limits), (width, height))
     alpha = repaint_mask(alpha, strokes, figure.scale)
-    piece, rest = _own_piece(np.asarray(alpha > 0.5), _limbs(figure) > 0)
+    limbs = np.asarray(_limbs(figure) > 0)
+    piece, rest = _own_piece(np.asarray(alpha > 0.5), limbs)
     if piece.sum() < LEAST:
         raise InputError(
             "no_person",
@@ -98,6 +100,7 @@ def cut_out(
             "The mask is in pieces, and the person was made of the one that holds most of the joints: if another "
             f"({rest / piece.sum():.0%} of it in size) belongs to them, paint over what parts them.",
         )
+    doubt_mask(figure, piece, limbs, warn)
     alpha = np.where(cv2.dilate(piece.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0, alpha, 0).astype(np.float32)
     rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
     scale = HEIGHT / (rows[-1] + 1 - rows[0])

@@ -19,6 +19,8 @@ LABEL_COLOURS = np.array(
     [[250, 180, 60], [220, 80, 80], [80, 220, 80], [60, 160, 220], [200, 80, 200], [60, 220, 220], [0, 0, 0]], np.uint8
 )
 """Of `labels.png`: head, torso, left arm, right arm, left leg, right leg, nobody."""
+ALIKE = 40
+"""Distance, in levels of red, green and blue, up to which a colour is taken for one of these: JPEG changes them a little."""
 SUBPIXEL = 4
 """Bits behind the point of a stroke's coordinates."""
 
@@ -38,7 +40,8 @@ def read_mask(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> N
 
 
 def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> NDArray[np.int8]:
-    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `PARTS`, -1 nobody.
+    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `PARTS`; -1 nobody, and where the colour is
+    none of these, as between two of them where edges are soft.
 
     Raises
     ------
@@ -46,9 +49,10 @@ def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) ->
     """
     picture = read_image(path, limits)
     _require_size("labels", picture.rgb, sizes)
-    off = [np.square(picture.rgb.astype(np.int32) - colour).sum(-1) for colour in LABEL_COLOURS.astype(np.int32)]
-    nearest = np.stack(off).argmin(0)
-    return np.where(nearest < len(PARTS), nearest, -1).astype(np.int8)
+    labels = np.full(picture.rgb.shape[:2], -1, np.int8)
+    for index, colour in enumerate(LABEL_COLOURS[: len(PARTS)].astype(np.int32)):
+        labels[np.square(picture.rgb - colour).sum(-1) <= ALIKE**2] = index
+    return labels
 
 
 def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, int]]) -> None:

@@ -32,6 +32,10 @@ from engine.run import Run
 LIMITS = Limits()
 
 
+def quiet(code: str, message: str) -> None:
+    """A warning that is not looked at."""
+
+
 def found(path: Path, choice: Choice, warnings: list[str] | None = None, partial: bool = False) -> Figure:
     told = [] if warnings is None else warnings
     return find_figure(path, choice, partial, LIMITS, lambda code, message: told.append(code))
@@ -73,7 +77,7 @@ def silhouette(figure: Figure) -> Silhouette:
 
 @pytest.fixture(scope="module")
 def labels(figure: Figure, silhouette: Silhouette) -> Labels:
-    return label(figure, silhouette, fit_template(figure, silhouette), None, (), LIMITS)
+    return label(figure, silhouette, fit_template(figure, silhouette), None, (), LIMITS, quiet)
 
 
 def test_of_two_people_the_larger_is_meant_unless_said_otherwise(couple: Path) -> None:
@@ -234,11 +238,11 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     shown = cv2.warpAffine(LABEL_COLOURS[labels.labels.astype(int)], back, size, flags=cv2.INTER_NEAREST)
     write_image(tmp_path / "labels.png", np.asarray(shown, np.uint8))
     fitted = fit_template(figure, silhouette)
-    again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS)
+    again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS, quiet)
     assert (again.labels != labels.labels).mean() < 0.01
     at = figure.point("LeftKnee")
     stroke = LabelStroke(path=((float(at[0]), float(at[1])),), radius=6, part="right_leg")
-    painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS)
+    painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS, quiet)
     x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
     assert labels.labels[y, x] == PARTS.index("left_leg")
     assert painted.labels[y, x] == PARTS.index("right_leg")

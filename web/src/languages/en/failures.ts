@@ -38,6 +38,7 @@ export const failures = {
     mask_size: 'The mask is not as large as the picture',
     one_outline_for_all: 'A mask is of one person, and all were to be woken',
     labels_size: 'The map of the parts is not as large as the picture',
+    labels_unreadable: 'The map of the parts cannot be read',
     no_face_in_driver: 'No face was found in the performance',
     not_an_image: 'That is not a picture',
     image_unreadable: 'The picture cannot be read',
