@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
-from engine.character.figure import WHOLE_SKELETON, Figure
+from engine.character.figure import Figure
+from engine.character.placed_joints import WHOLE_SKELETON
 from engine.errors import InputError
 from engine.perception.body import LANDMARKS
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_skeleton
 from engine.character.posture import check_posture
 from engine.errors import InputError
 from engine.imaging.resample import resized, size_within
@@ -30,12 +31,6 @@ ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
 BELOW = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
 """What `partial` does without: where it is cut off or hidden, the network of body poses guesses it well."""
-PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
-"""The joints that can be placed by hand."""
-WHOLE_SKELETON = tuple(
-    f"{side}{joint}" for side in SIDES for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
-)
-"""What must be placed where nobody is found."""
 SEEN = 0.35
 """Confidence below which a joint is not in the picture."""
 MORE = 0.1
@@ -51,8 +46,8 @@ LEAST_HEIGHT = 80
 @dataclass(frozen=True)
 class Choice:
     """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look; or the `index` of those found, counted from the largest, None for the largest unless there is a crowd; and joints
-    `placed` by hand: name, x, y."""
+    look, beside which an index says nothing; or the `index` of those found, counted from the largest, None for the largest
+    unless there is a crowd; and joints `placed` by hand: name, x, y."""
 
     box: tuple[float, float, float, float] | None = None
     index: int | None = None
@@ -97,12 +92,12 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     Raises
     ------
     InputError : `no_person`, `not_full_body`, `person_too_small`, `person_lying`, `crowd`, `person_index_out_of_range`,
-    `person_box_outside`, `unknown_joint`, `joint_outside`, and what reading a picture may raise.
+    `person_box_outside`, `unknown_joint`, `joint_outside`, `joints_invalid`, and what reading a picture may raise.
     """
     picture = read_image(path, limits)
     height, width = picture.rgb.shape[:2]
     joints = {name: (x, y) for name, x, y in choice.placed}
-    _check_joints(joints, (height, width))
+    check_places(joints, (height, width))
     size = size_within(picture.rgb.shape, LONGEST_SIDE)
     scale = np.array(size) / (width, height)
     rgb = np.ascontiguousarray(resized(picture.rgb, size))
@@ -123,6 +118,8 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     for name, place in joints.items():
         points[LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
         confidence[LANDMARKS.index(name)] = 1
+    if joints:
+        check_skeleton(points, warn)
     hands = (None, None) if body is None else _hands(rgb, replace(body, points=points))
     for side, hand in zip(SIDES, hands, strict=True):
         for mark, joint in ON_HANDS.items():
@@ -236,18 +233,6 @@ def _covered(people: Sequence[Body], shape: tuple[int, ...]) -> NDArray[np.bool_
     return covered
 
 
-def _check_joints(joints: Mapping[str, tuple[float, float]], shape: tuple[int, int]) -> None:
-    for name, (x, y) in joints.items():
-        if name not in PLACED:
-            raise InputError("unknown_joint", f"There is no joint “{name[:40]}”: choose of {', '.join(PLACED)}.")
-        if not (-0.25 * shape[1] <= x <= 1.25 * shape[1] and -0.25 * shape[0] <= y <= 1.25 * shape[0]):
-            raise InputError(
-                "joint_outside",
-                f"“{name}” lies far outside the picture: place it within {shape[1]} x {shape[0]}.",
-                ("joints",),
-            )
-
-
 def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]) -> bool:
     """Refuse who is not to be seen; whether the knees are."""
     height, width = figure.rgb.shape[:2]
@@ -274,5 +259,6 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
         raise InputError(
             "person_too_small",
             f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {LEAST_HEIGHT} or more.",
+            ("joints", "person_box"),
         )
     return seen >= {"LeftKnee", "RightKnee"}

@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure import PLACED
 from engine.character.film import WALL
 from engine.character.measures import picture_camera
 from engine.character.person import Person
+from engine.character.placed_joints import PLACED
 from engine.character.strokes import LABEL_COLOURS
 from engine.media.image import write_image
 from engine.motion.kinematics import joint_places

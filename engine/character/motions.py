@@ -101,7 +101,7 @@ def _carried_over(
     carried = retarget(read_motion(file, clip_name), character.mesh.skeleton, joints, fps=fps)
     clip = carried.clip
     if len(clip.rotations) < 1:
-        raise InputError("motion_empty", "The motion has no frames: send one that has.")
+        raise InputError("motion_empty", "The motion has no frames: send one that has.", ("motion",))
     return replace(_cut(clip, LONGEST), name="motion"), carried.mapping
 
 

@@ -24,6 +24,7 @@ export const failures = {
     person_box_outside: 'The frame lies outside the picture',
     unknown_joint: 'There is no such joint',
     joint_outside: 'A joint lies outside the picture',
+    joints_invalid: 'The joints are nobody’s',
     motion_unreadable: 'The motion cannot be read',
     motion_truncated: 'The motion is incomplete',
     motion_empty: 'The motion is empty',
