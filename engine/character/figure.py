@@ -162,7 +162,7 @@ def _chosen(
     height, width = rgb.shape[:2]
     if choice.box is not None:
         x, y, wide, high = (float(value) for value in np.array(choice.box) * np.tile(scale, 2))
-        if not (x < width and y < height and x + wide > 0 and y + high > 0 and wide > 0 and high > 0):
+        if not (x < width and y < height and x + wide > 0 and y + high > 0):
             raise InputError(
                 "person_box_outside",
                 f"The person's box lies outside the picture: draw it within {width / scale[0]:.0f} x {height / scale[1]:.0f}.",

@@ -145,7 +145,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
     placed = tuple((name, x, y) for name, (x, y) in sorted(options.joints.items()))
 
     def find(index: int | None) -> Figure:
-        choice = Choice(options.person_box, index, placed)
+        choice = Choice(options.person_box, None if options.person_box else index, placed)
         return run.stage("find_figure", find_figure, photo, choice, options.partial, run.limits, run.warn)
 
     if options.person_index != "all":

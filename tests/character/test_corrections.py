@@ -9,6 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from engine.body.parts import PARTS
 from engine.character.figure import Choice, Figure, find_figure
@@ -94,6 +95,7 @@ def test_a_box_says_who_is_meant(couple: Path) -> None:
     x, y, wide, high = (float(value) for value in found(couple, Choice()).people[1])
     figure = found(couple, Choice(box=(x, y, wide, high)))
     assert figure.index == 1
+    np.testing.assert_array_equal(found(couple, Choice((x, y, wide, high), 0)).points, figure.points)
     alpha = outlined(figure).alpha
     assert alpha[:, : int(x - 0.3 * wide)].max() < 0.5, "the other one is not in the mask"
     assert (alpha > 0.5).sum() > 0.2 * wide * high
@@ -142,6 +144,12 @@ def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
             found(couple, choice)
         assert raised.value.code == code
         assert "person_box" in raised.value.correctable
+
+
+@pytest.mark.parametrize("box", [(10, 10, 0, 50), (10, 10, 50, 0), (400, 500, -300, -400)])
+def test_a_box_without_an_area_is_no_option(box: tuple[float, float, float, float]) -> None:
+    with pytest.raises(ValidationError):
+        CharacterOptions(person_box=box)
 
 
 def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
