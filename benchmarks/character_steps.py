@@ -54,7 +54,7 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     figure = find_figure(photo, choice, asked.partial, Limits(), lambda code, message: None)
     silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
-    labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits())
+    labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits(), lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)
     return Woken(figure, silhouette, fitted, labels, character)

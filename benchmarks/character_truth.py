@@ -129,7 +129,7 @@ def examine(known: KnownPicture, place: str) -> Result:
 
 def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Surfaces:
     """The character posed by its clip `pictured`, the mesh by warped depth, and the fitted template."""
-    labels = label(figure, silhouette, fitted, None, (), Limits())
+    labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
     with depth_is_warped():

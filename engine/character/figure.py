@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_skeleton
 from engine.character.posture import check_posture
 from engine.errors import InputError
 from engine.imaging.resample import resized, size_within
@@ -30,12 +31,6 @@ ON_HANDS = {"Wrist": "", "Index": "Index1", "Pinky": "Pinky1", "Thumb": "Thumb2"
 """Landmarks of the body that are among the hand's, as joints: where a hand is seen closely, they are where it has them."""
 BELOW = ("LeftHip", "RightHip", "LeftKnee", "RightKnee", "LeftAnkle", "RightAnkle")
 """What `partial` does without: where it is cut off or hidden, the network of body poses guesses it well."""
-PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
-"""The joints that can be placed by hand."""
-WHOLE_SKELETON = tuple(
-    f"{side}{joint}" for side in SIDES for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
-)
-"""What must be placed where nobody is found."""
 SEEN = 0.35
 """Confidence below which a joint is not in the picture."""
 MORE = 0.1
@@ -51,8 +46,8 @@ LEAST_HEIGHT = 80
 @dataclass(frozen=True)
 class Choice:
     """What a user says about who is meant, in pixels of the original picture: the `box` (x, y, width, height) in which to
-    look; or the `index` of those found, counted from the largest, None for the largest unless there is a crowd; and joints
-    `placed` by hand: name, x, y."""
+    look, beside which an index says nothing; or the `index` of those found, counted from the largest, None for the largest
+    unless there is a crowd; and joints `placed` by hand: name, x, y."""
 
     box: tuple[float, float, float, float] | None = None
     index: int | None = None
@@ -62,8 +57,8 @@ class Choice:
 @dataclass(frozen=True)
 class Figure:
     """`rgb` (H, W, 3) the picture, `alpha` (H, W) its own where it has one. `points` (33, 2) pixels, `confidence` (33,) and
-    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `scale`: pixels of `rgb` for
-    each of the original picture. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
+    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `original`: width and height of
+    the picture as it was given, of which `rgb` may be a smaller copy. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
     `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
     `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
     `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen."""
@@ -74,12 +69,17 @@ class Figure:
     confidence: NDArray[np.float32]
     world: NDArray[np.float32]
     spatial: bool
-    scale: float
+    original: tuple[int, int]
     people: NDArray[np.float32]
     index: int
     others: NDArray[np.bool_]
     face: NDArray[np.float32] | None
     hands: tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
+
+    @property
+    def scale(self) -> NDArray[np.float64]:
+        """Pixels of `rgb` for each of the original picture's, along x and y (2,): both sides are rounded to whole pixels."""
+        return np.array(self.rgb.shape[1::-1]) / self.original
 
     def point(self, name: str) -> NDArray[np.float32]:
         """The pixel (2,) of one of the landmarks."""
@@ -92,19 +92,16 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     Raises
     ------
     InputError : `no_person`, `not_full_body`, `person_too_small`, `person_lying`, `crowd`, `person_index_out_of_range`,
-    `person_box_outside`, `unknown_joint`, `joint_outside`, and what reading a picture may raise.
+    `person_box_outside`, `unknown_joint`, `joint_outside`, `joints_invalid`, and what reading a picture may raise.
     """
     picture = read_image(path, limits)
     height, width = picture.rgb.shape[:2]
     joints = {name: (x, y) for name, x, y in choice.placed}
-    _check_joints(joints, (height, width))
+    check_places(joints, (height, width))
     size = size_within(picture.rgb.shape, LONGEST_SIDE)
-    scale = min(1.0, size[0] / width)
-    rgb = (
-        picture.rgb if scale == 1 else np.asarray(cv2.resize(picture.rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
-    )
-    rgb = np.ascontiguousarray(rgb)
-    alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, (rgb.shape[1], rgb.shape[0])), 0, 1)
+    scale = np.array(size) / (width, height)
+    rgb = np.ascontiguousarray(resized(picture.rgb, size))
+    alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, size), 0, 1)
     people = find_people(rgb)
     body, index = _chosen(rgb, people, choice, scale)
     if body is not None and index == len(people):  # found in a box alone
@@ -121,6 +118,8 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     for name, place in joints.items():
         points[LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
         confidence[LANDMARKS.index(name)] = 1
+    if joints:
+        check_skeleton(points, warn)
     hands = (None, None) if body is None else _hands(rgb, replace(body, points=points))
     for side, hand in zip(SIDES, hands, strict=True):
         for mark, joint in ON_HANDS.items():
@@ -134,7 +133,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         confidence=confidence,
         world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else _moved_along(body, points, tuple(joints)),
         spatial=body is not None,
-        scale=scale,
+        original=(width, height),
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
         index=index,
         others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
@@ -156,20 +155,22 @@ def _moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str])
     return np.asarray(world, np.float32)
 
 
-def _chosen(rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: float) -> tuple[Body | None, int]:
-    """The one who is meant, and their number among those found."""
+def _chosen(
+    rgb: NDArray[np.uint8], people: Sequence[Body], choice: Choice, scale: NDArray[np.float64]
+) -> tuple[Body | None, int]:
+    """The one who is meant, and their number among those found. `scale` (2,) as in `Figure`."""
     height, width = rgb.shape[:2]
     if choice.box is not None:
-        x, y, wide, high = (value * scale for value in choice.box)
-        if not (x < width and y < height and x + wide > 0 and y + high > 0 and wide > 0 and high > 0):
+        x, y, wide, high = (float(value) for value in np.array(choice.box) * np.tile(scale, 2))
+        if not (x < width and y < height and x + wide > 0 and y + high > 0):
             raise InputError(
                 "person_box_outside",
-                f"The person's box lies outside the picture: draw it within {width / scale:.0f} x {height / scale:.0f}.",
+                f"The person's box lies outside the picture: draw it within {width / scale[0]:.0f} x {height / scale[1]:.0f}.",
                 ("person_box",),
             )
         body = find_body_within(rgb, (x - MORE * wide, y - MORE * high, (1 + 2 * MORE) * wide, (1 + 2 * MORE) * high))
         return body, next((k for k, one in enumerate(people) if _same(one, body)), len(people))
-    boxes = [(person_box(one, rgb.shape) / scale).round().astype(int).tolist() for one in people]
+    boxes = [(person_box(one, rgb.shape) / np.tile(scale, 2)).round().astype(int).tolist() for one in people]
     index = choice.index or 0
     if not people and index == 0:
         return None, 0
@@ -232,18 +233,6 @@ def _covered(people: Sequence[Body], shape: tuple[int, ...]) -> NDArray[np.bool_
     return covered
 
 
-def _check_joints(joints: Mapping[str, tuple[float, float]], shape: tuple[int, int]) -> None:
-    for name, (x, y) in joints.items():
-        if name not in PLACED:
-            raise InputError("unknown_joint", f"There is no joint “{name[:40]}”: choose of {', '.join(PLACED)}.")
-        if not (-0.25 * shape[1] <= x <= 1.25 * shape[1] and -0.25 * shape[0] <= y <= 1.25 * shape[0]):
-            raise InputError(
-                "joint_outside",
-                f"“{name}” lies far outside the picture: place it within {shape[1]} x {shape[0]}.",
-                ("joints",),
-            )
-
-
 def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]) -> bool:
     """Refuse who is not to be seen; whether the knees are."""
     height, width = figure.rgb.shape[:2]
@@ -270,5 +259,6 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
         raise InputError(
             "person_too_small",
             f"The person is {np.ptp(shown):.0f} pixels high: choose a picture in which it is {LEAST_HEIGHT} or more.",
+            ("joints", "person_box"),
         )
     return seen >= {"LeftKnee", "RightKnee"}

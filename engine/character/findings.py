@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.figure import PLACED
 from engine.character.film import WALL
 from engine.character.measures import picture_camera
 from engine.character.person import Person
+from engine.character.placed_joints import PLACED
 from engine.character.strokes import LABEL_COLOURS
 from engine.media.image import write_image
 from engine.motion.kinematics import joint_places
@@ -34,9 +34,8 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
         own = cv2.warpAffine(coloured, back, (width, height), flags=cv2.INTER_NEAREST)
         shown = np.asarray(np.where(own.any(-1, keepdims=True), own, shown), np.uint8)
     write_image(out / "labels.png", shown)
-    scale = first.figure.scale
     found = {
-        "size": [round(width / scale), round(height / scale)],
+        "size": list(first.figure.original),
         **_skeleton(first),
         "camera": {
             "eye": np.round(first.character.eye, 5).tolist(),
@@ -98,5 +97,5 @@ def _skeleton(person: Person) -> dict[str, Any]:
             name: {"place": place, "parent": parent}
             for name, place, parent in zip(skeleton.names, fitted_at, above, strict=True)
         },
-        "reprojection": round(fitted.fit.reprojection / figure.scale, 2),
+        "reprojection": round(fitted.fit.reprojection / float(figure.scale.mean()), 2),
     }

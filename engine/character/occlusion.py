@@ -111,7 +111,7 @@ def _one_piece(
     visible: NDArray[np.bool_], hidden_by: NDArray[np.bool_], template: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """The body in one connected piece: where a limb cuts it in two, the template says what joins them."""
-    count, _, stats, _ = cv2.connectedComponentsWithStats(visible.astype(np.uint8))
+    count, _, stats, _ = cv2.connectedComponentsWithStats(visible.astype(np.uint8), connectivity=4)
     if (stats[1:count, cv2.CC_STAT_AREA] > 0.02 * visible.sum()).sum() > 1:
         visible = visible | (hidden_by & template)
     return largest(visible)
@@ -141,8 +141,8 @@ def _similarity(
 
 
 def largest(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The largest connected piece of a mask."""
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    """The largest piece of a mask whose pixels are joined by their sides: a surface hangs together by no corners."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
     return np.asarray(labels == 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))) if count > 1 else mask
 
 

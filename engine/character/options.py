@@ -10,6 +10,7 @@ from engine.render.camera_moves import Move
 
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
+Extent = Annotated[float, Field(gt=0, le=16384)]
 Angle = Annotated[float, Field(ge=-180, le=180)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
@@ -100,10 +101,10 @@ class CharacterOptions(BaseModel):
         {},
         description="Joints placed by hand, by their names in skeleton.json: [x, y] in pixels of the picture.",
     )
-    person_box: tuple[Coordinate, Coordinate, Coordinate, Coordinate] | None = Field(
+    person_box: tuple[Coordinate, Coordinate, Extent, Extent] | None = Field(
         None,
         examples=[(120, 40, 200, 560)],
-        description="x, y, width and height in pixels of the picture: the person is looked for in there.",
+        description="x, y, width and height in pixels of the picture: the person is looked for in there, whatever person_index says.",
     )
     person_index: Annotated[int, Field(ge=0, le=99)] | Literal["all"] | None = Field(
         None,

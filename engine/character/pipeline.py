@@ -128,7 +128,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             "fps": options.fps,
             "frames": frames,
             "animation": animation,
-            "people": np.round(figure.people / figure.scale, 1).tolist(),
+            "people": np.round(figure.people / np.tile(figure.scale, 2), 1).tolist(),
             "person": options.person_index if options.person_index == "all" else figure.index,
         }
         | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {}),
@@ -147,7 +147,7 @@ def find_figures(photo: Path, options: CharacterOptions, run: Run) -> list[Figur
     placed = tuple((name, x, y) for name, (x, y) in sorted(options.joints.items()))
 
     def find(index: int | None) -> Figure:
-        choice = Choice(options.person_box, index, placed)
+        choice = Choice(options.person_box, None if options.person_box else index, placed)
         return run.stage("find_figure", find_figure, photo, choice, options.partial, run.limits, run.warn)
 
     if options.person_index != "all":
@@ -199,7 +199,8 @@ def reconstruct(
 ) -> Person:
     """From the mask to the character."""
     fitted = run.stage("fit_template", fit_template, figure, silhouette)
-    labels = run.stage("label_parts", label, figure, silhouette, fitted, label_map, options.label_strokes, run.limits)
+    given = (label_map, options.label_strokes, run.limits, run.warn)
+    labels = run.stage("label_parts", label, figure, silhouette, fitted, *given)
     if (labels.hidden >= 0).any():
         run.warn(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.doubts import doubt_mask
 from engine.character.figure import Figure
 from engine.character.gaps import gaps
 from engine.character.occlusion import largest
@@ -77,17 +78,16 @@ def cut_out(
     Raises
     ------
     InputError : `no_person` where no mask was found around the joints, and what `read_mask` may raise. Warns of
-    `mask_in_pieces`.
+    `mask_in_pieces`, `mask_misses_joints`, `mask_too_large`.
     """
     height, width = figure.rgb.shape[:2]
     if mask is None:
         alpha = _found(figure, model)
     else:
-        original = (round(width / figure.scale), round(height / figure.scale))
-        alpha = np.asarray(cv2.resize(read_mask(mask, [original, (width, height)], limits), (width, height),
-                                      interpolation=cv2.INTER_AREA), np.float32)  # fmt: skip
+        alpha = resized(read_mask(mask, [figure.original, (width, height)], limits), (width, height))
     alpha = repaint_mask(alpha, strokes, figure.scale)
-    piece, rest = _own_piece(np.asarray(alpha > 0.5), _limbs(figure) > 0)
+    limbs = np.asarray(_limbs(figure) > 0)
+    piece, rest = _own_piece(np.asarray(alpha > 0.5), limbs)
     if piece.sum() < LEAST:
         raise InputError(
             "no_person",
@@ -100,6 +100,7 @@ def cut_out(
             "The mask is in pieces, and the person was made of the one that holds most of the joints: if another "
             f"({rest / piece.sum():.0%} of it in size) belongs to them, paint over what parts them.",
         )
+    doubt_mask(figure, piece, limbs, warn)
     alpha = np.where(cv2.dilate(piece.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0, alpha, 0).astype(np.float32)
     rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
     scale = HEIGHT / (rows[-1] + 1 - rows[0])
@@ -113,9 +114,9 @@ def cut_out(
 
 
 def _own_piece(mask: NDArray[np.bool_], limbs: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int]:
-    """The connected piece of a mask that holds most of the limbs, the largest where none does; and the pixels of the largest
-    of all others."""
-    count, pieces, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    """The piece of a mask, joined by the sides of its pixels, that holds most of the limbs, the largest where none does; and
+    the pixels of the largest of all others."""
+    count, pieces, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
     if count == 1:
         return mask, 0
     sizes, held = stats[1:, cv2.CC_STAT_AREA], np.bincount(pieces[limbs], minlength=count)[1:]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
+from engine.character.doubts import doubt_labels, require_labels
 from engine.character.face_region import face_ellipse
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
@@ -49,26 +50,27 @@ def label(
     file: Path | None,
     strokes: tuple[LabelStroke, ...],
     limits: Limits,
+    warn: Callable[[str, str], None],
 ) -> Labels:
     """The body label map (section 4.2.1). `file` is a label map that takes the place of what is found, and `strokes` are
     painted over it.
 
     Raises
     ------
-    InputError : what `read_labels` may raise.
+    InputError : `labels_unreadable`, and what `read_labels` may raise. Warns of `labels_unlike_joints`.
     """
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
     height, width = figure.rgb.shape[:2]
     given = None
     if file is not None:
-        original = (round(width / figure.scale), round(height / figure.scale))
-        read = read_labels(file, [original, (width, height)], limits)
+        read = read_labels(file, [figure.original, (width, height)], limits)
         read = np.asarray(cv2.resize(read, (width, height), interpolation=cv2.INTER_NEAREST_EXACT), np.int8)
         size = (silhouette.mask.shape[1], silhouette.mask.shape[0])
         given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,
                                           borderValue=(-1,)), np.int8)  # fmt: skip
-    return label_parts(
+        require_labels(given, silhouette.mask)
+    labels = label_parts(
         silhouette.rgb,
         silhouette.mask,
         posed,
@@ -78,6 +80,9 @@ def label(
         hand_labels(figure.hands, silhouette.to_grid, silhouette.mask.shape),
         hands_at_hips(figure, silhouette.rgb, silhouette.to_grid),
     )
+    if given is not None:
+        doubt_labels(figure, labels.labels, silhouette.to_grid, warn)
+    return labels
 
 
 def hand_labels(

@@ -19,6 +19,8 @@ LABEL_COLOURS = np.array(
     [[250, 180, 60], [220, 80, 80], [80, 220, 80], [60, 160, 220], [200, 80, 200], [60, 220, 220], [0, 0, 0]], np.uint8
 )
 """Of `labels.png`: head, torso, left arm, right arm, left leg, right leg, nobody."""
+ALIKE = 40
+"""Distance, in levels of red, green and blue, up to which a colour is taken for one of these: JPEG changes them a little."""
 SUBPIXEL = 4
 """Bits behind the point of a stroke's coordinates."""
 
@@ -38,7 +40,8 @@ def read_mask(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> N
 
 
 def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> NDArray[np.int8]:
-    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `PARTS`, -1 nobody.
+    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `PARTS`; -1 nobody, and where the colour is
+    none of these, as between two of them where edges are soft.
 
     Raises
     ------
@@ -46,9 +49,10 @@ def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) ->
     """
     picture = read_image(path, limits)
     _require_size("labels", picture.rgb, sizes)
-    off = [np.square(picture.rgb.astype(np.int32) - colour).sum(-1) for colour in LABEL_COLOURS.astype(np.int32)]
-    nearest = np.stack(off).argmin(0)
-    return np.where(nearest < len(PARTS), nearest, -1).astype(np.int8)
+    labels = np.full(picture.rgb.shape[:2], -1, np.int8)
+    for index, colour in enumerate(LABEL_COLOURS[: len(PARTS)].astype(np.int32)):
+        labels[np.square(picture.rgb - colour).sum(-1) <= ALIKE**2] = index
+    return labels
 
 
 def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, int]]) -> None:
@@ -63,13 +67,13 @@ def _require_size(what: str, rgb: NDArray[np.uint8], sizes: Sequence[tuple[int, 
 
 
 def painted(
-    strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: float
+    strokes: Sequence[MaskStroke | LabelStroke], shape: tuple[int, int], scale: NDArray[np.float64]
 ) -> Iterator[NDArray[np.float32]]:
-    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale`: its pixels for each of
-    those in which strokes are counted."""
+    """One after another, where each stroke covers a picture of `shape` (H, W), in [0, 1], soft at its edge; `scale` (2,): its
+    pixels for each of those in which strokes are counted, along x and y."""
     for stroke in strokes:
         drawn = np.zeros(shape, np.uint8)
-        radius = stroke.radius * scale
+        radius = stroke.radius * float(scale.mean())
         path = (np.array(stroke.path, np.float64) + 0.5) * scale - 0.5
         if len(path) == 1:
             path = np.repeat(path, 2, axis=0)
@@ -79,8 +83,10 @@ def painted(
         yield drawn.astype(np.float32) / np.float32(255)
 
 
-def repaint_mask(alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scale: float) -> NDArray[np.float32]:
-    """A mask (H, W) with strokes over it, in their order."""
+def repaint_mask(
+    alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scale: NDArray[np.float64]
+) -> NDArray[np.float32]:
+    """A mask (H, W) with strokes over it, in their order; `scale` (2,) as in `painted`."""
     out = alpha.copy()
     for stroke, cover in zip(strokes, painted(strokes, (alpha.shape[0], alpha.shape[1]), scale), strict=True):
         out = out * (1 - cover) + (cover if stroke.person else 0)
@@ -90,12 +96,12 @@ def repaint_mask(alpha: NDArray[np.float32], strokes: Sequence[MaskStroke], scal
 def relabel(
     labels: NDArray[np.int8],
     strokes: Sequence[LabelStroke],
-    scale: float,
+    scale: NDArray[np.float64],
     to_grid: NDArray[np.float64],
     shape: tuple[int, int],
 ) -> NDArray[np.int8]:
-    """Labels on a grid (h, w) with strokes over those of the person, in their order. `scale` and `shape` (H, W) are of the
-    picture, `to_grid` (2, 3) from its pixels to the grid's."""  # fmt: skip
+    """Labels on a grid (h, w) with strokes over those of the person, in their order. `scale` (2,) and `shape` (H, W) are of
+    the picture, `to_grid` (2, 3) from its pixels to the grid's."""  # fmt: skip
     out = labels.copy()
     size = (labels.shape[1], labels.shape[0])
     for stroke, cover in zip(strokes, painted(strokes, shape, scale), strict=True):

@@ -9,6 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from engine.body.parts import PARTS
 from engine.character.figure import Choice, Figure, find_figure
@@ -30,6 +31,10 @@ from engine.perception.people import MOST, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()
+
+
+def quiet(code: str, message: str) -> None:
+    """A warning that is not looked at."""
 
 
 def found(path: Path, choice: Choice, warnings: list[str] | None = None, partial: bool = False) -> Figure:
@@ -73,7 +78,7 @@ def silhouette(figure: Figure) -> Silhouette:
 
 @pytest.fixture(scope="module")
 def labels(figure: Figure, silhouette: Silhouette) -> Labels:
-    return label(figure, silhouette, fit_template(figure, silhouette), None, (), LIMITS)
+    return label(figure, silhouette, fit_template(figure, silhouette), None, (), LIMITS, quiet)
 
 
 def test_of_two_people_the_larger_is_meant_unless_said_otherwise(couple: Path) -> None:
@@ -90,6 +95,7 @@ def test_a_box_says_who_is_meant(couple: Path) -> None:
     x, y, wide, high = (float(value) for value in found(couple, Choice()).people[1])
     figure = found(couple, Choice(box=(x, y, wide, high)))
     assert figure.index == 1
+    np.testing.assert_array_equal(found(couple, Choice((x, y, wide, high), 0)).points, figure.points)
     alpha = outlined(figure).alpha
     assert alpha[:, : int(x - 0.3 * wide)].max() < 0.5, "the other one is not in the mask"
     assert (alpha > 0.5).sum() > 0.2 * wide * high
@@ -140,6 +146,12 @@ def test_who_is_not_there_cannot_be_meant(couple: Path) -> None:
         assert "person_box" in raised.value.correctable
 
 
+@pytest.mark.parametrize("box", [(10, 10, 0, 50), (10, 10, 50, 0), (400, 500, -300, -400)])
+def test_a_box_without_an_area_is_no_option(box: tuple[float, float, float, float]) -> None:
+    with pytest.raises(ValidationError):
+        CharacterOptions(person_box=box)
+
+
 def test_in_a_crowd_it_must_be_said_who_is_meant(tmp_path: Path) -> None:
     one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     write_image(tmp_path / "crowd.png", np.concatenate([one] * 12, 1))
@@ -164,7 +176,7 @@ def test_somebody_found_in_a_box_alone_is_cut_out_there(tmp_path: Path) -> None:
     left = min(set(range(MOST + 1)) - seen) * wide
     figure = found(tmp_path / "many.png", Choice(box=(left, 0, wide, high)))
     assert len(figure.people) == len(people) + 1 and figure.index == len(people)
-    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale
+    columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale[0]
     assert left < columns[0] and columns[-1] < left + wide
 
 
@@ -234,11 +246,11 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     shown = cv2.warpAffine(LABEL_COLOURS[labels.labels.astype(int)], back, size, flags=cv2.INTER_NEAREST)
     write_image(tmp_path / "labels.png", np.asarray(shown, np.uint8))
     fitted = fit_template(figure, silhouette)
-    again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS)
+    again = label(figure, silhouette, fitted, tmp_path / "labels.png", (), LIMITS, quiet)
     assert (again.labels != labels.labels).mean() < 0.01
     at = figure.point("LeftKnee")
     stroke = LabelStroke(path=((float(at[0]), float(at[1])),), radius=6, part="right_leg")
-    painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS)
+    painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS, quiet)
     x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
     assert labels.labels[y, x] == PARTS.index("left_leg")
     assert painted.labels[y, x] == PARTS.index("right_leg")

@@ -30,7 +30,7 @@ def standing(turns: dict[str, np.ndarray] | None = None) -> FittedBody:
 
 def figure(left: np.ndarray | None) -> Figure:
     nothing = np.zeros((33, 3), np.float32)
-    return Figure(np.zeros((1000, 1000, 3), np.uint8), None, nothing[:, :2], nothing[:, 0], nothing, True, 1.0,
+    return Figure(np.zeros((1000, 1000, 3), np.uint8), None, nothing[:, :2], nothing[:, 0], nothing, True, (1000, 1000),
                   np.zeros((1, 4), np.float32), 0, np.zeros((1000, 1000), np.bool_), None, (left, None))  # fmt: skip
 
 

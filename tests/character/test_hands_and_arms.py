@@ -23,7 +23,7 @@ def figure(places: dict[str, tuple[float, float]], confidence: float, world_z: f
         points[LANDMARKS.index(name)], sure[LANDMARKS.index(name)] = place, confidence
     world[[LANDMARKS.index(name) for name in places], 2] = world_z
     none = np.zeros((240, 200), np.bool_)
-    return Figure(np.zeros((240, 200, 3), np.uint8), None, points, sure, world, True, 1.0,
+    return Figure(np.zeros((240, 200, 3), np.uint8), None, points, sure, world, True, (200, 240),
                   np.zeros((1, 4), np.float32), 0, none, None, (None, None))  # fmt: skip
 
 

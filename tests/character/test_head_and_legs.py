@@ -29,7 +29,7 @@ def standing() -> FittedBody:
 
 def figure_with(face: np.ndarray | None) -> Figure:
     nothing = np.zeros((33, 3), np.float32)
-    return Figure(np.zeros((800, 600, 3), np.uint8), None, nothing[:, :2], nothing[:, 0], nothing, True, 1.0,
+    return Figure(np.zeros((800, 600, 3), np.uint8), None, nothing[:, :2], nothing[:, 0], nothing, True, (600, 800),
                   np.zeros((1, 4), np.float32), 0, np.zeros((800, 600), np.bool_), face, (None, None))  # fmt: skip
 
 

@@ -40,7 +40,7 @@ def figure(places: dict[str, tuple[float, float]], face: bool = True, left_hand:
     sure = np.full(len(LANDMARKS), 0.6, np.float32)
     hands = (np.zeros((21, 3), np.float32) if left_hand else None, None)
     return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, sure, np.zeros((len(LANDMARKS), 3), np.float32), True,
-                  1.0, np.zeros((1, 4), np.float32), 0, none, FACE if face else None, hands)  # fmt: skip
+                  SHAPE[::-1], np.zeros((1, 4), np.float32), 0, none, FACE if face else None, hands)  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -1477,7 +1477,7 @@ export interface components {
                 ];
             };
             /**
-             * @description x, y, width and height in pixels of the picture: the person is looked for in there.
+             * @description x, y, width and height in pixels of the picture: the person is looked for in there, whatever person_index says.
              * @default null
              * @example [
              *       120,
