@@ -74,7 +74,7 @@ def mine(service: Running) -> dict[str, Any]:
     return checked(service, "swing")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def photo(service: Running) -> str:
     file = BytesIO()
     Image.fromarray(sample_picture()).save(file, "PNG")
