@@ -92,15 +92,16 @@ def register_track(
         belief = np.clip((LARGEST - size) / (LARGEST - BELIEVED), 0, 1)
         return offset, np.asarray(belief, np.float32), eye_contrast(grey, face, rest)
 
-    left, belief = np.empty((len(track), 468, 2), np.float32), np.empty((len(track), 468), np.float32)
+    left, belief = (
+        np.empty((len(track), 468, *more), np.float16) for more in ((2,), ())
+    )  # long clips have many frames
     meshes, contrast = track.meshes.copy(), np.empty((len(track), 2, 2))
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
         for frame, (left[frame], belief[frame], contrast[frame]) in enumerate(pool.map(offsets, range(len(track)))):
             tick((frame + 1) / len(track))
-    belief = gaussian_filter1d(belief, EASED, axis=0, mode="nearest")
-    meshes[:, :468, :2] += (weight * belief)[..., None] * left
-    moved = np.flatnonzero(weight)
-    for some in np.array_split(moved, 8):  # a part at a time: long clips have many frames
+    for some in np.array_split(np.flatnonzero(weight), 8):  # a part at a time, for the same reason
+        eased = gaussian_filter1d(belief[:, some].astype(np.float32), EASED, axis=0, mode="nearest")
+        meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
     shut_by_contrast(meshes, contrast, neutral)
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks

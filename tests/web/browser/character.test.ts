@@ -28,7 +28,7 @@ both.save(sys.argv[1])
 /** What the engine lets be placed, what it needs where nobody is found, and the colours of its labels. */
 const NAMES = `
 import json
-from engine.character.figure import PLACED, WHOLE_SKELETON
+from engine.character.placed_joints import PLACED, WHOLE_SKELETON
 from engine.character.strokes import LABEL_COLOURS
 print(json.dumps([PLACED, WHOLE_SKELETON, LABEL_COLOURS.tolist()]))
 `;
