@@ -9,6 +9,7 @@ outline of the person's mask. Priors keep joints within what bodies can do (thei
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -75,15 +76,27 @@ CLOTHES = 2.0
 """Deviations at which the pull of an outline is at its strongest: skirts and coats say little about who wears them."""
 INDEPENDENT = 60.0
 """As how many independent measurements all points of an outline count."""
+BEFORE, SURELY = 0.09, 0.01
+"""Metres by which the middle of one forearm is before that of another that it crosses, at least, and how far it may be off that."""
 ROUNDS, STEPS = 4, 4
 """How often the outline's points are met anew, and the most steps of the search each time."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """One forearm before the other: that of the `front` side (0 left, 1 right). Both are seen in one place, which is so far along
+    from the elbow, as a share of the forearm: `front_at` and `back_at`."""
+
+    front: int
+    front_at: float
+    back_at: float
 
 
 @dataclass(frozen=True)
 class Seen:
     """What is known of the person. `points` (L, 2) pixels and `confidence` (L,) of the model's landmarks; `directions`
     (M, 3) of `LIMBS` in space (x right, y up, z to the viewer) and their `sureness` (M,); `focal` pixels and `centre`
-    (2,) of the camera; `noise`: how far the points are off, usually, as a share of the body's height."""
+    (2,) of the camera; `noise`: how far the points are off, usually, as a share of the body's height; `crossing`: of forearms, if they do."""
 
     points: NDArray[np.float32]
     confidence: NDArray[np.float32]
@@ -92,6 +105,7 @@ class Seen:
     focal: float
     centre: tuple[float, float]
     noise: float = NOISE
+    crossing: Crossing | None = None
 
 
 @dataclass(frozen=True)
@@ -258,10 +272,21 @@ def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.fl
     stance = (joints[:, ankles, 2].mean(1) - joints[:, names.index("Hips"), 2]) / BALANCE
     count = len(parameters)
     data = [off.reshape(count, -1), limbs.reshape(count, -1)]
+    if seen.crossing is not None:
+        data.append(_crossed(seen.crossing, joints, names)[:, None])
     if body.met is not None:
         data.append(_behind_the_outline(body.met, posed, seen, height))
     stands = [lean[:, None], stance[:, None], legs.mean(1) / LEVEL, apart]
     return np.concatenate([*data, *stands, _prior(turns), _beyond(turns), shape], axis=1)
+
+
+def _crossed(crossing: Crossing, joints: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
+    """(N,) how far the forearm that is before the other is from being so, in standard deviations."""
+    depths = []
+    for side, share in ((crossing.front, crossing.front_at), (1 - crossing.front, crossing.back_at)):
+        elbow, wrist = (joints[:, names.index(f"{('Left', 'Right')[side]}{end}"), 2] for end in ("ForeArm", "Hand"))
+        depths.append(elbow + share * (wrist - elbow))
+    return np.asarray(np.maximum(BEFORE - (depths[0] - depths[1]), 0) / SURELY)
 
 
 def _behind_the_outline(met: Met, posed: Posed, seen: Seen, height: float) -> NDArray[np.float64]:

@@ -6,13 +6,15 @@ The paper's section 4.2.1. Beyond it, legs that cross, and hands in pockets.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
+from engine.character.crossed_labels import ArmLabels, Behind
+from engine.character.hair_behind_arms import hair_behind_arms
 from engine.character.labels import (
     ARMS,
     LEGS,
@@ -35,13 +37,14 @@ class Labels:
     """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
     limbs pass before others; `apart`: those that do, a leg that crosses before the other first, then arms; `parting`
     (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
-    there, or behind other cloth, -1 elsewhere."""
+    there, or behind other cloth, -1 elsewhere; `behind`: of crossed arms the one that the other hides."""
 
     labels: NDArray[np.int8]
     occlusion: NDArray[np.bool_]
     apart: NDArray[np.int8]
     parting: NDArray[np.bool_]
     hidden: NDArray[np.int8]
+    behind: Behind | None = None
 
 
 def label_parts(
@@ -53,10 +56,12 @@ def label_parts(
     corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
     sure: NDArray[np.int8] | None = None,
     at_hips: Sequence[HandAtHip] = (),
+    crossed: ArmLabels | None = None,
 ) -> Labels:
     """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
     where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands `at_hips`
-    that were not found are looked for there; `corrected` has the last word."""
+    that were not found are looked for there; `crossed` arms are as they say and the template's are not; `corrected` has the
+    last word."""
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
     projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
@@ -70,10 +75,15 @@ def label_parts(
         rough = complete_labels(mask, given)
     else:
         known = np.full(mask.shape, -1, np.int8) if sure is None else np.where(mask, sure, -1)
-        shown = np.where(known >= 0, known, projected)
+        likely = projected
+        if crossed is not None:
+            known = np.where(crossed.shown >= 0, crossed.shown, known)
+            likely = _projected(template, part_of, ~np.isin(part_of, ARMS), mask.shape)
+        shown = np.where(known >= 0, known, likely)
         rough = rough_labels(mask, shown)
         rough = np.where(known >= 0, known, rough)
         rough = hair_beside_arms(rgb, rough, projected, known)
+        rough = hair_behind_arms(rgb, rough, projected, known)
         around = _with_occlusion(rough, projected, rest, hidden).occlusion
         rough = refined_labels(rgb, rough, around, shown)
         if (leg := before(rough)) is not None:
@@ -86,7 +96,20 @@ def label_parts(
                 hidden[found.hidden] = hand.arm
     labels = corrected(rough.astype(np.int8))
     hidden[labels != rough] = -1  # whoever paints there has seen what is there
-    return _with_occlusion(labels, projected, rest, hidden, before(labels))
+    whole = _with_occlusion(labels, projected, rest, hidden, before(labels))
+    if crossed is None:
+        return whole
+    behind = crossed.behind
+    hides = (labels >= 0) & (labels != behind.limb)
+    return replace(whole, behind=Behind(behind.limb, behind.area & hides, behind.hand & hides))
+
+
+def _projected(
+    template: PosedTemplate, part_of: NDArray[np.intp], chosen: NDArray[np.bool_], shape: Sequence[int]
+) -> NDArray[np.intp]:
+    """The labels (h, w) of some `chosen` triangles (T,) of the template, seen without the others; `part_of` (T,): those of all."""
+    seen = side_maps(template.vertices, template.triangles[chosen], (shape[0], shape[1]), "front")
+    return np.where(seen.mask, part_of[chosen][seen.raster.triangle], -1)
 
 
 def _with_occlusion(

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
+from engine.character.crossed_labels import Behind
 from engine.character.depth_order import body_behind, body_within, hand_beneath, limb_before, overlap_beneath
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
@@ -61,10 +62,26 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         if one.limb in LEGS:
             body = body_within(body, limb, own & one.joint)
         limb = limb_before(limb, body, own)
-        layers.append(
+        beneath = (
             overlap_beneath(limb, body, own) if limb.solid is None else _solid_beneath(limb, body, own | ~one.joint)
         )
+        layers.append(replace(beneath, limb=one.limb))
+    if labels.behind is not None:
+        layers = _behind_the_other(layers, labels.behind, labels)
     return [body, *layers]
+
+
+def _behind_the_other(layers: Sequence[Layer], behind: Behind, labels: Labels) -> list[Layer]:
+    """The layers of limbs with the arm that goes on `behind` the other beneath its surface there."""
+    found = list(layers)
+    place = {layer.limb: k for k, layer in enumerate(found)}
+    other = next(arm for arm in ARMS if arm != behind.limb)
+    if {behind.limb, other} <= set(place):
+        before = found[place[other]]
+        hidden = behind.area & (labels.labels == other)
+        arm = hand_beneath(found[place[behind.limb]], before, hidden)
+        found[place[behind.limb]] = overlap_beneath(arm, before, ~hidden)
+    return found
 
 
 def _around_legs(

@@ -20,6 +20,11 @@ NEAR = 0.16
 """Metres at rest within which two points of the template are near each other on its surface."""
 REACH = 0.02
 """By how much the occlusion pixels are dilated, as a share of the picture's height."""
+ACROSS = 0.05
+"""How far behind a limb what is seen on one of its sides goes on to what is seen on the other, as a share of the picture's
+height."""
+SMALL = 0.005
+"""Share of what is seen below which a piece of it is not missed."""
 SHORTEST = 8
 """Pixels of border that make an occlusion."""
 
@@ -110,11 +115,29 @@ def completed(
 def _one_piece(
     visible: NDArray[np.bool_], hidden_by: NDArray[np.bool_], template: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """The body in one connected piece: where a limb cuts it in two, the template says what joins them."""
-    count, _, stats, _ = cv2.connectedComponentsWithStats(visible.astype(np.uint8), connectivity=4)
-    if (stats[1:count, cv2.CC_STAT_AREA] > 0.02 * visible.sum()).sum() > 1:
+    """The body in one connected piece: where a limb cuts it in two, the template says what joins them, and what it does not
+    have, as hair, goes on behind the limb from one side to the other."""
+    pieces = _pieces(visible)
+    if len(pieces) > 1:
         visible = visible | (hidden_by & template)
+        pieces = _pieces(visible)
+    for piece in pieces[1:]:  # hair on both sides of an arm is not the template's
+        visible = visible | (hidden_by & _around(pieces[0]) & _around(piece))
     return largest(visible)
+
+
+def _pieces(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
+    """The pieces of a mask, the largest first, without small ones."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
+    areas = stats[:count, cv2.CC_STAT_AREA]
+    order = 1 + np.argsort(-areas[1:], kind="stable")
+    return [labels == k for k in order if areas[k] > SMALL * mask.sum()]
+
+
+def _around(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    reach = max(1, round(ACROSS * mask.shape[0]))
+    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), disk) > 0)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

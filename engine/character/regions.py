@@ -69,7 +69,7 @@ def limb_in_one_piece(
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and,
     where another that is `apart` passes before it or it does not reach its joint, what the template has there (`triangles`
-    (T,)); and its hidden hand."""
+    (T,)); what of it goes on behind the other arm, and its hidden hand."""
     own, person = labels.labels == limb, labels.labels >= 0
     seen = own | (person & joint & _grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
     piece = largest(seen)
@@ -77,6 +77,8 @@ def limb_in_one_piece(
     if torn or lost:
         between = _grown(template.covers(triangles, own.shape), UNDER)
         seen = seen | (between & (person if lost else np.isin(labels.labels, apart)))
+    if labels.behind is not None and labels.behind.limb == limb:
+        seen = seen | labels.behind.area
     return largest(seen | (labels.hidden == limb))
 
 

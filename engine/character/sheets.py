@@ -38,13 +38,15 @@ BORDER_SWEEPS = 3
 @dataclass(frozen=True)
 class Layer:
     """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8, if it is cut: where a 1 lies beside a 2 the
-    part is not joined (one leg and the other). `solid`: what the part is made of in place of a sheet."""
+    part is not joined (one leg and the other). `solid`: what the part is made of in place of a sheet. `limb`: which that is, an
+    index of `PARTS`; -1 for the body."""
 
     mask: NDArray[np.bool_]
     front: Surface
     back: Surface
     cut: NDArray[np.int8] | None = None
     solid: SolidLimb | None = None
+    limb: int = -1
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class ClosedMesh:
     `vertices` (V, 3) float64: x, y, z; `triangles` (T, 3) int32, counter-clockwise seen from outside for one who looks at
     the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
     it meets the front's colours and the back's.
-    `rim` (V,) bool: on such a border. `layer` (V,) int: the part. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
+    `rim` (V,) bool: on such a border. `layer` (V,) int: the part, and `limb` (V,) int8 which limb that is, -1 for the body. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
     summing to one. `places` (V, 2): the pixel whose colour a vertex takes, where that is not its own, x and y; else NaN.
     """
 
@@ -63,6 +65,7 @@ class ClosedMesh:
     front: NDArray[np.bool_]
     rim: NDArray[np.bool_]
     layer: NDArray[np.intp]
+    limb: NDArray[np.int8]
     bones: NDArray[np.uint8]
     weights: NDArray[np.float32]
     places: NDArray[np.float64]
@@ -123,6 +126,7 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
         front=np.repeat([True, False, True], [count, count, len(edge)]),
         rim=np.concatenate([border, border, np.ones(len(edge), np.bool_)]),
         layer=np.concatenate([owners, owners, owners[edge]]),
+        limb=np.array([layer.limb for layer in layers], np.int8)[np.concatenate([owners, owners, owners[edge]])],
         bones=bones,
         weights=kept,
         places=np.full((2 * count + len(edge), 2), np.nan),
@@ -138,9 +142,10 @@ def _with_solids(sheets: ClosedMesh, layers: Sequence[Layer]) -> ClosedMesh:
         count = len(limb.vertices)
         bones, weights = strongest(limb.weights)
         neither = np.zeros(count, np.bool_)
+        which = np.full(count, layers[k].limb, np.int8)
         vertices = limb.vertices + np.array([0, 0, FORWARD * k])
         meshes.append(
-            ClosedMesh(vertices, limb.triangles, ~neither, neither, np.full(count, k), bones, weights, places)
+            ClosedMesh(vertices, limb.triangles, ~neither, neither, np.full(count, k), which, bones, weights, places)
         )
     before = np.cumsum([0, *(len(one.vertices) for one in meshes)])
     joined = {field.name: np.concatenate([getattr(one, field.name) for one in meshes]) for field in fields(ClosedMesh)}

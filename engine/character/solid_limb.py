@@ -26,6 +26,8 @@ from engine.character.template_maps import side_maps
 
 FORESHORTENED = 0.5
 """Share of its length that a bone has in the picture, below which the limb is more deep than long."""
+RIM = 2
+"""Pixels of a limb at its outline from which no colours are taken."""
 SEEN = 0.02
 """Metres behind what is nearest at a pixel, within which a vertex is taken to be seen there."""
 
@@ -93,10 +95,16 @@ def solid_limb(
     with np.errstate(invalid="ignore"):
         near = vertices[:, 2] > front[y, x] - SEEN * template.pixels_per_metre
     forearm, hand = (dense[:, [part in name for name in rig.names]].sum(1) for part in ("ForeArm", "Hand"))
-    seen = near & own[y, x]
+    seen = near & _inner(own)[y, x]
     return SolidLimb(
         vertices, rest, triangles.astype(np.int32), dense, front, back, seen, forearm + hand < 0.5, hand > 0.5
     )
+
+
+def _inner(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels (h, w) surely of a limb: at its outline colours are mixed with what is behind. Of one too thin, all."""
+    inner = cv2.erode(own.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=RIM, borderValue=0) > 0
+    return np.asarray(inner) if inner.any() else own
 
 
 def places_on_the_picture(limbs: Sequence[SolidLimb]) -> list[NDArray[np.float64]]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
+from engine.character.crossed_labels import label_crossed
 from engine.character.doubts import doubt_labels, require_labels
 from engine.character.face_region import face_ellipse
 from engine.character.face_warp import JAW, Face
@@ -79,6 +80,9 @@ def label(
         lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
         hand_labels(figure.hands, silhouette.to_grid, silhouette.mask.shape),
         hands_at_hips(figure, silhouette.rgb, silhouette.to_grid),
+        None
+        if fitted.crossed is None
+        else label_crossed(figure, fitted.crossed, posed, human.rig, silhouette.to_grid, silhouette.mask),
     )
     if given is not None:
         doubt_labels(figure, labels.labels, silhouette.to_grid, warn)

@@ -20,6 +20,7 @@ from engine.body.outline import Skin, skin_model, trace
 from engine.body.rig import Rig
 from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
+from engine.character.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand
 from engine.character.figure import Figure
 from engine.character.picture_space import PictureCamera
 from engine.character.posed_template import PosedTemplate
@@ -54,12 +55,13 @@ JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip"
 @dataclass(frozen=True)
 class FittedBody:
     """The fit, and the picture's camera: `focal` pixels, `centre` (2,). `kept` (J,): the joints that stay turned as they are
-    in the picture when the character stands in T-pose."""
+    in the picture when the character stands in T-pose. `crossed`: the arms, if they are."""
 
     fit: Fit
     focal: float
     centre: tuple[float, float]
     kept: NDArray[np.bool_]
+    crossed: CrossedArms | None = None
 
     def camera(self) -> PictureCamera:
         """The camera of the picture."""
@@ -114,18 +116,21 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     limbs = limbs / np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
     limbs = legs_apart(limbs, facing(trunk)[:, 2])
     sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
+    crossed = crossed_arms(figure, mask)
+    confidence = figure.confidence if crossed is None else without_hidden_hand(figure, crossed)
     seen = Seen(
         figure.points[at],
-        figure.confidence[at] * trust,
+        confidence[at] * trust,
         limbs.astype(np.float32),
         sure.astype(np.float32),
         focal,
         centre,
+        crossing=None if crossed is None else crossed.crossing,
     )
     start = first_guess(human.space, landmarks, seen, trunk)
     fit = fit_body(human.space, landmarks, seen, start, trace(mask), human.skin)
     kept = np.zeros(len(human.space.names), np.bool_)
-    return FittedBody(fit, focal, centre, kept)
+    return FittedBody(fit, focal, centre, kept, crossed)
 
 
 def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
+from engine.character.crossed_labels import Behind
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
 from engine.character.sheets import ClosedMesh
@@ -21,6 +22,7 @@ from engine.character.sides import places_on_the_picture
 from engine.imaging.inpaint import background_plate
 from engine.imaging.nearest import nearest_in
 from engine.imaging.poisson import poisson_blend
+from engine.imaging.usual_colours import usual_colours
 
 BackTexture = Literal["mirror", "inpaint"]
 
@@ -62,7 +64,8 @@ TILES = 3
 @dataclass(frozen=True)
 class Tiles:
     """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `limbs` that are apart, the
-    `body` without them before it, and its `back`. `head` (h, w): where its head is. `scale`: their pixels for each of the
+    `body` without them before it, and its `back`. `behind`: a limb that goes on
+    behind another, and which that is, an index of `PARTS`. `head` (h, w): where its head is. `scale`: their pixels for each of the
     grid's. `shift`: by how many of them x and y are further, so that pixels fall on pixels of the picture."""
 
     limbs: NDArray[np.uint8]
@@ -71,6 +74,7 @@ class Tiles:
     head: NDArray[np.bool_]
     scale: float
     shift: NDArray[np.float64]
+    behind: tuple[int, NDArray[np.uint8]] | None = None
 
 
 def paint_tiles(
@@ -97,7 +101,8 @@ def paint_tiles(
     """
     limbs = _own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
     shape = limbs.shape
-    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // TILES / shape[1])
+    tiles = TILES + (labels.behind is not None)
+    scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // tiles / shape[1])
     size = (round(shape[1] * scale), round(shape[0] * scale))
     matrix = to_grid * scale
     matrix[:, 2] += (scale - 1) / 2
@@ -116,19 +121,26 @@ def paint_tiles(
     if oval is not None and head.any():
         behind = _without_face(behind, head, oval)
     apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
-    if oval is not None and (labels.hidden >= 0).any():
+    if (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
-        hands, skin = _enlarged(near & ~limbs, size), _ellipse(oval, own.shape) & own
-        if skin.any():
-            apart = np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), apart)
-    return Tiles(apart, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
+        apart = _with_skin(apart, seen, _enlarged(near & ~limbs, size), oval, own)
+    hidden = None
+    if labels.behind is not None:
+        hidden = labels.behind.limb, _behind_another(apart, labels, labels.behind, seen, own, oval)
+    back_tile = joined_at_the_outline(body, behind, own, head, scale)
+    return Tiles(apart, body, back_tile, head, scale, shift, hidden)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
-    """One texture (h, 3 w, 3), or two tiles wide where no limb hides anything, and each vertex' place on it (V, 2)."""
+    """One texture (h, 3 w, 3), two tiles wide where no limb hides anything, four where one hides another; and each vertex' place
+    on it (V, 2)."""
     limbs_apart = bool((mesh.layer != body_layer).any())
     pictures = [tiles.limbs, tiles.body, tiles.back] if limbs_apart else [tiles.body, tiles.back]
+    if limbs_apart and tiles.behind is not None:
+        pictures.insert(1, tiles.behind[1])
     tile = np.where(mesh.layer == body_layer, np.where(mesh.front, len(pictures) - 2, len(pictures) - 1), 0)
+    if limbs_apart and tiles.behind is not None:
+        tile[mesh.limb == tiles.behind[0]] = 1
     height, width = tiles.body.shape[:2]
     apart = np.abs(cv2.subtract(tiles.body, tiles.back, dtype=cv2.CV_16S)).max(-1) > OFF
     grid = (round(width / tiles.scale), round(height / tiles.scale))
@@ -166,7 +178,7 @@ def _behind_the_limbs(
         shown &= ~(head & _ellipse(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
     for part in (head, leg, ~head & ~leg):
-        body = _filled(body, limbs & own & part, shown & part)
+        body = _filled(body, limbs & own & part, usual_colours(seen, shown & part))
     return continued_colours(body, own)
 
 
@@ -179,6 +191,34 @@ def _of_the_limbs(
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
     return _filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
+
+
+def _behind_another(
+    limbs: NDArray[np.uint8],
+    labels: Labels,
+    behind: Behind,
+    seen: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    face: NDArray[np.floating] | None,
+) -> NDArray[np.uint8]:
+    """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
+    size = (own.shape[1], own.shape[0])
+    mine = labels.labels == behind.limb
+    edge = cv2.dilate(behind.area.astype(np.uint8), np.ones((SLIVER, SLIVER), np.uint8)) > 0
+    whole = _filled(limbs, _enlarged(behind.area | (mine & edge), size), _enlarged(mine & ~edge, size) & own)
+    return _with_skin(whole, seen, _enlarged(behind.hand, size), face, own)
+
+
+def _with_skin(
+    rgb: NDArray[np.uint8],
+    seen: NDArray[np.uint8],
+    hands: NDArray[np.bool_],
+    face: NDArray[np.floating] | None,
+    own: NDArray[np.bool_],
+) -> NDArray[np.uint8]:
+    """The picture (h, w, 3) with `hands` (h, w) that are hidden in the face's colour; as it was where no face is `seen`."""
+    skin = np.zeros_like(own) if face is None else _ellipse(face, own.shape) & own
+    return np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), rgb) if skin.any() else rgb
 
 
 def joined_at_the_outline(

@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from engine.body import load_template
 from engine.body.body_space import load_body_space
 from engine.body.first_guess import first_guess
-from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Seen, fit_body, forward, rotation_matrices
+from engine.body.fitting import (
+    BEFORE,
+    COEFFICIENTS,
+    LIMBS,
+    TURNED,
+    Crossing,
+    Seen,
+    fit_body,
+    forward,
+    rotation_matrices,
+)
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN
 from engine.body.template import load_rig
@@ -69,6 +80,32 @@ def test_who_strides_towards_the_viewer_is_not_fitted_flat() -> None:
     strides = [at[feet[0], 2] - at[feet[1], 2] for at in (joints, found)]
     assert strides[0] > 0.45
     assert abs(strides[1] / strides[0] - 1) < 0.15
+
+
+@pytest.mark.parametrize("front", [0, 1])
+def test_of_crossed_forearms_that_is_before_the_other_which_is_said_to_be(front: int) -> None:
+    """From landmarks alone, which fit both."""
+    truth = np.zeros(len(somebody(0)))
+    truth[:3] = [0.1, 0.0, -4.5]
+    turns = truth[3:-COEFFICIENTS].reshape(-1, 3)
+    for side, sign in (("Left", 1), ("Right", -1)):
+        turns[TURNED.index(f"{side}Arm")] = [0.6, 0, -1.25 * sign]
+        turns[TURNED.index(f"{side}ForeArm")] = [0, -1.9 * sign, 0]
+    joints, points = forward(SPACE, MARKS, truth)
+    pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
+    place = dict(zip(SPACE.names, joints, strict=True))
+    limbs = np.stack([place[b] - place[a] for a, b in LIMBS]).astype(np.float32)
+    limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
+    trust = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+    seen = Seen(pixels, trust[0], limbs, trust[1], FOCAL, CENTRE, crossing=Crossing(front, 0.5, 0.5))
+    fit = fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place))
+    found, _ = forward(SPACE, MARKS, fit.parameters)
+    middle = [
+        np.mean([found[SPACE.names.index(f"{side}{name}"), 2] for name in ("ForeArm", "Hand")])
+        for side in ("Left", "Right")
+    ]
+    assert middle[front] - middle[1 - front] > BEFORE - 0.02
+    assert fit.reprojection < 0.015 * np.ptp(pixels[:, 1])
 
 
 def test_turns_are_rotations_and_small_ones_too() -> None:

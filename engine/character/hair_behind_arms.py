@@ -1,0 +1,61 @@
+"""Hair that a raised arm passes before: the head's, though the arm is nearer and may cut it in two."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS
+from engine.character.labels import ARMS, COLOURS, SPECK, Colours
+
+OUTLINE = 0.008
+"""How far around the template's outline an arm's may be, as a share of the height."""
+CLEARLY = 3.0
+"""By how much likelier hair must be where the template has its arm (logarithms of probabilities)."""
+ACROSS = 0.05
+"""How wide an arm is that passes before hair, as a share of the height."""
+HAIRY, NOT_HAIR = 98.0, 0.4
+"""Percent of hair whose colours say what may be hair; share of an arm that may not be, at least, to be told from hair."""
+SOFT = 2.0
+"""Pixels over which likelihoods are averaged."""
+
+
+def hair_behind_arms(
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.integer], sure: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Labels (H, W) in which the hair that a raised arm passes before is the head's: pieces above the chin that are not `sure`
+    (H, W) to be the arm, have the colours of hair rather than of the arm, and would hang together with the head if the arm
+    were not before it. `template` (H, W): the projected template's labels."""
+    found = labels.astype(np.intp).copy()
+    head = PARTS.index("head")
+    hair = (labels == head) & (template != head)
+    if hair.sum() < 10 * COLOURS or not (template == head).any():
+        return found
+    chin = int(np.flatnonzero((template == head).any(1))[-1])
+    colours = rgb.astype(np.float64)
+    of_hair = Colours.of(colours[hair])
+    hairy = float(np.percentile(of_hair.unlikely(colours[hair]), HAIRY))
+    for arm in ARMS:
+        inner = (labels == arm) & ~_grown(template != arm, OUTLINE)
+        bare = inner.copy()
+        bare[inner] = of_hair.unlikely(colours[inner]) > hairy
+        doubtful = (labels == arm) & (sure != arm)
+        doubtful[chin:] = False
+        if bare.sum() < max(10 * COLOURS, NOT_HAIR * inner.sum()) or doubtful.sum() < SPECK:
+            continue
+        like = np.zeros(labels.shape, np.float32)
+        like[doubtful] = Colours.of(colours[bare]).unlikely(colours[doubtful]) - of_hair.unlikely(colours[doubtful])
+        clear = np.where(_grown(template == arm, OUTLINE), CLEARLY, 0)
+        given = doubtful & (cv2.GaussianBlur(like, (0, 0), SOFT) > clear)
+        _, pieces, stats, _ = cv2.connectedComponentsWithStats(given.astype(np.uint8), connectivity=4)
+        near = np.unique(pieces[_grown(labels == head, ACROSS)])
+        large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= SPECK)
+        found[given & np.isin(pieces, np.intersect1d(near, large))] = head
+    return found
+
+
+def _grown(mask: NDArray[np.bool_], share: float) -> NDArray[np.bool_]:
+    """A mask (H, W) grown by a share of its height."""
+    reach = 2 * max(1, round(share * mask.shape[0])) + 1
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((reach, reach), np.uint8)) > 0)
