@@ -25,7 +25,7 @@ def scene(sleeve: tuple[int, int, int] = SLEEVE) -> tuple[np.ndarray, np.ndarray
     truth[180:380, 100:200] = TORSO
     truth[disk((150, 110), 80)] = HEAD
     arm = np.zeros((400, 300), np.uint8)
-    cv2.line(arm, (60, 230), (105, 60), (1,), 22)
+    cv2.line(arm, (60, 230), (118, 20), (1,), 22)
     truth[arm > 0] = ARM
     template = np.full((400, 300), -1)
     template[180:380, 100:200] = TORSO
