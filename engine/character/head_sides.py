@@ -41,7 +41,7 @@ def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], body_layer: int)
     whole = joined.pixels(np.flatnonzero(joined.layer == body_layer), head.shape)
     depth = np.asarray(cv2.distanceTransform(whole.astype(np.uint8), cv2.DIST_L2, 5)) - 0.5
     rest = (whole & ~head).astype(np.uint8)
-    share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / FADE, 0, 1)
+    share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / FADE - 0.5, 0, 1)
     x, y = np.clip(np.rint(joined.vertices[:, :2]), 0, [head.shape[1] - 1, head.shape[0] - 1]).astype(int).T
     back = (joined.layer == body_layer) & ~joined.front & head[y, x]
     moved = np.flatnonzero(back & (joined.rim | ~copied))  # and not the seam

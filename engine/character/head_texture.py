@@ -50,7 +50,7 @@ MIDDLE = 128.0
 VARIED, FEW = 0.1, 0.3
 """How much hair must be seen, as a share of what is to be covered, or patches of it repeat: these are shown more faintly,
 the less there are, and not at all where it is less than this share of that."""
-STRAND, CALM = (0.3, 3.0), 0.7
+LONG_STRAND, SHORT_STRAND, CALM = (0.3, 3.0), (0.25, 1.2), 0.7
 """Width and length of a streak, pixels of the grid, and how much fainter it is than what is seen of hair."""
 FARTHER = 0.3
 """How much less colours of twice the distance count."""
@@ -84,8 +84,9 @@ def back_of_the_head(
     mask: NDArray[np.bool_],
     face: NDArray[np.floating],
     scale: float,
-) -> NDArray[np.uint8]:
-    """The picture (h, w, 3) with the back of the head in the head's place.
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    """The picture (h, w, 3) with the back of the head in the head's place; and the front (h, w, 3) that this joins at the
+    outline, without what shines through hair there.
 
     Parameters
     ----------
@@ -98,31 +99,35 @@ def back_of_the_head(
     rows, columns = (np.flatnonzero(mask.any(axis)) for axis in (1, 0))
     y, x = max(0, rows[0] - margin), max(0, columns[0] - margin)
     box = slice(y, rows[-1] + 1 + margin), slice(x, columns[-1] + 1 + margin)
-    out = rgb.copy()
+    back, front = rgb.copy(), rgb.copy()
     oval = face - np.array([x, y, 0, 0, 0])
     head = _measured(own[box], mask[box], oval, scale)
-    out[box] = _back(rgb[box], beyond_the_outline(seen[box], covered[box]), head, float(oval[3]))
-    return out
+    around = beyond_the_outline(seen[box], covered[box])
+    hair, through = find_hair(rgb[box], around, head)
+    if hair.any():
+        back[box] = _back(rgb[box], hair, head, float(oval[3]))
+        front[box] = np.where(through[..., None], back[box], rgb[box])
+    return back, front
 
 
-def _back(rgb: NDArray[np.uint8], around: NDArray[np.uint8], head: Head, high: float) -> NDArray[np.uint8]:
+def _back(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, high: float) -> NDArray[np.uint8]:
     """The same of the part of the picture (h, w, 3) that shows the head; a face is `high` half its height, pixels."""
-    hair = find_hair(rgb, around, head)
-    if not hair.any():
-        return rgb
     nape = _nape(hair, head)
     noise = np.random.default_rng(0).normal(size=hair.shape).astype(np.float32)
     uneven = UNEVEN * head.scale**2 / high * cv2.GaussianBlur(noise, (0, 0), head.scale)
     line = nape + ROUND * (np.minimum(head.out**2 - head.up**2, 1) - 1) + uneven
     share = np.clip((head.up - line) * high / (SOFT_NAPE * head.scale) + 0.5, 0, 1)[..., None]
     neck = _neck(rgb, hair, head, nape)
-    back = neck + share * (_covered(rgb, hair, head.mask, head.scale) - neck)
+    back = neck + share * (_covered(rgb, hair, head, nape < -1) - neck)
     return np.where(head.mask[..., None], np.clip(back + 0.5, 0, 255), rgb).astype(np.uint8)
 
 
-def find_hair(rgb: NDArray[np.uint8], around: NDArray[np.uint8], head: Head) -> NDArray[np.bool_]:
+def find_hair(
+    rgb: NDArray[np.uint8], around: NDArray[np.uint8], head: Head
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """The pixels (h, w) of the head that surely show hair, a hat or a hood: what is along the outline above the brows, and
-    what has its colours rather than the face's, but not those of what is behind the person."""
+    what has its colours rather than the face's, but not those of what is behind the person; and the pixels (h, w) where
+    that is seen through hair."""
     colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), 1.5), cv2.COLOR_RGB2LAB).astype(np.float32)
     behind = cv2.cvtColor(around, cv2.COLOR_RGB2LAB).astype(np.float32)
     face = head.mask & (head.out < 0.7)
@@ -130,21 +135,24 @@ def find_hair(rgb: NDArray[np.uint8], around: NDArray[np.uint8], head: Head) -> 
     crown = inside & (head.up > FOREHEAD)
     sample = crown & (head.depth < INSIDE + CROWN)
     if sample.sum() < 8 or face.sum() < 8:
-        return sample
+        return sample, np.zeros_like(sample)
     other = sample & (_distance(colours, sample, colours[face]) > ALIKE)
     if other.sum() > MOST * sample.sum():
         sample = other
     contrast = np.linalg.norm(colours - behind, axis=-1)
     hair = np.median(colours[sample & (contrast >= np.median(contrast[sample]))], axis=0)
-    own = inside & ~_mixed(colours, behind, hair, head)
+    mixed = _mixed(colours, behind, hair, head)
+    own = inside & ~mixed
     if (sample & own).sum() >= 8:
         sample &= own
-    from_skin, from_hair = (_distance(colours, inside, colours[where]) for where in (face, sample))
+    from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (face, sample))
     found = sample | (own & (from_hair < np.minimum(CLEARLY * from_skin, 1.5 * ALIKE)))
     found = _beside_the_face(found, sample, head)
-    found = own & (cv2.morphologyEx(found.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8)) > 0)
+    _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
+    found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
-    return safe if safe.sum() > max(8.0, ENOUGH * head.mask.sum()) else found
+    through = head.mask & mixed & (from_skin > ALIKE)
+    return (safe if safe.sum() > max(8.0, ENOUGH * head.mask.sum()) else found), through
 
 
 def _distance(colours: NDArray[np.float32], where: NDArray[np.bool_], of: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -183,30 +191,31 @@ def _mixed(
     return np.asarray((share > MIXED + PURER * head.depth) & (long > ALIKE**2) & (head.depth < RIM))
 
 
-def _covered(
-    rgb: NDArray[np.uint8], hair: NDArray[np.bool_], mask: NDArray[np.bool_], scale: float
-) -> NDArray[np.float32]:
+def _covered(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, long: bool) -> NDArray[np.float32]:
     """The head (h, w, 3) all over with hair: colours that hardly change, which are interpolated, and on them, patch by
     patch, what is fine about it, or where little of it is seen, streaks. Patches alone would carry on whatever shade a
     little hair has at its edge."""
-    shade = _interpolated(rgb, hair, scale)
+    shade = _interpolated(rgb, hair, head.scale)
     fine = np.clip(MIDDLE + rgb.astype(np.float32) - shade, 0, 255).astype(np.uint8)
-    hole = mask & ~hair
+    hole = head.mask & ~hair
     whole = float(cv2.erode(hair.astype(np.uint8), np.ones((7, 7), np.uint8)).sum())
     strength = min(1.0, whole / max(VARIED * hole.sum(), 1.0))
     spread = np.abs(fine[hair].astype(np.float32) - MIDDLE).mean()
-    drawn = CALM * np.sqrt(1 - strength**2) * spread * _strands(hair.shape, scale)[..., None]
+    drawn = (
+        CALM
+        * np.sqrt(1 - strength**2)
+        * spread
+        * _strands(hair.shape, head.scale, LONG_STRAND if long else SHORT_STRAND)[..., None]
+    )
     if strength > FEW:
         drawn = drawn + strength * (filled(fine, hole, hair).astype(np.float32) - MIDDLE)
     return np.where(hair[..., None], rgb, shade + drawn).astype(np.float32)
 
 
-def _strands(shape: tuple[int, ...], scale: float) -> NDArray[np.float32]:
+def _strands(shape: tuple[int, ...], scale: float, size: tuple[float, float]) -> NDArray[np.float32]:
     """What hair that hangs down looks like from far, (h, w): streaks around 0, of a deviation of 1."""
     noise = np.random.default_rng(1).normal(size=shape).astype(np.float32)
-    streaks = np.asarray(
-        cv2.GaussianBlur(noise, (0, 0), sigmaX=STRAND[0] * scale, sigmaY=STRAND[1] * scale), np.float32
-    )
+    streaks = np.asarray(cv2.GaussianBlur(noise, (0, 0), sigmaX=size[0] * scale, sigmaY=size[1] * scale), np.float32)
     return streaks / max(float(streaks.std()), 1e-6)
 
 

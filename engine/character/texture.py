@@ -112,15 +112,16 @@ def paint_tiles(
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
+    beside = body
     if oval is not None and head.any():
-        behind = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, scale)
+        behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, scale)
     apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
     if oval is not None and (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
         hands, skin = _enlarged(near & ~limbs, size), _ellipse(oval, own.shape) & own
         if skin.any():
             apart = np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), apart)
-    return Tiles(apart, body, joined_at_the_outline(body, behind, own, head, scale), head, scale, shift)
+    return Tiles(apart, body, joined_at_the_outline(beside, behind, own, head, scale), head, scale, shift)
 
 
 def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
