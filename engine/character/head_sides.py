@@ -30,26 +30,33 @@ FADE = 10.0
 def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], body_layer: int) -> ClosedMesh:
     """The mesh whose outermost triangles of the front take the back's colours where they are the `head`'s (h, w), and whose
     back takes them at the pace of the surface."""
-    x, y = np.clip(np.rint(mesh.vertices[:, :2]), 0, [head.shape[1] - 1, head.shape[0] - 1]).astype(int).T
     body = mesh.layer == body_layer
-    on_head = body & head[y, x]
+    whole = mesh.pixels(np.flatnonzero(body), head.shape)
+    near = cv2.dilate(head.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0  # a border lies between pixels
+    rest = (whole & ~near).astype(np.uint8)
+    on_head = body & near[_pixels(mesh, head.shape)]
     triangles = mesh.triangles
     outermost = mesh.front[triangles].all(1) & (mesh.rim & on_head)[triangles].any(1) & on_head[triangles].all(1)
     if not outermost.any():
         return mesh
     joined, copied = _with_copies(mesh, outermost)
-    whole = joined.pixels(np.flatnonzero(joined.layer == body_layer), head.shape)
-    depth = np.asarray(cv2.distanceTransform(whole.astype(np.uint8), cv2.DIST_L2, 5)) - 0.5
-    rest = (whole & ~head).astype(np.uint8)
+    within, without = (cv2.distanceTransform(one.astype(np.uint8), cv2.DIST_L2, 5) for one in (whole, ~whole))
+    depth = np.where(whole, within - 0.5, 0.5 - without)
     share = np.clip(np.asarray(cv2.distanceTransform(1 - rest, cv2.DIST_L2, 5)) / FADE - 0.5, 0, 1)
-    x, y = np.clip(np.rint(joined.vertices[:, :2]), 0, [head.shape[1] - 1, head.shape[0] - 1]).astype(int).T
-    back = (joined.layer == body_layer) & ~joined.front & head[y, x]
+    y, x = _pixels(joined, head.shape)
+    back = (joined.layer == body_layer) & ~joined.front & near[y, x]
     moved = np.flatnonzero(back & (joined.rim | ~copied))  # and not the seam
     start = joined.vertices[moved, :2]
     places = joined.places.copy()
     laid = _at_the_surfaces_pace(start, depth.astype(np.float32), seam_depth=1.0)
     places[moved] = start + share[y[moved], x[moved], None] * (laid - start)
     return replace(joined, places=places)
+
+
+def _pixels(mesh: ClosedMesh, shape: tuple[int, ...]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Row and column of the pixel of the grid in which each vertex is, (V,) each."""
+    x, y = np.clip(np.rint(mesh.vertices[:, :2]), 0, [shape[1] - 1, shape[0] - 1]).astype(np.intp).T
+    return y, x
 
 
 def _with_copies(mesh: ClosedMesh, chosen: NDArray[np.bool_]) -> tuple[ClosedMesh, NDArray[np.bool_]]:

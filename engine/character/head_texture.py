@@ -26,7 +26,7 @@ BESIDE = 1.06
 """From how far out, in half axes of the face's oval, a pixel is not the face's."""
 NAPE = 0.55
 """How far below the face's middle the hair reaches at the back, as a share of the way to the chin."""
-BELOW, LONG = -0.6, 0.015
+BELOW, LONG = -0.6, 0.011
 """Which share of the head must be hair this far below the face's middle, if hair is long, and hides the neck from behind."""
 INSIDE = 2.0
 """Pixels of the grid from the outline inward that may show what is behind the person."""
@@ -151,7 +151,8 @@ def find_hair(
     _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
     found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
-    through = head.mask & mixed & (from_skin > ALIKE)
+    beside = cv2.distanceTransform((~found).astype(np.uint8), cv2.DIST_L2, 5) < CROWN * head.scale
+    through = head.mask & mixed & (from_skin > ALIKE) & beside
     return (safe if safe.sum() > max(8.0, ENOUGH * head.mask.sum()) else found), through
 
 

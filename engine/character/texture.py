@@ -41,8 +41,9 @@ OFF = 8.0
 """Levels by which front and back differ where they are not the same."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
-HEAD_FROM, HEAD_TO = 1.2, 4.5
-"""The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
+HEAD_FROM, HEAD_TO = 1.8, 4.9
+"""The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
+and temples end, which is about where the outline is."""
 SOFT_EDGE = (0.5, 1.5)
 """Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
 surely its own."""
