@@ -13,8 +13,8 @@ BROW = 0.3
 
 
 def face_ellipse(figure: Figure, to_grid: NDArray[np.float64], head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
-    """An ellipse around eyes, nose and mouth on the grid: centre x and y, half its width and height, degrees by which it
-    is turned. Where nobody was found, as on drawings, it is where the `head` (h, w) of the grid has it. None where there
+    """An ellipse around the face on the grid: centre x and y, half its width and height, degrees by which it is turned. It
+    is as large as the mesh of the face, or where there is none, around eyes, nose and mouth. Where nobody was found, as on drawings, it is where the `head` (h, w) of the grid has it. None where there
     is neither."""
     if not figure.spatial:
         return face_within(head)
@@ -25,9 +25,16 @@ def face_ellipse(figure: Figure, to_grid: NDArray[np.float64], head: NDArray[np.
     length = float(np.linalg.norm(up))
     if length < 1:
         return None
+    turned = np.degrees(np.arctan2(up[0], -up[1]))
+    if figure.face is not None:
+        axes = np.array([[-up[1], up[0]], [-up[0], -up[1]]]) / length  # across the face, and down it
+        mesh = (figure.face[:, :2] @ to_grid[:, :2].T + to_grid[:, 2]) @ axes.T
+        low, far = mesh.min(0), mesh.max(0)
+        x, y = (low + far) / 2 @ axes
+        return np.array([x, y, *(far - low) / 2, turned], np.float32)
     x, y = (eyes + mouth) / 2 + 0.1 * up
     wide = max(1.25 * length, 0.5 * float(np.linalg.norm(place["LeftEar"] - place["RightEar"])))
-    return np.array([x, y, wide, 1.9 * length, np.degrees(np.arctan2(up[0], -up[1]))], np.float32)
+    return np.array([x, y, wide, 1.9 * length, turned], np.float32)
 
 
 def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:

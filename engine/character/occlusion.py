@@ -20,9 +20,9 @@ NEAR = 0.16
 """Metres at rest within which two points of the template are near each other on its surface."""
 REACH = 0.02
 """By how much the occlusion pixels are dilated, as a share of the picture's height."""
-ACROSS = 0.05
-"""How far behind a limb what is seen on one of its sides goes on to what is seen on the other, as a share of the picture's
-height."""
+ACROSS = 0.08
+"""How far it may be behind a limb from what is seen on one of its sides to what is seen on the other, as a share of the
+picture's height."""
 SMALL = 0.005
 """Share of what is seen below which a piece of it is not missed."""
 SHORTEST = 8
@@ -122,7 +122,8 @@ def _one_piece(
         visible = visible | (hidden_by & template)
         pieces = _pieces(visible)
     for piece in pieces[1:]:  # hair on both sides of an arm is not the template's
-        visible = visible | (hidden_by & _around(pieces[0]) & _around(piece))
+        way = _away(pieces[0]) + _away(piece)
+        visible = visible | (hidden_by & (way < ACROSS * visible.shape[0]))
     return largest(visible)
 
 
@@ -134,10 +135,9 @@ def _pieces(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
     return [labels == k for k in order if areas[k] > SMALL * mask.sum()]
 
 
-def _around(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    reach = max(1, round(ACROSS * mask.shape[0]))
-    disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
-    return np.asarray(cv2.dilate(mask.astype(np.uint8), disk) > 0)
+def _away(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """How far each pixel is from a mask."""
+    return np.asarray(cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5), np.float32)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -19,6 +19,7 @@ from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import turn_head
+from engine.character.head_sides import with_round_sides
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.measures import pose
@@ -131,10 +132,13 @@ def make_character(
     back: BackTexture,
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
-    face = face_ellipse(figure, silhouette.to_grid, labels.labels == PARTS.index("head"))
+    head = labels.labels == PARTS.index("head")
+    face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
+    if face is not None:
+        mesh = with_round_sides(mesh, head, 0)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.crossed_labels import Behind
+from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
-from engine.imaging.inpaint import background_plate
 from engine.imaging.nearest import nearest_in
+from engine.imaging.patch_fill import filled
 from engine.imaging.poisson import poisson_blend
 from engine.imaging.usual_colours import usual_colours
 
@@ -28,16 +29,12 @@ BackTexture = Literal["mirror", "inpaint"]
 
 SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
+TRACE = 0.05
+"""Alpha from which a pixel's colour is not the background's alone."""
 BESIDE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""
 CONTRAST = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
-ENOUGH = 0.03
-"""Share of a head from which the rest can be filled."""
-NAPE = 0.4
-"""How far below the face's middle the hair reaches at the back, as a share of the way to the chin."""
-ALIKE = 25.0
-"""Distance of two colours (CIE Lab, 8 bits) below which skin cannot be told from hair."""
 THICK = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
 SIDES = 0.4
@@ -46,8 +43,9 @@ OFF = 8.0
 """Levels by which front and back differ where they are not the same."""
 SEAM_FROM, SEAM_TO = 2.0, 8.0
 """Pixels of the grid from the outline up to which the back is the front, and from which on it is itself."""
-HEAD_FROM, HEAD_TO = 1.2, 4.5
-"""The same for heads: hair begins where ears and temples end, and that is about where the outline is."""
+HEAD_FROM, HEAD_TO = 1.8, 4.9
+"""The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
+and temples end, which is about where the outline is."""
 SOFT_EDGE = (0.5, 1.5)
 """Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
 surely its own."""
@@ -111,15 +109,18 @@ def paint_tiles(
     shrinks = matrix[0, 0] < 1
     flags = cv2.INTER_AREA if shrinks else cv2.INTER_CUBIC
     seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
-    own = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR)) > SURE
+    covered = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR))
+    own = covered > SURE
+    picture = seen
     around = _up_to_their_edges(limbs, seen)
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
+    beside = body
     if oval is not None and head.any():
-        behind = _without_face(behind, head, oval)
+        behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, scale)
     apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
     if (labels.hidden >= 0).any():
         near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
@@ -127,7 +128,7 @@ def paint_tiles(
     hidden = None
     if labels.behind is not None:
         hidden = labels.behind.limb, _behind_another(apart, labels, labels.behind, seen, own, oval)
-    back_tile = joined_at_the_outline(body, behind, own, head, scale)
+    back_tile = joined_at_the_outline(beside, behind, own, head, scale)
     return Tiles(apart, body, back_tile, head, scale, shift, hidden)
 
 
@@ -178,7 +179,7 @@ def _behind_the_limbs(
         shown &= ~(head & _ellipse(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
     for part in (head, leg, ~head & ~leg):
-        body = _filled(body, limbs & own & part, usual_colours(seen, shown & part))
+        body = filled(body, limbs & own & part, usual_colours(seen, shown & part))
     return continued_colours(body, own)
 
 
@@ -190,7 +191,7 @@ def _of_the_limbs(
     inside = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1] / scale
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
-    return _filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
+    return filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
 
 
 def _behind_another(
@@ -205,7 +206,7 @@ def _behind_another(
     size = (own.shape[1], own.shape[0])
     mine = labels.labels == behind.limb
     edge = cv2.dilate(behind.area.astype(np.uint8), np.ones((SLIVER, SLIVER), np.uint8)) > 0
-    whole = _filled(limbs, _enlarged(behind.area | (mine & edge), size), _enlarged(mine & ~edge, size) & own)
+    whole = filled(limbs, _enlarged(behind.area | (mine & edge), size), _enlarged(mine & ~edge, size) & own)
     return _with_skin(whole, seen, _enlarged(behind.hand, size), face, own)
 
 
@@ -238,19 +239,6 @@ def joined_at_the_outline(
     return np.asarray(np.clip(joined + 0.5, 0, 255), np.uint8)
 
 
-def _filled(rgb: NDArray[np.uint8], hole: NDArray[np.bool_], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """The hole (h, w) filled with patches of what is `known` (h, w), and of nothing else."""
-    if not hole.any() or not known.any():
-        return rgb
-    rows, columns = (np.flatnonzero((hole | known).any(axis)) for axis in (1, 0))
-    box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-    reach = float(np.sqrt(hole.sum()))
-    filled = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach, known=known[box])
-    out = rgb.copy()
-    out[box] = np.where(hole[box][..., None], filled, rgb[box])
-    return out
-
-
 def _from_the_sides(
     rgb: NDArray[np.uint8], labels: Labels, size: tuple[int, int], own: NDArray[np.bool_]
 ) -> NDArray[np.uint8]:
@@ -265,30 +253,8 @@ def _from_the_sides(
         if (thick := float(depth.max())) < THICK:
             continue
         middle = depth > SIDES * thick
-        out = _filled(out, middle, region & ~middle)
+        out = filled(out, middle, region & ~middle)
     return out
-
-
-def _without_face(rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray[np.floating]) -> NDArray[np.uint8]:
-    """The head with hair, or whatever surrounds it, in the face's place."""
-    _, y, wide, high, _ = (float(value) for value in face)
-    oval = _ellipse(face, head.shape) & head
-    above_chin = np.arange(head.shape[0])[:, None] < y + high
-    inner = cv2.erode(head.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(0.15 * wide))) > 0
-    # what is left must be enough to fill from; of a head that is all face, the outline
-    for inside in (oval | (_like_skin(rgb, head, oval, y - high) & above_chin), oval, inner & above_chin):
-        around = head & ~inside
-        if around.sum() > ENOUGH * head.sum():
-            break
-    if not inside.any() or not around.any():
-        return rgb
-    rows = np.arange(head.shape[0])[:, None]
-    above = around & (rows < y)  # hair, if there is any; the nape is below it
-    covered = inside & head & (rows < y + NAPE * high)
-    if above.sum() > ENOUGH * head.sum():
-        rgb = _filled(rgb, covered, above)
-        around = around | covered
-    return _filled(rgb, inside & head & ~around, around)
 
 
 def _ellipse(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.bool_]:
@@ -296,23 +262,6 @@ def _ellipse(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.b
     inside = np.zeros(shape, np.uint8)
     cv2.ellipse(inside, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
     return inside > 0
-
-
-def _like_skin(
-    rgb: NDArray[np.uint8], head: NDArray[np.bool_], face: NDArray[np.bool_], brow: float
-) -> NDArray[np.bool_]:
-    """What of the head (h, w) has the face's colour rather than that of what is around the face above the row `brow` (hair, a
-    hat): ears, temples, the rest of a turned face. Nothing where both are alike."""
-    crown = head & ~face & (np.arange(head.shape[0])[:, None] < brow + 0.25 * np.ptp(np.flatnonzero(head.any(1))))
-    if crown.sum() < 30 or face.sum() < 30:
-        return np.zeros_like(head)
-    colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), 1.5), cv2.COLOR_RGB2LAB).astype(np.float32)
-    skin, hair = np.median(colours[face], axis=0), np.median(colours[crown], axis=0)
-    if np.linalg.norm(skin - hair) < ALIKE:
-        return np.zeros_like(head)
-    like = np.linalg.norm(colours - skin, axis=-1) < np.linalg.norm(colours - hair, axis=-1)
-    grown = cv2.dilate((like & head).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=2)
-    return np.asarray(grown > 0) & head
 
 
 def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
