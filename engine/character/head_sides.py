@@ -7,7 +7,7 @@ what is painted as an inch of hair is an inch of hair wherever it is seen from.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import cv2
 import numpy as np
@@ -69,7 +69,7 @@ def _with_copies(mesh: ClosedMesh, chosen: NDArray[np.bool_]) -> tuple[ClosedMes
     triangles[chosen] = again[triangles[chosen]]
     more = {
         name: np.concatenate([getattr(mesh, name), getattr(mesh, name)[corners]])
-        for name in ("vertices", "rim", "layer", "bones", "weights", "places")
+        for name in (field.name for field in fields(mesh) if field.name not in ("triangles", "front"))
     }
     front = np.concatenate([mesh.front, np.zeros(len(corners), np.bool_)])
     used, renumbered = np.unique(triangles, return_inverse=True)
