@@ -85,11 +85,13 @@ ROUNDS, STEPS = 4, 4
 @dataclass(frozen=True)
 class Crossing:
     """One forearm before the other: that of the `front` side (0 left, 1 right). Both are seen in one place, which is so far along
-    from the elbow, as a share of the forearm: `front_at` and `back_at`."""
+    from the elbow, as a share of the forearm: `front_at` and `back_at`. `tucked_at`: how far
+    along from the shoulder the other's hand is behind the front side's upper arm, too; None where it is not."""
 
     front: int
     front_at: float
     back_at: float
+    tucked_at: float | None = None
 
 
 @dataclass(frozen=True)
@@ -273,7 +275,7 @@ def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.fl
     count = len(parameters)
     data = [off.reshape(count, -1), limbs.reshape(count, -1)]
     if seen.crossing is not None:
-        data.append(_crossed(seen.crossing, joints, names)[:, None])
+        data.append(_crossed(seen.crossing, joints, names))
     if body.met is not None:
         data.append(_behind_the_outline(body.met, posed, seen, height))
     stands = [lean[:, None], stance[:, None], legs.mean(1) / LEVEL, apart]
@@ -281,12 +283,19 @@ def _residuals(body: _Body, seen: Seen, height: float, parameters: NDArray[np.fl
 
 
 def _crossed(crossing: Crossing, joints: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
-    """(N,) how far the forearm that is before the other is from being so, in standard deviations."""
-    depths = []
-    for side, share in ((crossing.front, crossing.front_at), (1 - crossing.front, crossing.back_at)):
-        elbow, wrist = (joints[:, names.index(f"{('Left', 'Right')[side]}{end}"), 2] for end in ("ForeArm", "Hand"))
-        depths.append(elbow + share * (wrist - elbow))
-    return np.asarray(np.maximum(BEFORE - (depths[0] - depths[1]), 0) / SURELY)
+    """(N, 1 or 2) how far the arm that is before the other is from being so, in standard deviations: its forearm before the other,
+    and its upper arm before the other's hand if that is tucked."""
+    front, back = (("Left", "Right")[side] for side in (crossing.front, 1 - crossing.front))
+
+    def depth(side: str, start: str, share: float) -> NDArray[np.float64]:
+        ends = ("Arm", "ForeArm", "Hand")
+        near, far = (joints[:, names.index(f"{side}{end}"), 2] for end in (start, ends[ends.index(start) + 1]))
+        return np.asarray(near + share * (far - near))
+
+    gaps = [depth(front, "ForeArm", crossing.front_at) - depth(back, "ForeArm", crossing.back_at)]
+    if crossing.tucked_at is not None:
+        gaps.append(depth(front, "Arm", crossing.tucked_at) - depth(back, "ForeArm", 1.0))
+    return np.asarray(np.maximum(BEFORE - np.stack(gaps, 1), 0) / SURELY)
 
 
 def _behind_the_outline(met: Met, posed: Posed, seen: Seen, height: float) -> NDArray[np.float64]:

@@ -58,7 +58,10 @@ def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
     front = int(before[1] > before[0])
     middle = np.mean([at[f"{side}{name}"] for side in SIDES for name in ("Elbow", "Wrist")], axis=0)
     along = [_share(middle, at[f"{side}Elbow"], at[f"{side}Wrist"]) for side in SIDES]
-    return CrossedArms(Crossing(front, along[front], along[1 - front]), skin)
+    tucked = None
+    if skin is not None and shows[1 - front] < MORE:
+        tucked = _share(at[f"{SIDES[1 - front]}Wrist"], at[f"{SIDES[front]}Shoulder"], at[f"{SIDES[front]}Elbow"])
+    return CrossedArms(Crossing(front, along[front], along[1 - front], tucked), skin)
 
 
 def _are_crossed(at: dict[str, NDArray[np.float32]]) -> bool:

@@ -67,10 +67,25 @@ def limb_before(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
     is before what it does not show. One that would have to come further passes behind."""
     further = np.maximum(body.front.depth + BENEATH - _reach(limb), 0)
     needed = np.where(body.mask & limb.mask & own & (further < FORTH), further, 0).astype(np.float32)
+    return _moved(limb, _gently(needed, limb.mask))
+
+
+def limb_behind(limb: Layer, before: Layer, hidden: NDArray[np.bool_]) -> Layer:
+    """The limb as far back as it has to be where another before it hides it (`hidden` (h, w)), as thick as it was."""
+    further = np.maximum(limb.front.depth + BENEATH - _reach(before), 0)
+    needed = np.where(before.mask & limb.mask & hidden, further, 0).astype(np.float32)
+    return _moved(limb, -_gently(needed, limb.mask))
+
+
+def _gently(needed: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Pixels (h, w) by which a limb moves in depth, no less than `needed`, spread within its mask: it bends, but is not torn."""
     around = np.ones((4 * GENTLY + 1, 4 * GENTLY + 1), np.uint8)
-    wide = np.where(limb.mask, cv2.dilate(needed, around), 0).astype(np.float32)
-    share = cv2.GaussianBlur(limb.mask.astype(np.float32), (0, 0), GENTLY)
-    nearer = np.maximum(needed, cv2.GaussianBlur(wide, (0, 0), GENTLY) / np.maximum(share, 1e-3))
+    wide = np.where(mask, cv2.dilate(needed, around), 0).astype(np.float32)
+    share = cv2.GaussianBlur(mask.astype(np.float32), (0, 0), GENTLY)
+    return np.maximum(needed, cv2.GaussianBlur(wide, (0, 0), GENTLY) / np.maximum(share, 1e-3)).astype(np.float32)
+
+
+def _moved(limb: Layer, nearer: NDArray[np.float32]) -> Layer:
     front, back = (Surface(side.depth + nearer, side.weights) for side in (limb.front, limb.back))
     return replace(limb, front=front, back=back)
 

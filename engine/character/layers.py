@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.crossed_labels import Behind
-from engine.character.depth_order import body_behind, body_within, hand_beneath, limb_before, overlap_beneath
+from engine.character.depth_order import (
+    body_behind,
+    body_within,
+    hand_beneath,
+    limb_before,
+    limb_behind,
+    overlap_beneath,
+)
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
 from engine.character.free_cloth import FreeCloth, free_cloth
@@ -79,8 +86,7 @@ def _behind_the_other(layers: Sequence[Layer], behind: Behind, labels: Labels) -
     if {behind.limb, other} <= set(place):
         before = found[place[other]]
         hidden = behind.area & (labels.labels == other)
-        arm = hand_beneath(found[place[behind.limb]], before, hidden)
-        found[place[behind.limb]] = overlap_beneath(arm, before, ~hidden)
+        found[place[behind.limb]] = limb_behind(found[place[behind.limb]], before, hidden)
     return found
 
 
