@@ -35,8 +35,8 @@ SEEN = 0.02
 @dataclass(frozen=True)
 class SolidLimb:
     """`vertices` (V, 3) in picture space and at `rest` (V, 3), metres; `triangles` (T, 3), closed; `weights` (V, J); `front`,
-    `back` (h, w): its depths, NaN beside it. `seen`, `upper`, `hand` (V,) bool: which vertices the picture shows, and which are
-    above the elbow and of the hand."""
+    `back` (h, w): its depths, NaN beside it. `seen`, `sure`, `upper`, `hand` (V,) bool: which vertices the picture shows, which of
+    them away from the limb's outline, and which are above the elbow and of the hand."""
 
     vertices: NDArray[np.float64]
     rest: NDArray[np.float64]
@@ -45,6 +45,7 @@ class SolidLimb:
     front: NDArray[np.float32]
     back: NDArray[np.float32]
     seen: NDArray[np.bool_]
+    sure: NDArray[np.bool_]
     upper: NDArray[np.bool_]
     hand: NDArray[np.bool_]
 
@@ -95,9 +96,11 @@ def solid_limb(
     with np.errstate(invalid="ignore"):
         near = vertices[:, 2] > front[y, x] - SEEN * template.pixels_per_metre
     forearm, hand = (dense[:, [part in name for name in rig.names]].sum(1) for part in ("ForeArm", "Hand"))
-    seen = near & _inner(own)[y, x]
+    seen = near & own[y, x]
+    sure = seen & _inner(own)[y, x]
+    sure = sure if sure.any() else seen
     return SolidLimb(
-        vertices, rest, triangles.astype(np.int32), dense, front, back, seen, forearm + hand < 0.5, hand > 0.5
+        vertices, rest, triangles.astype(np.int32), dense, front, back, seen, sure, forearm + hand < 0.5, hand > 0.5
     )
 
 
@@ -116,11 +119,11 @@ def places_on_the_picture(limbs: Sequence[SolidLimb]) -> list[NDArray[np.float64
         other = next((one for one in limbs if one is not limb), None)
         for group in (limb.hand, ~limb.hand):
             wanted, source, flip = group & ~limb.seen, limb, 1.0
-            shown = group & limb.seen
+            shown = group & (limb.sure if (group & limb.sure).any() else limb.seen)
             if not shown.any() and other is not None and group is limb.hand:
-                source, flip, shown = other, -1.0, other.hand & other.seen
+                source, flip, shown = other, -1.0, other.hand & other.sure
             if not shown.any():
-                source, flip, shown = limb, 1.0, limb.seen
+                source, flip, shown = limb, 1.0, limb.sure
             if shown.any() and wanted.any():
                 _, nearest = cKDTree(source.rest[shown] * [flip, 1, 1]).query(limb.rest[wanted])
                 places[wanted] = source.vertices[shown][nearest, :2]

@@ -10,7 +10,7 @@ export const character = {
     photoHint: 'One person from the front, from head to feet: a photo, painting or cartoon.',
     photoChosen: (name: string) => `Picture: ${name}. Choose another`,
     motion: 'Motion',
-    motionHint: 'One of ours, or motion capture in a BVH or GLB file.',
+    motionHint: 'One of ours, or motion capture in a BVH, GLB or glTF file.',
     builtIn: 'Built-in motions',
     motions: {
       idle: 'Idle',
@@ -24,7 +24,7 @@ export const character = {
     } satisfies Record<MotionName, string>,
     keptMotions: 'Your kept motions',
     ownMotion: 'Your own motion',
-    motionDrop: 'Drop a BVH or GLB file here',
+    motionDrop: 'Drop a BVH, GLB or glTF file here',
     motionBrowse: 'or choose one',
     motionChosen: (name: string) => `Motion: ${name}. Choose another`,
     wrongMotion: 'That is no motion. Please choose a BVH file, or a GLB file with an animated skeleton.',
