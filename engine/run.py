@@ -40,6 +40,9 @@ Turn = Literal["began", "ended", "broke"]
 PATIENCE = 0.2
 """Seconds after which a wait for another core looks whether the run was canceled."""
 
+FORMAT = 2
+"""Of what stages give: raised where it changes between releases, so that nothing older is taken for it."""
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -227,7 +230,12 @@ class Run:
 
     def key(self, name: str, *arguments: Any) -> str:
         """The key of a stage's output for these arguments (hex)."""
-        parts = [engine.__version__, name, *(self._part(argument) for argument in arguments if not callable(argument))]
+        parts = [
+            engine.__version__,
+            FORMAT,
+            name,
+            *(self._part(argument) for argument in arguments if not callable(argument)),
+        ]
         return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
 
     def _part(self, argument: Any) -> Any:

@@ -6,14 +6,14 @@ makes one up. Which hand shows skin says both.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.fitting import Crossing
-from engine.character.figure import SIDES, Figure
+from engine.character.figure import SEEN, SIDES, Figure
 from engine.character.labels import Colours
 from engine.perception.body import LANDMARKS
 from engine.perception.hands import Side
@@ -50,7 +50,7 @@ def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
     """The figure's arms, if they are crossed; None else. That arm is before the other whose hand is seen; where both are or
     none is, that which perception has nearer. `mask` (H, W): the person."""
     at = {f"{side}{name}": figure.point(f"{side}{name}") for side in SIDES for name in ("Shoulder", "Elbow", "Wrist")}
-    if not figure.spatial or not _are_crossed(at):
+    if not figure.spatial or not _are_seen(figure) or not _are_crossed(at):
         return None
     skin = _skin(figure, mask, at)
     shows = [0.0, 0.0] if skin is None else [_shown(figure, skin, side) for side in SIDES]
@@ -62,6 +62,16 @@ def crossed_arms(figure: Figure, mask: NDArray[np.bool_]) -> CrossedArms | None:
     if skin is not None and shows[1 - front] < MORE:
         tucked = _share(at[f"{SIDES[1 - front]}Wrist"], at[f"{SIDES[front]}Shoulder"], at[f"{SIDES[front]}Elbow"])
     return CrossedArms(Crossing(front, along[front], along[1 - front], tucked), skin)
+
+
+def _are_seen(figure: Figure) -> bool:
+    """Whether elbows and a wrist are, of somebody who faces the viewer: wrists that are tucked away or cut off are made up."""
+
+    def sure(name: str) -> list[bool]:
+        return [bool(figure.confidence[LANDMARKS.index(f"{side}{name}")] > SEEN) for side in SIDES]
+
+    faces = figure.point("LeftShoulder")[0] > figure.point("RightShoulder")[0]
+    return bool(faces) and all(sure("Elbow")) and any(sure("Wrist"))
 
 
 def _are_crossed(at: dict[str, NDArray[np.float32]]) -> bool:
@@ -77,7 +87,8 @@ def _are_crossed(at: dict[str, NDArray[np.float32]]) -> bool:
 
 
 def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.float32]]) -> NDArray[np.bool_] | None:
-    """What of the person (H, W) has the face's colours rather than the sleeves'; None where no face is seen, or both are alike."""
+    """What of the person (H, W) has the face's colours rather than the sleeves'; None where no face is seen,
+    too little of either, or both are alike."""
     if figure.face is None:
         return None
     factor = min(1.0, LOOKED_AT / max(mask.shape))
@@ -123,8 +134,12 @@ def _share(point: NDArray[np.floating], start: NDArray[np.floating], end: NDArra
     return float(np.clip((point - start) @ along / max(float(along @ along), 1e-6), 0, 1))
 
 
-def without_hidden_hand(figure: Figure, arms: CrossedArms) -> NDArray[np.float32]:
-    """The confidence (33,) of the figure's landmarks without those of the hand that is behind the other arm."""
+def without_hidden_hand(figure: Figure, arms: CrossedArms | None) -> Figure:
+    """The figure without the hand that is tucked behind the other arm, if one is: whatever is found of it is made up."""
+    if arms is None or arms.crossing.tucked_at is None:
+        return figure
     confidence = figure.confidence.copy()
     confidence[[LANDMARKS.index(f"{arms.behind}{name}") for name in FINGERS]] = 0
-    return confidence
+    left, right = figure.hands
+    hands = (left, None) if arms.behind == "Right" else (None, right)
+    return replace(figure, confidence=confidence, hands=hands)

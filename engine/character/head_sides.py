@@ -12,6 +12,7 @@ from dataclasses import fields, replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
 
 from engine.character.sheets import ClosedMesh
 
@@ -24,14 +25,16 @@ STEP, STEPS = 0.5, 120
 RISING = 0.4
 """How fast the distance must grow on the way, or it is at the middle."""
 FADE = 10.0
-"""Pixels from the head's lower end over which the back's colours come to lie as they are on the rest of the body."""
+"""Pixels over which the back's colours come to lie as they are on the rest of the body; they begin to at half as many above the
+head's lower end."""
 
 
 def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], body_layer: int) -> ClosedMesh:
     """The mesh whose outermost triangles of the front take the back's colours where they are the `head`'s (h, w), and whose
     back takes them at the pace of the surface."""
     body = mesh.layer == body_layer
-    whole = mesh.pixels(np.flatnonzero(body), head.shape)
+    met = mesh.pixels(np.flatnonzero(body), head.shape).astype(np.uint8)
+    whole = cv2.morphologyEx(met, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0  # its border lies between pixels
     near = cv2.dilate(head.astype(np.uint8), np.ones((5, 5), np.uint8)) > 0  # a border lies between pixels
     rest = (whole & ~near).astype(np.uint8)
     on_head = body & near[_pixels(mesh, head.shape)]
@@ -116,6 +119,4 @@ def _at_the_surfaces_pace(
 
 def _sampled(image: NDArray[np.float32], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """An image (h, w) between its pixels at places (N, 2)."""
-    x, y = at.astype(np.float32).T
-    found = cv2.remap(image, x[:, None], y[:, None], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(found, np.float64).reshape(-1)
+    return np.asarray(map_coordinates(image, at[:, ::-1].T, np.float64, order=1, mode="nearest"))

@@ -104,10 +104,20 @@ def back_of_the_head(
     head = _measured(own[box], mask[box], oval, scale)
     around = beyond_the_outline(seen[box], covered[box])
     hair, through = find_hair(rgb[box], around, head)
+    hair = hair if hair.any() else _beside_the_oval(head)
     if hair.any():
         back[box] = _back(rgb[box], hair, head, float(oval[3]))
         front[box] = np.where(through[..., None], back[box], rgb[box])
     return back, front
+
+
+def _beside_the_oval(head: Head) -> NDArray[np.bool_]:
+    """The pixels (h, w) of a head without hair, as one that the picture cuts off: what surrounds its face, or what is along its
+    outline where that is no more than a rim."""
+    beside = head.mask & (head.out > BESIDE)
+    if beside.sum() > ENOUGH * head.mask.sum():
+        return beside
+    return head.mask & (head.depth < CROWN)
 
 
 def _back(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, high: float) -> NDArray[np.uint8]:
@@ -249,7 +259,8 @@ def _neck(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, nape: flo
     hidden = below & (head.out < BESIDE)
     bare = below & ~hidden & ~hair
     if bare.sum() < ENOUGH * head.mask.sum():
-        skin = np.median(rgb[head.mask & (head.out < 0.7)], axis=0)
+        face = head.mask & (head.out < 0.7)
+        skin = np.median(rgb[face if face.any() else hair], axis=0)
         return np.where(hidden[..., None], skin, rgb).astype(np.float32)
     return filled(rgb, below & ~bare, bare).astype(np.float32)
 

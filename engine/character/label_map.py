@@ -97,10 +97,11 @@ def label_parts(
     labels = corrected(rough.astype(np.int8))
     hidden[labels != rough] = -1  # whoever paints there has seen what is there
     whole = _with_occlusion(labels, projected, rest, hidden, before(labels))
-    if crossed is None:
+    if crossed is None or crossed.behind.limb not in whole.apart:
         return whole
     behind = crossed.behind
-    hides = (labels >= 0) & (labels != behind.limb)
+    found_so = (labels >= 0) & (labels == rough) & (given is None)  # whoever paints says what is behind nothing
+    hides = (np.isin(labels, ARMS) | found_so) & (labels != behind.limb)
     return replace(whole, behind=Behind(behind.limb, behind.area & hides, behind.hand & hides))
 
 

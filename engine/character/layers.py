@@ -86,7 +86,11 @@ def _behind_the_other(layers: Sequence[Layer], behind: Behind, labels: Labels) -
     if {behind.limb, other} <= set(place):
         before = found[place[other]]
         hidden = behind.area & (labels.labels == other)
-        found[place[behind.limb]] = limb_behind(found[place[behind.limb]], before, hidden)
+        moved = limb_behind(found[place[behind.limb]], before, hidden)
+        if moved.solid is not None:
+            all_of_it = np.ones(len(moved.solid.vertices), np.bool_)
+            moved = replace(moved, solid=moved.solid.moved(moved.front.depth, moved.back.depth, all_of_it))
+        found[place[behind.limb]] = moved
     return found
 
 

@@ -7,8 +7,9 @@ moves alike.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 
 import cv2
 import numpy as np
@@ -84,11 +85,13 @@ class ClosedMesh:
         return np.where(raster.triangle >= 0, layer[raster.triangle], -1)
 
 
-def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
+def close(
+    layers: Sequence[Layer], soft: NDArray[np.float32], limbs: Mapping[int, NDArray[np.float32]] = MappingProxyType({})
+) -> ClosedMesh:
     """Join front and back of each part into a mesh without open borders.
 
     `soft` (H, W) [0, 1] is the person's mask: where a border lies along its edge, it is moved to where the mask is 0.5,
-    between the pixels.
+    between the pixels. `limbs`: the same of each limb alone, by its index, for its own border.
     """
     places, owners, sources, triangles = _sheet(layers)
     count = len(places)
@@ -112,7 +115,9 @@ def close(layers: Sequence[Layer], soft: NDArray[np.float32]) -> ClosedMesh:
     half = np.maximum((z[0] - z[1]) / 2, THINNEST)
     half[border] = EDGE
     points = _smoothed(np.stack([xs, ys, middle], 1).astype(np.float64), rim)
-    points[border, :2] = _to_the_edge(points[border, :2], soft)
+    for k, layer in enumerate(layers):
+        if (own := border & (owners == k)).any():
+            points[own, :2] = _to_the_edge(points[own, :2], np.minimum(soft, limbs.get(layer.limb, soft)))
     deep = np.outer(half, [0, 0, 1])
     edge = np.unique(rim)  # once more, for the strip between the sheets, which is coloured as the front is
     again = np.full(count, -1)

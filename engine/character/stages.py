@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
+from engine.character.crossed_arms import without_hidden_hand
 from engine.character.crossed_labels import label_crossed
 from engine.character.doubts import doubt_labels, require_labels
 from engine.character.face_region import face_ellipse
@@ -22,6 +23,7 @@ from engine.character.head import turn_head
 from engine.character.head_sides import with_round_sides
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
+from engine.character.limb_edges import soft_limbs
 from engine.character.measures import pose
 from engine.character.options import LabelStroke
 from engine.character.pockets import hands_at_hips
@@ -38,6 +40,8 @@ from engine.imaging.inpaint import background_plate
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 
+FINEST = 3.0
+"""Pixels of a limb's edge for each of the grid's, at most."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
 SHADOW = 0.012
@@ -79,7 +83,7 @@ def label(
         human.rig,
         given,
         lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
-        hand_labels(figure.hands, silhouette.to_grid, silhouette.mask.shape),
+        hand_labels(without_hidden_hand(figure, fitted.crossed).hands, silhouette.to_grid, silhouette.mask.shape),
         hands_at_hips(figure, silhouette.rgb, silhouette.to_grid),
         None
         if fitted.crossed is None
@@ -106,7 +110,8 @@ def hand_labels(
 
 def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:
     """The template fitted to figure and silhouette, its head to the face (sections 3 and 5), its hands to the hands."""
-    return turn_hands(turn_head(fit_figure(figure, silhouette.alpha > 0.5), figure), figure)
+    fitted = turn_head(fit_figure(figure, silhouette.alpha > 0.5), figure)
+    return turn_hands(fitted, without_hidden_hand(figure, fitted.crossed))
 
 
 def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> ClosedMesh:
@@ -119,7 +124,27 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
         on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
         laid = posed.vertices[human.face[JAW:], :2]
         face = Face(on_grid, laid, labels.labels == PARTS.index("head"))
-    return close(build_layers(labels, posed, human.rig, face), silhouette.soft)
+    return close(
+        build_layers(labels, posed, human.rig, face), silhouette.soft, limb_borders(figure, silhouette, labels)
+    )
+
+
+def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict[int, NDArray[np.float32]]:
+    """How far each pixel (h, w) of the grid is one of the limbs that are apart, by the picture's own pixels."""
+    height, width = labels.labels.shape
+    finer = min(FINEST, max(1.0, 1 / float(silhouette.to_grid[0, 0])))
+    size = (round(width * finer), round(height * finer))
+    matrix = silhouette.to_grid * finer
+    matrix[:, 2] += (finer - 1) / 2
+    flags = cv2.INTER_AREA if matrix[0, 0] < 1 else cv2.INTER_LINEAR
+    rgb = np.asarray(cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
+    return {
+        int(limb): np.asarray(
+            cv2.resize(soft_limbs(labels.labels == limb, rgb), (width, height), interpolation=cv2.INTER_AREA),
+            np.float32,
+        )
+        for limb in labels.apart
+    }
 
 
 def make_character(

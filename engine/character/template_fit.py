@@ -117,7 +117,7 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     limbs = legs_apart(limbs, facing(trunk)[:, 2])
     sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
     crossed = crossed_arms(figure, mask)
-    confidence = figure.confidence if crossed is None else without_hidden_hand(figure, crossed)
+    confidence = without_hidden_hand(figure, crossed).confidence
     seen = Seen(
         figure.points[at],
         confidence[at] * trust,

@@ -18,6 +18,7 @@ from engine.character.crossed_labels import Behind
 from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
+from engine.character.limb_edges import soft_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.nearest import nearest_in
@@ -31,10 +32,6 @@ SURE = 0.9
 """Alpha from which a pixel's colour is the person's own; colours of the others are continued from these."""
 TRACE = 0.05
 """Alpha from which a pixel's colour is not the background's alone."""
-BESIDE = 0.004
-"""How far a limb's edge may lie from that of its label, as a share of the person's height."""
-CONTRAST = 12.0
-"""Levels by which colours differ on two sides of an edge, at least."""
 THICK = 4.0
 """Pixels from the edge of a part to its middle, below which it has no middle of its own."""
 SIDES = 0.4
@@ -112,7 +109,7 @@ def paint_tiles(
     covered = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR))
     own = covered > SURE
     picture = seen
-    around = _up_to_their_edges(limbs, seen)
+    around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
@@ -270,17 +267,6 @@ def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDAr
     near = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
     return np.asarray((labelled & near) | (more > 0))
-
-
-def _up_to_their_edges(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """The limbs (h, w) of the grid in the picture (H, W, 3), up to the edges that it has near theirs. By a guided filter
-    (K. He, J. Sun, X. Tang, ECCV 2010)."""
-    size = (rgb.shape[1], rgb.shape[0])
-    large = np.asarray(cv2.resize(limbs.astype(np.float32), size, interpolation=cv2.INTER_LINEAR))
-    reach = max(2, round(BESIDE * size[1]))
-    likely = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
-    close = cv2.dilate((large > 0.5).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=reach)
-    return np.asarray((likely > 0.5) & (close > 0))
 
 
 def _enlarged(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:

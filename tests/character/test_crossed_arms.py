@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -116,3 +117,15 @@ def test_behind_the_other_an_arm_has_its_own_colours_and_its_hand_the_face_s() -
     assert np.abs(own[104:126, 74:96] - (20, 20, 120)).max() <= 8, "its sleeve goes on"
     assert np.abs(own[104:126, 104:118] - (200, 150, 120)).max() <= 8
     np.testing.assert_array_equal(tiles.limbs[104:126, 74:116], rgb[104:126, 74:116])
+
+
+@pytest.mark.parametrize("change", ["unseen", "from behind"])
+def test_arms_that_are_not_seen_or_seen_from_behind_are_not_crossed(
+    man: tuple[Figure, Silhouette, FittedBody], change: str
+) -> None:
+    figure, silhouette, _ = man
+    if change == "unseen":
+        figure = replace(figure, confidence=np.full_like(figure.confidence, 0.05))
+    else:
+        figure = replace(figure, points=figure.points * np.float32([-1, 1]) + [figure.rgb.shape[1], 0])
+    assert crossed_arms(figure, silhouette.alpha > 0.5) is None

@@ -87,11 +87,12 @@ def test_a_head_all_of_one_colour_stays_as_it_is() -> None:
 
 def ball(radius: int = 26) -> tuple[ClosedMesh, np.ndarray]:
     """A round head."""
-    y, x = np.indices((80, 80)) - 39.5
+    size = 2 * radius + 28
+    y, x = np.indices((size, size)) - (size - 1) / 2
     deep = radius**2 - x**2 - y**2
     mask = deep > 0
     deep = np.sqrt(np.maximum(deep, 0))
-    weights = np.ones((80, 80, 1), np.float32)
+    weights = np.ones((size, size, 1), np.float32)
     sides = [Surface(np.where(mask, sign * deep, np.nan).astype(np.float32), weights) for sign in (1, -1)]
     return close([Layer(mask, sides[0], sides[1])], mask.astype(np.float32)), mask
 
@@ -117,3 +118,18 @@ def test_the_back_s_colours_begin_within_the_outline_and_lie_at_the_pace_of_the_
     assert np.percentile(space / np.maximum(shown, 1e-6), 95) < 2.5
     middle = np.linalg.norm(mesh.vertices[:, :2] - 39.5, axis=1) < 2
     assert np.linalg.norm(laid[middle] - mesh.vertices[middle, :2], axis=1).max() < 2.5
+
+
+def test_a_head_that_fills_the_picture_has_round_sides_too() -> None:
+    mesh, mask = ball(108)
+    assert len(with_round_sides(mesh, mask, 0).vertices) > len(mesh.vertices) > 70_000
+
+
+def test_no_face_stays_behind_on_a_head_that_the_picture_cuts_off_at_the_brows() -> None:
+    rgb, mask, _ = head(WHITE, PINK)
+    cut = 88
+    back, _ = back_of_the_head(
+        rgb[cut:], rgb[cut:], mask[cut:], mask[cut:], mask[cut:], FACE - [0, cut, 0, 0, 0], SCALE
+    )
+    eyes = back[8:17, 76:125].astype(float)
+    assert away(eyes, (30, 30, 30)).min() > 100 and np.median(away(eyes, SKIN)) > 40
