@@ -48,3 +48,11 @@ def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
     middle = np.flatnonzero(head[:, x])
     brow, chin = middle[0] + BROW * (middle[-1] - middle[0]), middle[-1]
     return np.array([x, (brow + chin) / 2, wide, (chin - brow) / 2, 0], np.float32)
+
+
+def within_oval(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    """The pixels (h, w) in a face's oval."""
+    x, y, wide, high, angle = (float(value) for value in face)
+    inside = np.zeros(shape, np.uint8)
+    cv2.ellipse(inside, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
+    return inside > 0

@@ -29,9 +29,10 @@ FADE = 10.0
 head's lower end."""
 
 
-def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], body_layer: int) -> ClosedMesh:
+def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], face: NDArray[np.bool_], body_layer: int) -> ClosedMesh:
     """The mesh whose outermost triangles of the front take the back's colours where they are the `head`'s (h, w), and whose
-    back takes them at the pace of the surface."""
+    back takes them at the pace of the surface. Where the `face` (h, w) comes to the outline, as a turned one's does, its cheek
+    goes on."""
     body = mesh.layer == body_layer
     met = mesh.pixels(np.flatnonzero(body), head.shape).astype(np.uint8)
     whole = cv2.morphologyEx(met, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0  # its border lies between pixels
@@ -40,6 +41,7 @@ def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], body_layer: int)
     on_head = body & near[_pixels(mesh, head.shape)]
     triangles = mesh.triangles
     outermost = mesh.front[triangles].all(1) & (mesh.rim & on_head)[triangles].any(1) & on_head[triangles].all(1)
+    outermost &= ~face[_pixels(mesh, head.shape)][triangles].any(1)
     if not outermost.any():
         return mesh
     joined, copied = _with_copies(mesh, outermost)

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.far_cheek import with_far_cheek
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patch_fill import filled
 
@@ -106,7 +107,8 @@ def back_of_the_head(
     hair, through = find_hair(rgb[box], around, head)
     hair = hair if hair.any() else _beside_the_oval(head)
     if hair.any():
-        back[box] = _back(rgb[box], hair, head, float(oval[3]))
+        found = _back(rgb[box], hair, head, float(oval[3]))
+        back[box] = with_far_cheek(found, rgb[box], hair, head.mask, head.out, head.up, head.depth, oval, scale)
         front[box] = np.where(through[..., None], back[box], rgb[box])
     return back, front
 

@@ -15,7 +15,7 @@ from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.crossed_arms import without_hidden_hand
 from engine.character.crossed_labels import label_crossed
 from engine.character.doubts import doubt_labels, require_labels
-from engine.character.face_region import face_ellipse
+from engine.character.face_region import face_ellipse, within_oval
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
@@ -40,6 +40,8 @@ from engine.imaging.inpaint import background_plate
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 
+CHEEK = np.array([1, 1, 1.1, 1.1, 1])
+"""How much larger than its oval a face may be."""
 FINEST = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
 FACE_COUNTS = 6.0
@@ -162,8 +164,8 @@ def make_character(
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
-    if face is not None:
-        mesh = with_round_sides(mesh, head, 0)
+    if face is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
+        mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.crossed_labels import Behind
+from engine.character.face_region import within_oval
 from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
@@ -173,7 +174,7 @@ def _behind_the_limbs(
     body = continued_colours(seen, own & ~limbs)
     shown = own & ~limbs & (away < NEARBY)
     if face is not None:
-        shown &= ~(head & _ellipse(face, shown.shape))
+        shown &= ~(head & within_oval(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
     for part in (head, leg, ~head & ~leg):
         body = filled(body, limbs & own & part, usual_colours(seen, shown & part))
@@ -215,7 +216,7 @@ def _with_skin(
     own: NDArray[np.bool_],
 ) -> NDArray[np.uint8]:
     """The picture (h, w, 3) with `hands` (h, w) that are hidden in the face's colour; as it was where no face is `seen`."""
-    skin = np.zeros_like(own) if face is None else _ellipse(face, own.shape) & own
+    skin = np.zeros_like(own) if face is None else within_oval(face, own.shape) & own
     return np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), rgb) if skin.any() else rgb
 
 
@@ -252,13 +253,6 @@ def _from_the_sides(
         middle = depth > SIDES * thick
         out = filled(out, middle, region & ~middle)
     return out
-
-
-def _ellipse(face: NDArray[np.floating], shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    x, y, wide, high, angle = (float(value) for value in face)
-    inside = np.zeros(shape, np.uint8)
-    cv2.ellipse(inside, ((x, y), (2 * wide, 2 * high), angle), (1,), -1)
-    return inside > 0
 
 
 def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:

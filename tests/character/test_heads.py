@@ -99,7 +99,7 @@ def ball(radius: int = 26) -> tuple[ClosedMesh, np.ndarray]:
 
 def test_the_back_s_colours_begin_within_the_outline_and_lie_at_the_pace_of_the_surface() -> None:
     before, mask = ball()
-    mesh = with_round_sides(before, mask, 0)
+    mesh = with_round_sides(before, mask, np.zeros_like(mask), 0)
     _, points = np.unique(mesh.vertices, axis=0, return_inverse=True)
     assert is_closed(points.ravel()[mesh.triangles])
     assert len(mesh.triangles) == len(before.triangles)
@@ -122,7 +122,7 @@ def test_the_back_s_colours_begin_within_the_outline_and_lie_at_the_pace_of_the_
 
 def test_a_head_that_fills_the_picture_has_round_sides_too() -> None:
     mesh, mask = ball(108)
-    assert len(with_round_sides(mesh, mask, 0).vertices) > len(mesh.vertices) > 70_000
+    assert len(with_round_sides(mesh, mask, np.zeros_like(mask), 0).vertices) > len(mesh.vertices) > 70_000
 
 
 def test_no_face_stays_behind_on_a_head_that_the_picture_cuts_off_at_the_brows() -> None:
@@ -133,3 +133,13 @@ def test_no_face_stays_behind_on_a_head_that_the_picture_cuts_off_at_the_brows()
     )
     eyes = back[8:17, 76:125].astype(float)
     assert away(eyes, (30, 30, 30)).min() > 100 and np.median(away(eyes, SKIN)) > 40
+
+
+def test_a_cheek_at_the_outline_goes_on_behind_it_and_hair_at_the_outline_does() -> None:
+    rgb, mask, _ = head(BROWN, (150, 160, 170))
+    turned = mask & (np.arange(200) > 68)  # the face's own edge is the outline now, on one side
+    back, _ = back_of_the_head(rgb, rgb, turned, turned, turned, FACE, SCALE)
+    rows = slice(105, 130)
+    assert np.median(away(back[rows, 71:76].astype(float), SKIN)) < 45
+    assert np.median(away(back[rows, 100:140].astype(float), BROWN)) < 40
+    assert np.median(away(back[60:80, 72:130].astype(float), BROWN)) < 40
