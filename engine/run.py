@@ -179,8 +179,9 @@ class Run:
             output = function(*arguments)
             if store is not None:
                 store.save(key, output, heard[before:])
-                if (kept := store.load(key, get_type_hints(function)["return"])) is not None:
-                    _, output = kept
+                del output  # before it is read again: twice would be too much of a long clip
+                kept = store.load(key, get_type_hints(function)["return"])
+                output = kept[1] if kept is not None else function(*arguments)
         self._keys[id(output)] = (_reference(output), key)
         return output
 

@@ -32,9 +32,9 @@ class Kinds(click.Group):
         if fixed is not None:
             return fixed
         gc.set_threshold(20_000, 20, 20)  # not after 700 new objects: the numeric libraries make many that stay
+        from engine.allocation import keep_memory
         from service.kinds.registry import load_kinds
         from service.settings import Settings
-        from shell.allocation import keep_memory
         from shell.kind_command import kind_command
 
         keep_memory()

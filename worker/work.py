@@ -14,10 +14,11 @@ from errno import EACCES, EDQUOT, EFBIG, ENOSPC, EPERM
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from engine.allocation import give_back_memory
 from engine.errors import Canceled, InputError
 from engine.kind import Candidates, Given, Kind
 from engine.media.limits import Limits
-from engine.run import Progress, Run
+from engine.run import Progress, Run, Turn
 from engine.store import StageStore
 from service.kinds import library
 
@@ -60,6 +61,10 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, order
     def report(progress: Progress) -> None:
         wire.send("progress", stage=progress.stage, fraction=progress.fraction, message=progress.message)
 
+    def turned(name: str, turn: Turn) -> None:
+        wire.send("stage", name=name, turn=turn, at=time.time())
+        give_back_memory()
+
     try:
         kind = kinds[job["kind"]]
         with Run(
@@ -67,7 +72,7 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, order
             shared=ReportingStore(Path(job["shared"]), wire),
             on_progress=report,
             canceled=_readable(orders),
-            on_stage=lambda name, turn: wire.send("stage", name=name, turn=turn, at=time.time()),
+            on_stage=turned,
             on_artifact=lambda path: wire.send("artifact", name=path.name),
             limits=Limits(**job["limits"]),
             mark_synthetic=job["mark_synthetic"],

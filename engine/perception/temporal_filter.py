@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-BLOCK = 64
+BLOCK = 32
 """Points worked on at a time, so that a long clip takes little memory."""
 REACH = 12
 """Frames looked at on either side."""

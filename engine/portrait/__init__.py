@@ -13,6 +13,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from engine.allocation import give_back_memory
 from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.portrait.options import PortraitOptions
 from engine.run import Progress, Run
@@ -114,7 +115,12 @@ def animate(
         raise TypeError("a driver is needed: a video's file, the name of a built-in performance, or auto")
     with (
         TemporaryDirectory(prefix="galatea-") as passing,
-        Run(StageStore(Path(cache or passing)), on_progress=progress, mark_synthetic=mark_synthetic) as run,
+        Run(
+            StageStore(Path(cache or passing)),
+            on_progress=progress,
+            mark_synthetic=mark_synthetic,
+            on_stage=lambda name, turn: give_back_memory(),
+        ) as run,
     ):
         _work(inputs, chosen, folder, run)
     return folder / chosen.animation

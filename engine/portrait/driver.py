@@ -6,6 +6,7 @@ no decoding and no tracking. Memory stays flat: appearance goes to a file as it 
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
+from engine.perception.landmarks import MESH_SIZE
 from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import steady
 from engine.portrait.appearance import Appearance, appearance
@@ -89,7 +91,7 @@ def track_driver(
     """
     info = probe_video(path, limits)
     expected = max(1, round(info.seconds * (fps or info.fps)))
-    meshes: list[NDArray[np.float32]] = []
+    meshes = array("f")  # grows in place; thousands of small arrays would lie all over the memory
     places: list[NDArray[np.float64]] = []
     found: list[bool] = []
     size = (info.width, info.height)
@@ -112,7 +114,7 @@ def track_driver(
                 mesh = seen = None
             found.append(mesh is not None)
             for look in held(seen):
-                meshes.append(look.mesh)
+                meshes.frombytes(look.mesh.astype(np.float32).tobytes())
                 places.append(look.place)
                 crops.write(look.crop)
             around.result()
@@ -125,8 +127,7 @@ def track_driver(
                 ("driver",),
             )
         strip, faces = crops.strip(), follow.boxes
-    stack = np.array(meshes, np.float32)
-    meshes.clear()
+    stack = np.frombuffer(meshes, np.float32).reshape(-1, MESH_SIZE, 3)
     points, trust = periphery.result()
     _warn(warn, faces, found)
     return DriverTrack(

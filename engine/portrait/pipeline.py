@@ -148,7 +148,7 @@ def analyse_driver(
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
     track = tracking.once()
     neutral = neutral_of(track)
-    registered = run.stage("register_driver", register_track, track, neutral, run.tick, shared=True)
+    registered = run.stage("register_driver", register_track, track, neutral, run.tick, track.meshes, shared=True)
     track = replace(track, meshes=registered.meshes)
     if loop:
         track = close_loop(track)

@@ -65,9 +65,15 @@ class Registration:
 
 
 def register_track(
-    track: DriverTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
+    track: DriverTrack,
+    neutral: int,
+    tick: Callable[[float], None] = lambda fraction: None,
+    out: NDArray[np.float32] | None = None,
 ) -> Registration:
-    """Correct a track's meshes by the flow that is left against its neutral frame, and shut eyes that are seen to be shut."""
+    """Correct a track's meshes by the flow that is left against its neutral frame, and shut eyes that are seen to be shut.
+
+    `out` is where the result goes; it may be the track's own meshes, which a long clip should not have twice.
+    """
     rest = track.in_crop(neutral)[:468]
     triangles = delaunay(rest)
     reference = _grey(track.crop(neutral))
@@ -96,11 +102,13 @@ def register_track(
     left, belief = (
         np.empty((len(track), 468, *more), np.float16) for more in ((2,), ())
     )  # long clips have many frames
-    meshes, contrast = track.meshes.copy(), np.empty((len(track), 2, 2))
+    contrast = np.empty((len(track), 2, 2))
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="register") as pool:
         for frame, (left[frame], belief[frame], contrast[frame]) in enumerate(pool.map(offsets, range(len(track)))):
             tick((frame + 1) / len(track))
-    for some in np.array_split(np.flatnonzero(weight), 8):  # a part at a time, for the same reason
+    meshes = np.empty_like(track.meshes) if out is None else out
+    meshes[:] = track.meshes
+    for some in np.array_split(np.flatnonzero(weight), 16):  # a part at a time, for the same reason
         eased = gaussian_filter1d(belief[:, some].astype(np.float32), EASED, axis=0, mode="nearest")
         meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
