@@ -170,7 +170,8 @@ class Run:
         heard = self._here.beside.notices if self._here.beside else self.notices
         before = len(heard)
         key = self.key(name, *arguments)
-        kept = store.load(key, get_type_hints(function)["return"]) if store is not None else None
+        kind = get_type_hints(function)["return"] if store is not None else None
+        kept = store.load(key, kind) if store is not None else None
         if kept is not None:
             notices, output = kept
             heard.extend(notices)
@@ -178,10 +179,7 @@ class Run:
         else:
             output = function(*arguments)
             if store is not None:
-                store.save(key, output, heard[before:])
-                del output  # before it is read again: twice would be too much of a long clip
-                kept = store.load(key, get_type_hints(function)["return"])
-                output = kept[1] if kept is not None else function(*arguments)
+                output = store.save(key, output, heard[before:], kind)
         self._keys[id(output)] = (_reference(output), key)
         return output
 

@@ -17,11 +17,13 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
 from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from engine.errors import Notice
+
+T = TypeVar("T")
 
 IN_USE = 3600.0
 """Seconds since its last use within which an output is not erased."""
@@ -71,21 +73,25 @@ class StageStore:
             shutil.rmtree(found.folder, ignore_errors=True)
             return None
 
-    def save(self, key: str, output: Any, notices: Sequence[Notice] = ()) -> None:
+    def save(self, key: str, output: T, notices: Sequence[Notice] = (), kind: Any = None) -> T:
         """Store a dataclass of arrays, numbers, strings, tuples, files and further such dataclasses.
 
-        Files (`Path`) are moved into the store: load the output again to know where they are.
+        Files (`Path`) are moved into the store. Returns what `load` would, of type `kind` (by default the output's), but for
+        the arrays, which are not read again: those of a long clip would be there twice.
         """
         self.folder.mkdir(parents=True, exist_ok=True)
         draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self.folder))
         try:
             arrays: dict[str, np.ndarray] = {}
             document = {"notices": [asdict(notice) for notice in notices], "output": _pack(output, "", arrays, draft)}
-            (draft / "output.json").write_text(json.dumps(document))
+            written = json.dumps(document)
+            (draft / "output.json").write_text(written)
             np.savez(draft / "arrays.npz", **arrays)  # type: ignore[arg-type]
             self._publish(draft, key)
         finally:
             shutil.rmtree(draft, ignore_errors=True)
+        stored: T = _unpack(kind or type(output), json.loads(written)["output"], arrays, self.folder / key)
+        return stored
 
     def discard_drafts(self) -> None:
         """Erase what a killed process began to store; what another may just be storing stays."""

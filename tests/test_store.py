@@ -52,11 +52,12 @@ def store(tmp_path: Path) -> StageStore:
 
 def test_what_goes_in_comes_out(store: StageStore, tmp_path: Path) -> None:
     given = outer(tmp_path / "work")
-    store.save("key", given, [Notice("a_code", "A sentence.")])
+    stored = store.save("key", given, [Notice("a_code", "A sentence.")])
     kept = store.load("key", Outer)
     assert kept is not None
     notices, found = kept
     assert notices == [Notice("a_code", "A sentence.")]
+    assert stored.file == found.file and stored.inner.points is given.inner.points
     assert (found.size, found.scale, found.found, found.names) == ((640, 480), 0.5, True, ["a", "ü"])
     assert isinstance(found.size, tuple) and isinstance(found.several, tuple)
     np.testing.assert_array_equal(found.inner.points, given.inner.points)

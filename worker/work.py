@@ -46,9 +46,10 @@ class ReportingStore(StageStore):
         super().__init__(folder)
         self._wire = wire
 
-    def save(self, key: str, output: Any, notices: Any = ()) -> None:
-        super().save(key, output, notices)
+    def save(self, key: str, output: Any, notices: Any = (), kind: Any = None) -> Any:
+        stored = super().save(key, output, notices, kind)
         self._wire.send("stored", key=key)
+        return stored
 
 
 def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, orders: int) -> dict[str, Any]:
