@@ -54,7 +54,7 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
         "closed": float(is_closed(points[triangles])),
         "holes": float(_loops(border)),
         "non_manifold_edges": float(crowded),
-        "flipped": round(float((_areas(projected, triangles) < 0)[seen[drawn]].mean()), 5),
+        "flipped": round(float((projected_areas(projected, triangles) < 0)[seen[drawn]].mean()), 5),
         "unseen_texture": round(_unseen(posed, projected, triangles, seen[drawn]), 3),
         "triangles": float(len(triangles)),
     }
@@ -77,7 +77,7 @@ def _loops(border: NDArray[np.intp]) -> int:
     return int(connected_components(graph, directed=False)[0])
 
 
-def _areas(projected: NDArray[np.float32], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+def projected_areas(projected: NDArray[np.float32], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
     """How many pixels each triangle covers (T,), fewer than none where it shows its back; y points down."""
     a, b, c = (projected[triangles[:, k], :2].astype(np.float64) for k in range(3))
     p, q = b - a, c - a
@@ -94,5 +94,7 @@ def _unseen(
     it as much as one pixel covers."""
     a, b, c = (posed[triangles[:, k]].astype(np.float64) for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    covered = np.maximum(np.abs(_areas(projected, triangles)[seen]), 1 / SUBPIXELS)  # finer than corners are placed
+    covered = np.maximum(
+        np.abs(projected_areas(projected, triangles)[seen]), 1 / SUBPIXELS
+    )  # finer than corners are placed
     return max(float(1 - (area[seen] / covered).sum() / max(float(area.sum()), 1e-12)), 0.0)

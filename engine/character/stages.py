@@ -24,7 +24,7 @@ from engine.character.head_sides import with_round_sides
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.limb_edges import soft_limbs
-from engine.character.measures import pose
+from engine.character.measures import picture_camera, pose
 from engine.character.options import LabelStroke
 from engine.character.pockets import hands_at_hips
 from engine.character.relaxing import relaxed
@@ -34,6 +34,7 @@ from engine.character.silhouette import Silhouette
 from engine.character.strokes import read_labels, relabel
 from engine.character.template_fit import FittedBody, fit_figure, load_human, pose_template
 from engine.character.texture import BackTexture, atlas, paint_tiles
+from engine.character.turned_over import without_backs_in_view
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.inpaint import background_plate
@@ -170,7 +171,9 @@ def make_character(
     camera = silhouette.camera(fitted.camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv)
-    return relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
+    character = relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
+    height, width = figure.rgb.shape[:2]
+    return without_backs_in_view(character, picture_camera(character, fitted, (height, width)))
 
 
 def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:

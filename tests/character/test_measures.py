@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 from template_character import template_character
 
-from engine.character.measures import _areas, _loops, _odd_edges, _unseen, pose
+from engine.character.measures import _loops, _odd_edges, _unseen, pose, projected_areas
 from engine.character.rigging import Character
 from engine.character.stages import fewer_triangles
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -53,7 +53,7 @@ def test_a_triangle_that_turns_the_other_way_shows_its_back() -> None:
     corners = np.array(
         [[0, 0, 1], [0, 10, 1], [10, 0, 1]], np.float32
     )  # down, then right: counter-clockwise for y down
-    np.testing.assert_array_equal(_areas(corners, np.array([[0, 1, 2], [0, 2, 1]])), [50, -50])
+    np.testing.assert_array_equal(projected_areas(corners, np.array([[0, 1, 2], [0, 2, 1]])), [50, -50])
 
 
 def card(corner: float, side: float, depth: float) -> np.ndarray:

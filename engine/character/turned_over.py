@@ -1,0 +1,62 @@
+"""No triangle shows its back in the picture's view: where a surface is folded over, it is drawn smooth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from engine.body.skinning import pose_transforms
+from engine.character.measures import pose, projected_areas
+from engine.character.rigging import Character, at_rest
+from engine.geometry.welding import weld
+from engine.render.camera import Camera
+from engine.render.rasteriser import rasterise
+
+ROUNDS = 6
+
+
+def without_backs_in_view(character: Character, camera: Camera) -> Character:
+    """The character with those points drawn to the mean of their neighbours whose triangles show their back to `camera`, as
+    pictured. At the sharp corners of a border, and between fingers, a pixel or two is folded over."""
+    mesh = character.mesh
+    point = weld(mesh)
+    first = np.unique(point, return_index=True)[1]
+    neighbours = _neighbours(point[mesh.triangles], len(first))
+    pictured = pose_transforms(mesh.skeleton, character.pictured.rotations, character.pictured.root)[0]
+    best, fewest = character, _backs(character, camera)
+    for _ in range(ROUNDS):
+        if not len(fewest):
+            break
+        posed = pose(best, best.pictured)
+        moved = np.unique(point[mesh.triangles[fewest]])
+        where = posed[first].astype(np.float64)
+        drawn = (neighbours[moved] @ where) / np.asarray(neighbours[moved].sum(1))
+        some = np.isin(point, moved)
+        goal = drawn[np.searchsorted(moved, point[some])]
+        vertices, weights = best.mesh.vertices.copy(), best.mesh.weights.copy()
+        vertices[some], weights[some], _ = at_rest(goal, mesh.bones[some].astype(np.intp), weights[some], pictured)
+        tried = replace(best, mesh=replace(best.mesh, vertices=vertices, weights=weights))
+        left = _backs(tried, camera)
+        if len(left) > len(fewest):
+            break
+        best, fewest = tried, left
+    return best
+
+
+def _backs(character: Character, camera: Camera) -> NDArray[np.intp]:
+    """The triangles in view that show their back, by index, once for each pixel."""
+    triangles = character.mesh.triangles
+    projected = camera.project(pose(character, character.pictured))
+    seen = rasterise(projected, triangles, camera.size, perspective=True).triangle
+    seen = seen[seen >= 0]
+    return np.asarray(seen[projected_areas(projected, triangles)[seen] < 0], np.intp)
+
+
+def _neighbours(faces: NDArray[np.integer], count: int) -> sparse.csr_matrix:
+    """(N, N) with ones where points have an edge between them."""
+    a, b = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).T
+    edges = sparse.csr_matrix((np.ones(len(a)), (a, b)), (count, count))
+    return sparse.csr_matrix(edges + edges.T > 0, dtype=np.float64)
