@@ -16,7 +16,6 @@ from threading import local
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
 
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
@@ -109,11 +108,17 @@ def register_track(
     meshes = np.empty_like(track.meshes) if out is None else out
     meshes[:] = track.meshes
     for some in np.array_split(np.flatnonzero(weight), 16):  # a part at a time, for the same reason
-        eased = gaussian_filter1d(belief[:, some].astype(np.float32), EASED, axis=0, mode="nearest")
+        eased = _eased(belief[:, some].astype(np.float32))
         meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
     shut_by_contrast(meshes, contrast, neutral)
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
+
+
+def _eased(belief: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Averaged over frames: (N, V)."""
+    reach = 2 * round(4 * EASED) + 1
+    return np.asarray(cv2.GaussianBlur(belief, (1, reach), sigmaX=1, sigmaY=EASED, borderType=cv2.BORDER_REPLICATE))
 
 
 def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
