@@ -6,6 +6,7 @@ The paper's sections 4.2.2 and 4.2.3.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -29,13 +30,13 @@ from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.legs import cut_along, each_by_its_own
 from engine.character.occlusion import largest
-from engine.character.part_surface import Surface, part_surface, warp_part
+from engine.character.part_surface import Surface, Warp, part_surface, warp_part
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion, Region, find_regions
 from engine.character.sheets import Layer
 from engine.character.skirt_weights import moved_by_both
 from engine.character.solid_limb import solid_arms, solid_limb
-from engine.character.template_maps import weights_at
+from engine.character.template_maps import SideMaps, weights_at
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
@@ -113,17 +114,15 @@ def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None 
     sides = template.sides(region.triangles, region.mask.shape)
     warp = warp_part(region.mask, sides.front.mask)
     bare = np.array([any(part in name for part in BARE) for name in rig.names])
-    front, back = (
-        part_surface(
-            region.mask,
-            own,
-            side,
-            weights_at(side.raster, sides.triangles, rig.bones, rig.weights, len(rig.names)),
-            bare,
-        )
-        for own, side in ((warp if face is None else with_face(warp, face), sides.front), (warp, sides.back))
-    )
-    return Layer(region.mask, front, back)
+
+    def rebuilt(own: Warp, side: SideMaps) -> Surface:
+        weights = weights_at(side.raster, sides.triangles, rig.bones, rig.weights, len(rig.names))
+        return part_surface(region.mask, own, side, weights, bare)
+
+    with ThreadPoolExecutor(1, thread_name_prefix="back") as beside:
+        back = beside.submit(rebuilt, warp, sides.back)
+        front = rebuilt(warp if face is None else with_face(warp, face), sides.front)
+    return Layer(region.mask, front, back.result())
 
 
 def _solid_layer(one: LimbRegion, template: PosedTemplate, rig: Rig, own: NDArray[np.bool_]) -> Layer:
