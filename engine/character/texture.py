@@ -204,7 +204,8 @@ def _behind_another(
     size = (own.shape[1], own.shape[0])
     mine = labels.labels == behind.limb
     edge = cv2.dilate(behind.area.astype(np.uint8), np.ones((SLIVER, SLIVER), np.uint8)) > 0
-    whole = filled(limbs, _enlarged(behind.area | (mine & edge), size), _enlarged(mine & ~edge, size) & own)
+    worn = usual_colours(limbs, _enlarged(mine & ~edge, size) & own)
+    whole = filled(limbs, _enlarged(behind.area | (mine & edge), size), worn)
     return _with_skin(whole, seen, _enlarged(behind.hand, size), face, own)
 
 

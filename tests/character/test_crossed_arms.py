@@ -101,6 +101,7 @@ def test_behind_the_other_an_arm_has_its_own_colours_and_its_hand_the_face_s() -
     rgb = np.zeros((200, 160, 3), np.uint8)
     rgb[:60], rgb[60:] = (200, 150, 120), (90, 90, 90)
     rgb[labels == LEFT], rgb[labels == RIGHT] = (20, 20, 120), (220, 220, 40)
+    rgb[108:114, 58:66] = (200, 150, 120)  # a finger on it, which does not go on
     area, hand, none = np.zeros((3, 200, 160), np.bool_)
     area[100:130, 70:120] = True
     hand[100:130, 100:120] = True
