@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from engine.character.measures import picture_camera, pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
+from engine.imaging.mask_distance import grown
 from engine.render.ground_shadow import GroundShadow
 
 ABOVE, BELOW, BESIDE = 0.3, 0.2, 1.2
@@ -57,7 +58,7 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
         int(min(alpha.shape[1], columns[-1] + BESIDE * high + 1)),
     )
     part = slice(top, bottom), slice(left, right)
-    near = cv2.dilate((alpha[part] > 0.02).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=2) > 0
+    near = grown(alpha[part] > 0.02, 2)
     small = cv2.GaussianBlur(rgb[part], (0, 0), 1.2)
     lab = cv2.cvtColor(small, cv2.COLOR_RGB2LAB).astype(np.float64)
     light = np.log(np.maximum(small.astype(np.float64).mean(-1), 4))
@@ -70,7 +71,7 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     dark = cv2.morphologyEx(dark.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0
     # it begins at the feet
     feet = near & (np.arange(top, bottom)[:, None] > rows[-1] - 0.08 * high)
-    reach = cv2.dilate(feet.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(2, high // 60)) > 0
+    reach = grown(feet, max(2, high // 60))
     _, pieces = cv2.connectedComponents((dark | reach).astype(np.uint8))
     touching = np.unique(pieces[reach])
     found = dark & np.isin(pieces, touching[touching > 0])

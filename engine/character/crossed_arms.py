@@ -20,7 +20,7 @@ from engine.perception.hands import Side
 from engine.perception.landmarks import FACE_OVAL
 
 FINGERS = ("Pinky", "Index", "Thumb")
-AROUND = 0.35
+AROUND = 0.175
 """How far around a hand's middle it is looked for, in lengths of a forearm."""
 MORE = 0.15
 """By how much more of its place one hand must show than the other to be the one that is seen."""
@@ -117,7 +117,7 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
 def _shown(figure: Figure, skin: NDArray[np.bool_], side: str) -> float:
     """Share of the place of a hand, a disk around its middle, that has the skin's colours."""
     middle = np.mean([figure.point(f"{side}{name}") for name in FINGERS], axis=0)
-    reach = AROUND / 2 * float(np.linalg.norm(figure.point(f"{side}Elbow") - figure.point(f"{side}Wrist")))
+    reach = AROUND * float(np.linalg.norm(figure.point(f"{side}Elbow") - figure.point(f"{side}Wrist")))
     place = np.zeros(skin.shape, np.uint8)
     cv2.circle(place, tuple(np.rint(middle).astype(int).tolist()), max(2, round(reach)), (1,), -1)
     return float(skin[place > 0].mean()) if place.any() else 0.0

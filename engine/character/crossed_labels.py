@@ -20,6 +20,7 @@ from engine.character.crossed_arms import CrossedArms
 from engine.character.figure import SIDES, Figure
 from engine.character.occlusion import largest
 from engine.character.posed_template import PosedTemplate
+from engine.imaging.mask_distance import distance_inside, grown
 
 NARROWEST, WIDEST = 0.045, 0.085
 """Metres that half the width of an arm at its elbow has, at least and at most."""
@@ -69,7 +70,7 @@ def label_crossed(
     own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDES}
     covers = {side: arm.sleeve(mask.shape) & mask for side, arm in own.items()}
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
-    reach = cv2.dilate((hands[front] | covers[front]).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    reach = grown(hands[front] | covers[front], 2)
     seen = largest(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]
     shown = np.full(mask.shape, -1, np.int8)
@@ -104,7 +105,7 @@ class _Arm:
         )
         forearm, wrist = (template.joints[rig.index(f"{side}{name}"), :2] for name in ("ForeArm", "Hand"))
         along = (wrist - forearm) / max(float(np.linalg.norm(wrist - forearm)), 1e-6)
-        inside = np.asarray(cv2.distanceTransform(np.pad(mask.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+        inside = distance_inside(mask)
         x, y = np.clip(np.rint(elbow), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int)
         metre = template.pixels_per_metre
         wide = float(np.clip(inside[y, x], NARROWEST * metre, WIDEST * metre))

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from engine.character.occlusion import largest
 from engine.character.part_surface import Surface
 from engine.character.sheets import THINNEST, Layer
+from engine.imaging.mask_distance import distance_to, grown
 
 THIN = 0.5
 """Share of its depth that the body keeps behind a limb, at least."""
@@ -35,7 +36,7 @@ def hand_beneath(arm: Layer, body: Layer, hidden: NDArray[np.bool_]) -> Layer:
     if not hand.any():
         return arm
     further = max(float(np.percentile((arm.front.depth - _reach(body) + BENEATH)[hand], MOSTLY)), 0.0)
-    away = np.asarray(cv2.distanceTransform((~hand).astype(np.uint8), cv2.DIST_L2, 5))
+    away = distance_to(hand)
     bent = further * (0.5 + 0.5 * np.cos(np.pi * np.minimum(away / FOREARM, 1)))
     front, back = (Surface((side.depth - bent).astype(np.float32), side.weights) for side in (arm.front, arm.back))
     return replace(arm, front=front, back=back)
@@ -48,7 +49,7 @@ def body_behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     middle = (body.front.depth + body.back.depth) / 2
     reach = _reach(limb) - BENEATH
     shown = body.mask & ~own
-    beside = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0  # or what is between pixels would gape
+    beside = grown(shown, 1)  # or what is between pixels would gape
     mask = largest(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
     front = body.front.depth.copy()
     front[hidden] = np.clip(reach, body.back.depth + THIN * (front - body.back.depth), front)[hidden]

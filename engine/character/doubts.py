@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +11,7 @@ from engine.body.parts import PARTS
 from engine.character.figure import Figure
 from engine.character.placed_joints import WHOLE_SKELETON
 from engine.errors import InputError
+from engine.imaging.mask_distance import distance_to
 from engine.perception.body import LANDMARKS
 
 SURE = 0.8
@@ -44,7 +44,7 @@ def doubt_mask(
     """Warn of `mask_misses_joints` and `mask_too_large`. `mask` (H, W): the person's; `skeleton` (H, W): trunk and limbs,
     as thick as sticks."""
     at = np.rint([figure.point(name) for name in WHOLE_SKELETON if _is_seen(figure, name)]).astype(int).reshape(-1, 2)
-    away = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5)
+    away = distance_to(mask)
     height = float(np.ptp(figure.points[figure.confidence > 0, 1]))
     held = int((away[at[:, 1], at[:, 0]] <= BESIDE * height).sum())
     if held < HELD * len(at):

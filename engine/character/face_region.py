@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure import Figure
+from engine.imaging.mask_distance import distance_inside
 
 BROW = 0.3
 """How far below the top of the head, hair included, a face begins, as a share of the head's height."""
@@ -40,7 +41,7 @@ def face_ellipse(figure: Figure, to_grid: NDArray[np.float64], head: NDArray[np.
 def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:
     """Where a face would be on a head (h, w) seen from the front: as wide as the largest circle in it, and from the brow to
     where the head ends below. None where that is no larger than a pixel."""
-    depth = np.asarray(cv2.distanceTransform(np.pad(head.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+    depth = distance_inside(head)
     x = int(depth.argmax()) % head.shape[1]
     wide = float(depth.max())
     if wide <= 1:

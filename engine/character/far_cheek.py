@@ -6,6 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.character.head_area import Head
+from engine.imaging.mask_distance import distance_to
 from engine.imaging.nearest import nearest_in
 
 BESIDE = 1.12
@@ -26,28 +28,25 @@ def with_far_cheek(
     back: NDArray[np.uint8],
     rgb: NDArray[np.uint8],
     hair: NDArray[np.bool_],
-    mask: NDArray[np.bool_],
-    out: NDArray[np.float32],
-    up: NDArray[np.float32],
-    depth: NDArray[np.float32],
-    face: NDArray[np.floating],
-    scale: float,
+    head: Head,
+    half_width: float,
 ) -> NDArray[np.uint8]:
     """The `back` of a head (h, w, 3) with the cheek that its front `rgb` (h, w, 3) shows at the outline; `hair` (h, w) as it is
-    seen. `mask`, `out`, `up`, `depth` (h, w) and `scale` as in `engine.character.head_texture.Head`, `face`: its oval."""
-    cheek = mask & (out < BESIDE) & (up < BROW) & (up > -1) & (depth > 0.5) & (depth < OUTLINE)
-    middle = mask & (out < 0.7)
+    seen. `half_width`: the face's, pixels."""
+    scale, beside = head.scale, head.mask & (head.out < BESIDE) & (head.up < BROW) & (head.up > -1)
+    cheek = beside & (head.depth > 0.5) & (head.depth < OUTLINE)
+    middle = head.mask & (head.out < 0.7)
     if not (cheek.any() and middle.any() and hair.any()):
         return back
     colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), max(scale, 1.0)), cv2.COLOR_RGB2LAB).astype(np.float32)
     skin, other = (np.median(colours[where], axis=0) for where in (middle, hair))
     cheek &= np.linalg.norm(colours - skin, axis=-1) < LIKE * np.linalg.norm(colours - other, axis=-1)
-    sample = cheek & (depth > 1.5)
+    sample = cheek & (head.depth > 1.5)
     if not sample.any():
         return back
-    reach = WIDE * float(face[2])
-    away = np.asarray(cv2.distanceTransform((~cheek).astype(np.uint8), cv2.DIST_L2, 5))
+    reach = WIDE * half_width
+    away = distance_to(cheek)
     share = np.clip((reach - away) / (SOFT * reach), 0, 1)
-    share = cv2.GaussianBlur(share, (0, 0), SMOOTH * scale)[..., None] * mask[..., None]
+    share = cv2.GaussianBlur(share, (0, 0), SMOOTH * scale)[..., None] * head.mask[..., None]
     drawn = cv2.GaussianBlur(rgb[nearest_in(sample)], (0, 0), SMOOTH * scale)
     return np.asarray(back + share * (drawn.astype(np.float32) - back) + 0.5, np.float32).clip(0, 255).astype(np.uint8)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.labels import COLOURS, Colours
+from engine.imaging.mask_distance import grown
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""
@@ -59,7 +60,7 @@ def gaps(
     found = _by_colour(small, mask, believed, inside & ~limbs & (mask > 0.5), limbs, height)
     if not found.any():
         return none
-    around = cv2.dilate(found.astype(np.uint8), np.ones((2 * EDGE + 1, 2 * EDGE + 1), np.uint8)) > 0
+    around = grown(found, EDGE)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
     reach = max(2, round(EDGE / scale))
     fine = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
@@ -111,7 +112,7 @@ def _by_colour(
     count, pieces, stats, _ = cv2.connectedComponentsWithStats(likely.astype(np.uint8), connectivity=4)
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (person > 0) & ~likely
-    edge = likely & (cv2.dilate(rest.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+    edge = likely & grown(rest, 1)
     steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > CONTRAST
     for piece in range(1, count):
         own = pieces == piece

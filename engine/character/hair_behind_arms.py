@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.character.labels import ARMS, COLOURS, SPECK, Colours
+from engine.imaging.mask_distance import grown
 
 OUTLINE = 0.008
 """How far around the template's outline an arm's may be, as a share of the height."""
@@ -37,7 +38,7 @@ def hair_behind_arms(
     of_hair = Colours.of(colours[hair])
     hairy = float(np.percentile(of_hair.unlikely(colours[hair]), HAIRY))
     for arm in ARMS:
-        inner = (labels == arm) & ~_grown(template != arm, OUTLINE)
+        inner = (labels == arm) & ~_grown_by_share(template != arm, OUTLINE)
         bare = inner.copy()
         bare[inner] = of_hair.unlikely(colours[inner]) > hairy
         doubtful = (labels == arm) & (sure != arm)
@@ -46,16 +47,15 @@ def hair_behind_arms(
             continue
         like = np.zeros(labels.shape, np.float32)
         like[doubtful] = Colours.of(colours[bare]).unlikely(colours[doubtful]) - of_hair.unlikely(colours[doubtful])
-        clear = np.where(_grown(template == arm, OUTLINE), CLEARLY, 0)
+        clear = np.where(_grown_by_share(template == arm, OUTLINE), CLEARLY, 0)
         given = doubtful & (cv2.GaussianBlur(like, (0, 0), SOFT) > clear)
         _, pieces, stats, _ = cv2.connectedComponentsWithStats(given.astype(np.uint8), connectivity=4)
-        near = np.unique(pieces[_grown(labels == head, ACROSS)])
+        near = np.unique(pieces[_grown_by_share(labels == head, ACROSS)])
         large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= SPECK)
         found[given & np.isin(pieces, np.intersect1d(near, large))] = head
     return found
 
 
-def _grown(mask: NDArray[np.bool_], share: float) -> NDArray[np.bool_]:
+def _grown_by_share(mask: NDArray[np.bool_], share: float) -> NDArray[np.bool_]:
     """A mask (H, W) grown by a share of its height."""
-    reach = 2 * max(1, round(share * mask.shape[0])) + 1
-    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((reach, reach), np.uint8)) > 0)
+    return grown(mask, max(1, round(share * mask.shape[0])))

@@ -6,13 +6,13 @@ that can be told from the skin's. It is copied to where the face and the ears we
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.far_cheek import with_far_cheek
+from engine.character.head_area import Head, measure_head
+from engine.imaging.mask_distance import distance_to
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patch_fill import filled
 
@@ -64,19 +64,6 @@ SOFT_NAPE = 3.0
 """Pixels of the grid over which hair ends at the nape."""
 
 
-@dataclass(frozen=True)
-class Head:
-    """Where a head is, (h, w) each: its pixels; `out`: how far they are from the face's middle, in half axes of its oval;
-    `up`: how far above it, as a share of the way to the top (below 0, to the chin); `depth`: how far from the outline,
-    pixels of the grid, each of which is `scale` pixels."""
-
-    mask: NDArray[np.bool_]
-    out: NDArray[np.float32]
-    up: NDArray[np.float32]
-    depth: NDArray[np.float32]
-    scale: float
-
-
 def back_of_the_head(
     rgb: NDArray[np.uint8],
     seen: NDArray[np.uint8],
@@ -102,13 +89,13 @@ def back_of_the_head(
     box = slice(y, rows[-1] + 1 + margin), slice(x, columns[-1] + 1 + margin)
     back, front = rgb.copy(), rgb.copy()
     oval = face - np.array([x, y, 0, 0, 0])
-    head = _measured(own[box], mask[box], oval, scale)
+    head = measure_head(own[box], mask[box], oval, scale)
     around = beyond_the_outline(seen[box], covered[box])
     hair, through = find_hair(rgb[box], around, head)
     hair = hair if hair.any() else _beside_the_oval(head)
     if hair.any():
         found = _back(rgb[box], hair, head, float(oval[3]))
-        back[box] = with_far_cheek(found, rgb[box], hair, head.mask, head.out, head.up, head.depth, oval, scale)
+        back[box] = with_far_cheek(found, rgb[box], hair, head, float(oval[2]))
         front[box] = np.where(through[..., None], back[box], rgb[box])
     return back, front
 
@@ -163,7 +150,7 @@ def find_hair(
     _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
     found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
-    beside = cv2.distanceTransform((~found).astype(np.uint8), cv2.DIST_L2, 5) < CROWN * head.scale
+    beside = distance_to(found) < CROWN * head.scale
     through = head.mask & mixed & (from_skin > ALIKE) & beside
     return (safe if safe.sum() > max(8.0, ENOUGH * head.mask.sum()) else found), through
 
@@ -265,16 +252,6 @@ def _neck(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, nape: flo
         skin = np.median(rgb[face if face.any() else hair], axis=0)
         return np.where(hidden[..., None], skin, rgb).astype(np.float32)
     return filled(rgb, below & ~bare, bare).astype(np.float32)
-
-
-def _measured(own: NDArray[np.bool_], mask: NDArray[np.bool_], face: NDArray[np.floating], scale: float) -> Head:
-    x, y, wide, high, angle = (float(value) for value in face)
-    rows, columns = np.indices(mask.shape, np.float32)
-    turn = np.radians(angle)
-    across = (np.cos(turn) * (columns - x) + np.sin(turn) * (rows - y)) / wide
-    up = (np.sin(turn) * (columns - x) - np.cos(turn) * (rows - y)) / high
-    depth = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1] / scale
-    return Head(mask, np.hypot(across, up), up, depth.astype(np.float32), scale)
 
 
 def beyond_the_outline(rgb: NDArray[np.uint8], person: NDArray[np.bool_]) -> NDArray[np.uint8]:

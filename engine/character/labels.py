@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
+from engine.imaging.mask_distance import distance_to, grown
 
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
 LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
@@ -94,8 +95,7 @@ def hair_beside_arms(
     hair = (labels == head) & (template != head)
     for arm in ARMS:
         own = labels == arm
-        reach = 2 * max(1, round(BARE_ARM * labels.shape[0])) + 1
-        close = cv2.dilate((template == arm).astype(np.uint8), np.ones((reach, reach), np.uint8)) > 0
+        close = grown(template == arm, max(1, round(BARE_ARM * labels.shape[0])))
         doubtful = own & ~close & (sure != arm)
         if min(int(one.sum()) for one in (hair, doubtful, own & close)) < 10 * COLOURS:
             continue
@@ -193,7 +193,7 @@ def _refine(
     colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_], template: NDArray[np.integer]
 ) -> None:
     """Refine the labels within one region, in place."""
-    around = cv2.dilate(region.astype(np.uint8), np.ones((15, 15), np.uint8)) > 0
+    around = grown(region, 7)
     near = around & (labels >= 0)
     meeting = [int(label) for label in np.unique(labels[region])]
     if len(meeting) < 2:
@@ -225,7 +225,7 @@ def _refine(
 def _distance_to(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     if not mask.any():
         return np.full(mask.shape, NOWHERE)
-    return np.asarray(cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5), np.float64)
+    return np.asarray(distance_to(mask), np.float64)
 
 
 def _nearest_label(labels: NDArray[np.intp]) -> NDArray[np.intp]:

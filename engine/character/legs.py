@@ -18,6 +18,7 @@ from engine.body.rig import Rig
 from engine.character.labels import LEGS
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
+from engine.imaging.mask_distance import grown
 
 LEGS_APART = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""
@@ -65,7 +66,7 @@ def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], 
     away = {leg: np.asarray(cv2.distanceTransform((template != leg).astype(np.uint8), cv2.DIST_L2, 5)) for leg in LEGS}
     behind = sum(LEGS) - before
     legs = np.isin(labels, LEGS)
-    free = (labels == before) & (cv2.dilate((labels < 0).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+    free = (labels == before) & grown(labels < 0, 1)
     off = float(np.median(away[before][free])) if free.any() else 0.0
     return np.where(legs, np.where(away[before] <= np.maximum(away[behind], off), before, behind), labels)
 
@@ -73,12 +74,12 @@ def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], 
 def beside_the_other(labels: NDArray[np.integer], leg: int) -> NDArray[np.bool_]:
     """The pixels (h, w) of a leg beside which the other one shows."""
     other = labels == sum(LEGS) - leg
-    return (labels == leg) & (cv2.dilate(other.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0)
+    return (labels == leg) & grown(other, 1)
 
 
 def cut_along(labels: NDArray[np.integer], parting: NDArray[np.bool_]) -> NDArray[np.int8]:
     """Along the parting of the legs, the side to which a pixel belongs: 1 left, 2 right; 0 elsewhere (h, w)."""
-    near = cv2.dilate(parting.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    near = grown(parting, 1)
     cut = np.zeros(labels.shape, np.int8)
     for side, name in ((1, "left_leg"), (2, "right_leg")):
         cut[near & (labels == PARTS.index(name))] = side

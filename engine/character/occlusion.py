@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from engine.character.part_surface import outline
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
+from engine.imaging.mask_distance import distance_to, grown
 from engine.imaging.nearest import nearest_in
 
 NEAR = 0.16
@@ -91,10 +92,10 @@ def completed(
     body = _one_piece(visible, hidden_by, template)
     border, reference = outline(body), outline(largest(template))
     partners = match_boundaries(border, reference)
-    beside = cv2.dilate(hidden_by.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    beside = grown(hidden_by, 1)
     at = border.astype(int)
     spurious = beside[at[:, 1], at[:, 0]] & near[at[:, 1], at[:, 0]]
-    grown = body.copy()
+    wider = body.copy()
     for first, last in _runs(spurious):
         run = np.arange(first, last + 1) % len(border)
         a, b = border[run[0]], border[run[-1]]
@@ -108,8 +109,8 @@ def completed(
             region = np.zeros(body.shape, np.uint8)
             polygon = np.concatenate([replaced, border[run[::-1]]])
             cv2.fillPoly(region, [np.rint(polygon).astype(np.int32)], (1,))
-            grown |= (region > 0) & hidden_by
-    return largest(grown)
+            wider |= (region > 0) & hidden_by
+    return largest(wider)
 
 
 def _one_piece(
@@ -122,7 +123,7 @@ def _one_piece(
         visible = visible | (hidden_by & template)
         pieces = _pieces(visible)
     for piece in pieces[1:]:  # hair on both sides of an arm is not the template's
-        way = _away(pieces[0]) + _away(piece)
+        way = distance_to(pieces[0]) + distance_to(piece)
         visible = visible | (hidden_by & (way < ACROSS * visible.shape[0]))
     return largest(visible)
 
@@ -133,11 +134,6 @@ def _pieces(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
     areas = stats[:count, cv2.CC_STAT_AREA]
     order = 1 + np.argsort(-areas[1:], kind="stable")
     return [labels == k for k in order if areas[k] > SMALL * mask.sum()]
-
-
-def _away(mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """How far each pixel is from a mask."""
-    return np.asarray(cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5), np.float32)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -16,6 +16,7 @@ from engine.body.rig import Rig
 from engine.character.figure import SIDES, Figure
 from engine.character.labels import ARMS, COLOURS, Colours, complete_labels
 from engine.character.template_maps import side_maps
+from engine.imaging.mask_distance import distance_to, grown
 from engine.perception.body import LANDMARKS
 
 LOW, BESIDE, REACH = 0.7, 1.5, 0.5
@@ -34,7 +35,7 @@ HIDDEN = 0.5
 """Share of the template's hand that is surely no skin where a hand is hidden."""
 HUES = 8.0
 """Distance of two hues (CIE Lab, 8 bits, without lightness) below which they say nothing."""
-EVEN, SHADOW = 1.0, 5
+EVEN, SHADOW = 1.0, 2
 """Pixels of the grid over which colours are taken together, and which part a hand from its cuff."""
 WEB = 7
 """Pixels between fingers that are closed: of a hidden hand they are together."""
@@ -114,7 +115,7 @@ def parted(
     beyond = (np.stack([x, y], -1) - hand.wrist) @ along
     length = float(beyond[template].max())
     distance = np.linalg.norm(away, axis=-1)
-    aside = cv2.distanceTransform((~template).astype(np.uint8), cv2.DIST_L2, 5)
+    aside = distance_to(template)
     arm, worn = labels == hand.arm, np.isin(labels, [PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
     around = (distance < AROUND * length) & (arm | worn)
     sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
@@ -185,5 +186,5 @@ def _joined(bare: NDArray[np.bool_], arm: NDArray[np.bool_]) -> NDArray[np.bool_
     if not bare.any():
         return bare
     both = cv2.morphologyEx((bare | arm).astype(np.uint8), cv2.MORPH_CLOSE, np.ones((SHADOW, SHADOW), np.uint8)) > 0
-    near = cv2.dilate(bare.astype(np.uint8), np.ones((SHADOW, SHADOW), np.uint8)) > 0
+    near = grown(bare, SHADOW)
     return np.asarray(bare | (both & near))

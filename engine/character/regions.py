@@ -20,6 +20,7 @@ from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed, largest
 from engine.character.posed_template import PosedTemplate
+from engine.imaging.mask_distance import grown
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
@@ -71,11 +72,11 @@ def limb_in_one_piece(
     where another that is `apart` passes before it or it does not reach its joint, what the template has there (`triangles`
     (T,)); what of it goes on behind the other arm, and its hidden hand."""
     own, person = labels.labels == limb, labels.labels >= 0
-    seen = own | (person & joint & _grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
+    seen = own | (person & joint & grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
     piece = largest(seen)
     torn, lost = piece.sum() < WHOLE * seen.sum(), not (piece & joint).any()
     if torn or lost:
-        between = _grown(template.covers(triangles, own.shape), UNDER)
+        between = grown(template.covers(triangles, own.shape), UNDER)
         seen = seen | (between & (person if lost else np.isin(labels.labels, apart)))
     if labels.behind is not None and labels.behind.limb == limb:
         seen = seen | labels.behind.area
@@ -112,7 +113,7 @@ def _body(
         crossing = labels.labels == leg
         body = body | (crossing & _bone(template, (part == sum(LEGS) - leg).all(1), before.shape))
     body = completed(body, hides, labels.occlusion | crossing, template.covers(triangles, before.shape))
-    body = body | (before & np.where(crossing, _grown(body, 1), _grown(body, UNDER)))
+    body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
     for one in limbs:
         body = largest(body | (before & one.joint & (_inner(labels) | ~crossing)))
     return body
@@ -142,7 +143,3 @@ def _inner(labels: Labels) -> NDArray[np.bool_]:
     """The person's pixels (h, w) away from the outline: at the sides of the hips one of body and leg alone is seen."""
     person = (labels.labels >= 0).astype(np.uint8)
     return np.asarray(cv2.erode(person, np.ones((3, 3), np.uint8), iterations=UNDER) > 0)
-
-
-def _grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
-    return np.asarray(cv2.dilate(mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=pixels) > 0)

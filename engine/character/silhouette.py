@@ -18,6 +18,7 @@ from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
 from engine.character.strokes import read_mask, repaint_mask
 from engine.errors import InputError
+from engine.imaging.mask_distance import grown
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
@@ -101,7 +102,7 @@ def cut_out(
             f"({rest / piece.sum():.0%} of it in size) belongs to them, paint over what parts them.",
         )
     doubt_mask(figure, piece, limbs, warn)
-    alpha = np.where(cv2.dilate(piece.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0, alpha, 0).astype(np.float32)
+    alpha = np.where(grown(piece, 4), alpha, 0).astype(np.float32)
     rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
     scale = HEIGHT / (rows[-1] + 1 - rows[0])
     matrix = np.array([[scale, 0, -columns[0] * scale], [0, scale, -rows[0] * scale]])

@@ -22,6 +22,7 @@ from engine.character.labels import LEGS, complete_labels
 from engine.character.limb_edges import soft_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
+from engine.imaging.mask_distance import distance_inside, distance_to, grown
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patch_fill import filled
 from engine.imaging.poisson import poisson_blend
@@ -121,7 +122,7 @@ def paint_tiles(
         behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, scale)
     apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
     if (labels.hidden >= 0).any():
-        near = cv2.dilate((labels.hidden >= 0).astype(np.uint8), np.ones((3, 3), np.uint8), iterations=SLIVER) > 0
+        near = grown(labels.hidden >= 0, SLIVER)
         apart = _with_skin(apart, seen, _enlarged(near & ~limbs, size), oval, own)
     hidden = None
     if labels.behind is not None:
@@ -170,7 +171,7 @@ def _behind_the_limbs(
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
     head = _enlarged(beneath == PARTS.index("head"), size)
-    away = np.asarray(cv2.distanceTransform((~limbs).astype(np.uint8), cv2.DIST_L2, 5)) / size[1]
+    away = distance_to(limbs) / size[1]
     body = continued_colours(seen, own & ~limbs)
     shown = own & ~limbs & (away < NEARBY)
     if face is not None:
@@ -186,7 +187,7 @@ def _of_the_limbs(
 ) -> NDArray[np.uint8]:
     """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
     colours of their inside; and the `hole` behind other limbs filled from it."""
-    inside = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1] / scale
+    inside = distance_inside(own) / scale
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
     return filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
@@ -203,7 +204,7 @@ def _behind_another(
     """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
     size = (own.shape[1], own.shape[0])
     mine = labels.labels == behind.limb
-    edge = cv2.dilate(behind.area.astype(np.uint8), np.ones((SLIVER, SLIVER), np.uint8)) > 0
+    edge = grown(behind.area, SLIVER // 2)
     worn = usual_colours(limbs, _enlarged(mine & ~edge, size) & own)
     whole = filled(limbs, _enlarged(behind.area | (mine & edge), size), worn)
     return _with_skin(whole, seen, _enlarged(behind.hand, size), face, own)
@@ -231,7 +232,7 @@ def joined_at_the_outline(
     """The back (h, w, 3) with the front's colours at the outline of `own` (h, w), and from there inward its own gradients (the
     paper's Poisson-blended seam); on the `head` (h, w) sooner. `scale`: pixels for each of the grid's."""
     begin, end = np.where(head, HEAD_FROM, SEAM_FROM), np.where(head, HEAD_TO, SEAM_TO)
-    depth = np.asarray(cv2.distanceTransform(np.pad(own.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+    depth = distance_inside(own)
     band = (depth > begin * scale) & (depth < end * scale)
     held = np.where((depth <= begin * scale)[..., None], front, back).astype(np.float32)
     joined = poisson_blend(back.astype(np.float32), held, band)
@@ -248,7 +249,7 @@ def _from_the_sides(
         if name == "head":
             continue  # its middle is the face
         region = _enlarged(labels.labels == part, size) & own
-        depth = np.asarray(cv2.distanceTransform(np.pad(region.astype(np.uint8), 1), cv2.DIST_L2, 5))[1:-1, 1:-1]
+        depth = distance_inside(region)
         if (thick := float(depth.max())) < THICK:
             continue
         middle = depth > SIDES * thick
@@ -259,7 +260,7 @@ def _from_the_sides(
 def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
     beyond slivers elsewhere. The others are on the body, whatever they are called."""
-    near = cv2.dilate(shown.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    near = grown(shown, 1)
     more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
     return np.asarray((labelled & near) | (more > 0))
 
