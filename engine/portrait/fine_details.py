@@ -55,6 +55,9 @@ NOSE = (6, 197, 195, 5, 4, 1, 2, 98, 327, 129, 358, 209, 429, 198, 420, 236, 456
 NOSE_SPARED = 0.7
 RIM = 0.4
 """Within this distance of the face's rim, in eye distances, ratios fade out."""
+GRABBED = 40.0
+"""Eye distance, pixels, of the copy in which GrabCut tells the face from hair: the region is feathered by more than a pixel
+of it."""
 UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels. The paper's pixel distances are meant for faces of about this size."""
 
@@ -95,7 +98,7 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     ellipse = cv2.fitEllipse(np.concatenate([chin, mirrored[4:13]]).astype(np.float32))
     x0, y0 = np.maximum(np.floor(mesh[:, :2].min(axis=0) - unit), 0).astype(int)
     x1, y1 = np.minimum(np.ceil(mesh[:, :2].max(axis=0) + unit), rgb.shape[1::-1]).astype(int)
-    scale = min(1.0, 60.0 / unit)
+    scale = min(1.0, GRABBED / unit)
     patch = cv2.resize(rgb[y0:y1, x0:x1], None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
     centre = ((ellipse[0][0] - x0) * scale, (ellipse[0][1] - y0) * scale)
     axes = (ellipse[1][0] * scale, ellipse[1][1] * scale)
@@ -103,14 +106,14 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     cv2.ellipse(probable, (centre, axes, ellipse[2]), 1, -1)
     oval = ((mesh[list(FACE_OVAL), :2] - (x0, y0)) * scale).round().astype(np.int32)
     cv2.fillPoly(sure, [oval], 1)
-    middle = cv2.erode(sure, np.ones((9, 9), np.uint8))
+    middle = cv2.erode(sure, np.ones((7, 7), np.uint8))
     labels = np.where(probable | sure, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
     labels[middle > 0] = cv2.GC_FGD
     models = np.zeros((1, 65)), np.zeros((1, 65))
     cv2.setRNGSeed(1)
     cv2.grabCut(patch, labels, (0, 0, 1, 1), *models, 3, cv2.GC_INIT_WITH_MASK)
     inside = ((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.float32)
-    inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((5, 5))), (0, 0), 3)
+    inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((3, 3))), (0, 0), 2)
     region = np.zeros(rgb.shape[:2], np.float32)
     region[y0:y1, x0:x1] = cv2.resize(inside, (x1 - x0, y1 - y0), interpolation=cv2.INTER_LINEAR)
     return region
