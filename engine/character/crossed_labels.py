@@ -30,6 +30,8 @@ PALM, FINGERS = 0.045, 0.03
 """Metres that half the width of a hand has, at palm and bent fingers."""
 LENGTH = 0.13
 """Metres from the wrist to the middle of bent fingers."""
+RIM = 4.0
+"""Pixels of the grid from the person's outline in which no hand is tucked away."""
 STEPS = 24
 """Circles that make an arm from one joint to the next."""
 
@@ -70,6 +72,8 @@ def label_crossed(
     own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDES}
     covers = {side: arm.sleeve(mask.shape) & mask for side, arm in own.items()}
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
+    if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
+        hands[back] &= distance_inside(mask) > RIM
     reach = grown(hands[front] | covers[front], 2)
     seen = largest(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]

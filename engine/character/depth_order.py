@@ -78,6 +78,15 @@ def limb_behind(limb: Layer, before: Layer, hidden: NDArray[np.bool_]) -> Layer:
     return _moved(limb, -_gently(needed, limb.mask))
 
 
+def limb_around(before: Layer, limb: Layer, body: Layer, hidden: NDArray[np.bool_]) -> Layer:
+    """The limb with its back as far behind as it has to be where it hides another (`hidden` (h, w)) and no body is behind: a hand
+    that is tucked away is not seen from behind either."""
+    further = np.maximum(before.back.depth - limb.back.depth + BENEATH, 0)
+    needed = np.where(before.mask & limb.mask & hidden & ~body.mask, further, 0).astype(np.float32)
+    back = np.asarray(before.back.depth - _gently(needed, before.mask), np.float32)
+    return replace(before, back=Surface(back, before.back.weights))
+
+
 def _gently(needed: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
     """Pixels (h, w) by which a limb moves in depth, no less than `needed`, spread within its mask: it bends, but is not torn."""
     around = np.ones((4 * GENTLY + 1, 4 * GENTLY + 1), np.uint8)

@@ -19,6 +19,7 @@ from engine.character.depth_order import (
     body_behind,
     body_within,
     hand_beneath,
+    limb_around,
     limb_before,
     limb_behind,
     overlap_beneath,
@@ -75,11 +76,11 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         )
         layers.append(replace(beneath, limb=one.limb))
     if labels.behind is not None:
-        layers = _behind_the_other(layers, labels.behind, labels)
+        layers = _behind_the_other(layers, body, labels.behind, labels)
     return [body, *layers]
 
 
-def _behind_the_other(layers: Sequence[Layer], behind: Behind, labels: Labels) -> list[Layer]:
+def _behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labels: Labels) -> list[Layer]:
     """The layers of limbs with the arm that goes on `behind` the other beneath its surface there."""
     found = list(layers)
     place = {layer.limb: k for k, layer in enumerate(found)}
@@ -92,6 +93,8 @@ def _behind_the_other(layers: Sequence[Layer], behind: Behind, labels: Labels) -
             all_of_it = np.ones(len(moved.solid.vertices), np.bool_)
             moved = replace(moved, solid=moved.solid.moved(moved.front.depth, moved.back.depth, all_of_it))
         found[place[behind.limb]] = moved
+        if before.solid is None:
+            found[place[other]] = limb_around(before, moved, body, hidden)
     return found
 
 

@@ -12,7 +12,9 @@ from engine.character.depth_order import (
     body_behind,
     body_within,
     hand_beneath,
+    limb_around,
     limb_before,
+    limb_behind,
     overlap_beneath,
 )
 from engine.character.part_surface import Surface
@@ -62,6 +64,28 @@ def test_an_arm_bends_to_the_pocket_that_its_hand_is_in() -> None:
     assert (np.diff(along) >= 0).all() and np.diff(along).max() < 0.25
     np.testing.assert_array_equal(bent.front.depth[25, 30 + int(FOREARM) : 110], 16)
     assert hand_beneath(arm, body, np.zeros_like(hidden)) is arm
+
+
+def test_of_two_arms_that_cross_the_one_behind_is_beneath_the_other_where_that_hides_it() -> None:
+    before, hidden = slab(rectangle((20, 30), (5, 80)), 12.0, 4.0), rectangle((20, 30), (40, 60))
+    arm = slab(rectangle((18, 32), (40, 110)), 14.0, 8.0)
+    moved = limb_behind(arm, before, hidden)
+    deep = hidden & inner(before.mask)
+    assert (moved.front.depth[deep] <= 12 - BENEATH + 1e-5).all()
+    assert np.allclose((moved.front.depth - moved.back.depth)[arm.mask], 6), "as thick as it was"
+    assert np.allclose(moved.front.depth[25, 100:110], 14), "far from it nothing moves"
+    assert np.abs(np.diff(moved.front.depth[25, 62:110])).max() < 1, "it bends"
+
+
+def test_where_no_body_is_behind_an_arm_reaches_around_the_hand_that_it_hides() -> None:
+    before, hidden = slab(rectangle((20, 40), (5, 80)), 12.0, 4.0), rectangle((25, 35), (40, 60))
+    hand, body = slab(hidden, 2.0, -3.0), slab(rectangle((10, 50), (50, 110)), 6.0, -10.0)
+    around = limb_around(before, hand, body, hidden)
+    assert (around.back.depth[hidden & ~body.mask] <= -3 - BENEATH + 1e-5).all()
+    np.testing.assert_array_equal(around.front.depth, before.front.depth)
+    assert np.allclose(around.back.depth[30, 5:12], 4, atol=0.05), "far from it it is as thick as it was"
+    behind_the_body = limb_around(before, hand, slab(rectangle((10, 50), (5, 110)), 6.0, -10.0), hidden)
+    assert np.allclose(behind_the_body.back.depth[before.mask], 4)
 
 
 def test_a_limb_behind_the_body_stays_there() -> None:

@@ -10,6 +10,9 @@ from scipy.spatial.transform import Rotation
 from test_head_and_legs import standing
 
 from engine.body.parts import PARTS, vertex_parts
+from engine.character.crossed_labels import Behind
+from engine.character.label_map import Labels
+from engine.character.layers import _behind_the_other
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
@@ -99,3 +102,29 @@ def body() -> Layer:
 def nothing(limb: SolidLimb) -> tuple[Surface, Surface]:
     empty = np.zeros((*SHAPE, 0), np.float32)
     return Surface(limb.front, empty), Surface(limb.back, empty)
+
+
+def test_behind_the_other_arm_it_is_beneath_its_surface(
+    limb: SolidLimb, sleeve: NDArray[np.bool_], template: PosedTemplate
+) -> None:
+    right = PARTS.index("right_arm")
+    none, unused = np.zeros(SHAPE, np.bool_), np.zeros((*SHAPE, 1), np.float32)
+    rows = np.flatnonzero(sleeve.any(1))
+    lower = np.arange(SHAPE[0])[:, None] > rows.mean()
+    crossing = cv2.dilate((sleeve & lower).astype(np.uint8), np.ones((15, 15), np.uint8)) > 0
+    depth = np.where(crossing, 0, np.nan).astype(np.float32)
+    other = Layer(crossing, Surface(depth, unused), Surface(depth - 4, unused), limb=right)
+    own = Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused), solid=limb, limb=LEFT)
+    assert limb.vertices[:, 2].max() > 10, "it would come out of the other"
+    labels = np.where(crossing, right, np.where(sleeve, LEFT, -1)).astype(np.int8)
+    found = Labels(
+        labels, none, np.array([LEFT, right], np.int8), none, np.full(SHAPE, -1, np.int8), Behind(LEFT, sleeve, none)
+    )
+    nobody = Layer(none, Surface(depth, unused), Surface(depth, unused))
+    moved = _behind_the_other([other, own], nobody, Behind(LEFT, sleeve, none), found)[1]
+    assert moved.solid is not None
+    x, y = np.rint(moved.solid.vertices[:, :2]).astype(int).T
+    inside = cv2.erode((crossing & sleeve).astype(np.uint8), np.ones((7, 7), np.uint8))[y, x] > 0
+    assert inside.sum() > 20
+    assert moved.solid.vertices[inside, 2].max() < 0
+    assert is_closed(moved.solid.triangles)
