@@ -41,8 +41,10 @@ schemathesis.serializer.alias(["application/offset+octet-stream"], "application/
 
 @schemathesis.hook
 def filter_case(context: schemathesis.HookContext, case: schemathesis.Case) -> bool:
-    """A header that no document names is no fault of a request."""
-    return UNKNOWN not in case.headers
+    """A header that no document names is no fault of a request, nor is a number or a truth value in a form: there all that is no
+    file is text."""
+    form = case.media_type == "multipart/form-data" and isinstance(case.body, dict)
+    return UNKNOWN not in case.headers and not (form and any(isinstance(v, int | float) for v in case.body.values()))
 
 
 @schemathesis.hook
