@@ -26,7 +26,7 @@ BEGINS, FULL = 2.5, 3.1
 STIFFER = 10.0
 """By how much at most an edge is made stiffer in a round: how much more the difference of its ends' weights counts than what
 these were."""
-ROUNDS = 5
+ROUNDS = 7
 RINGS, FADING = 4, 0.8
 """How far around an edge others are made stiffer, in edges, and what is left of it with each."""
 EVERY = 10
