@@ -94,7 +94,6 @@ def _unseen(
     it as much as one pixel covers."""
     a, b, c = (posed[triangles[:, k]].astype(np.float64) for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    covered = np.maximum(
-        np.abs(projected_areas(projected, triangles)[seen]), 1 / SUBPIXELS
-    )  # finer than corners are placed
+    pixels = np.abs(projected_areas(projected, triangles)[seen])
+    covered = np.maximum(pixels, 1 / SUBPIXELS)  # finer than corners are placed
     return max(float(1 - (area[seen] / covered).sum() / max(float(area.sum()), 1e-12)), 0.0)

@@ -16,6 +16,7 @@ from engine.render.camera import Camera
 from engine.render.rasteriser import rasterise
 
 ROUNDS = 6
+"""How often points are drawn to their neighbours at most; a round that shows more backs than the one before is not taken."""
 
 
 def without_backs_in_view(character: Character, camera: Camera) -> Character:
