@@ -59,8 +59,8 @@ def turn(pictures: Path | None) -> None:
         table("Head turn: a scanned head as target, its disguised turn as driver, against the scan turned", head, rows)
     )
     print("\nL1 in [0, 1] over the true head; px: mean distance of 68 points at 256 px.")
-    print(f"Lines of a wall behind the turning head: off by {lines[0]:.2f} px at most outside the person (goal 0.5),")
-    print(f"{lines[1]:.2f} px in the mean where the head had hidden them ({lines[2]:.0%} of those are seen).")
+    print(f"Lines of a wall behind the turning head: off by {lines[0]:.2f} px at most outside the person (goal 0.5);")
+    print(f"where the head had hidden them {lines[1]:.2f} px at most ({lines[2]:.0%} of those are there).")
     if pictures is not None:
         pictures.mkdir(parents=True, exist_ok=True)
         sheet = np.vstack([np.hstack([row[i] for i in at[::2]]) for row in (true, made["2D"], made["3D"])])
@@ -78,8 +78,8 @@ def wall(shape: tuple[int, int]) -> NDArray[np.float64]:
 
 
 def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float, float, float]:
-    """Largest deviation of the wall's lines outside the person, pixels; the mean where the person at rest
-    (`covered`, the truth) had hidden them; and how many of those are there at all."""
+    """Largest deviation of the wall's lines outside the person, pixels; the same where the person at rest
+    (`covered`, the truth) had hidden them, of those that are there; and how many are."""
     plates = [np.full_like(acting.layers.plate, level) for level in (0, 255)]
     low, high = (replace(acting, layers=Layers(acting.layers.person, plate)) for plate in plates)
     outside: list[float] = [0.0]
@@ -92,7 +92,7 @@ def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float,
             outside += _line_errors(pixels, seen & (rest < 0.01)).tolist()
             hidden += _line_errors(pixels, seen & (rest > 0.5)).tolist()
     there = [e for e in hidden if np.isfinite(e)]
-    return max(outside), float(np.mean(there)) if there else 0.0, len(there) / max(len(hidden), 1)
+    return max(outside), max(there, default=0.0), len(there) / max(len(hidden), 1)
 
 
 def _line_errors(frame: NDArray[np.uint8], visible: NDArray[np.bool_]) -> NDArray[np.float64]:

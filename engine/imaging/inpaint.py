@@ -21,6 +21,7 @@ from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 from engine.imaging.seams import heal_seams
+from engine.imaging.straight_lines import continue_lines
 
 COARSEST = 120
 """Longest side, in pixels, of the coarsest picture."""
@@ -64,7 +65,9 @@ def background_plate(
         return np.broadcast_to(rgb.mean((0, 1)).astype(np.uint8), rgb.shape).copy()
     if reach is None:
         reach = 0.1 * float(np.sqrt(alpha.sum()))
-    filled = _fill(rgb.astype(np.float32), unknown, hole, reach + MARGIN * max(rgb.shape), seed)
+    reach += MARGIN * max(rgb.shape)
+    lines = continue_lines(rgb.astype(np.float32), unknown, reach)
+    filled = _fill(lines.picture, unknown & ~lines.painted, hole & ~lines.painted, reach, seed)
     return np.where(hole[..., None], np.clip(filled + 0.5, 0, 255), rgb).astype(np.uint8)
 
 
