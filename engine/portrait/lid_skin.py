@@ -22,12 +22,21 @@ CORNERS = ((33, 133), (263, 362))
 """Where both end."""
 HIGHER = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
+LOWER = ((7, 163, 144, 145, 153, 154, 155), (249, 390, 373, 374, 380, 381, 382))
+"""Vertices of the lower lid's edge."""
+CHEEKS = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
+"""Vertices of the cheek below the eye, in the light that a shut lid is in."""
 BEGINS = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
 ABOVE = 0.6
 """Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
 LIT = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
+DARKEST, DEEPER = 0.68, 0.35
+"""A lid's brightness as a share of the cheek's: what is above it is in the socket's shadow, which a shut lid is not. Of what
+it would be darker, this share is left."""
+FADES = 0.4
+"""Eye widths from a corner over which this comes in."""
 ACROSS = 0.15
 """Eye widths over which its colours are even from corner to corner ..."""
 GRAIN = 0.1
@@ -88,9 +97,35 @@ def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDAr
     by_light = np.argsort(-above.sum(axis=2), axis=0)[: max(1, round(LIT * height))]
     colours = np.take_along_axis(above, by_light[..., None], axis=0).mean(axis=0, keepdims=True)
     colours = cv2.GaussianBlur(colours, (0, 0), ACROSS * width, borderType=cv2.BORDER_REPLICATE)
+    colours = _out_of_the_shadow(colours, _cheek(rgb, mesh, side))
     grain = above - cv2.GaussianBlur(above, (0, 0), max(GRAIN * width, 0.5), borderType=cv2.BORDER_REPLICATE)
-    shading = 1 - SHADED * np.linspace(0, 1, height, dtype=np.float32)[:, None, None]
+    tall = max(
+        height, round(float(np.linalg.norm(_strip(mesh, side)[1:8] - mesh[list(LOWER[side]), :2], axis=1).mean()))
+    )
+    to_and_fro = np.arange(tall) % (2 * height)
+    grain = grain[np.minimum(to_and_fro, 2 * height - 1 - to_and_fro)]
+    shading = 1 - SHADED * np.linspace(0, 1, tall, dtype=np.float32)[:, None, None]
     return np.asarray(colours * shading + grain.clip(-FAINT, FAINT), np.float32)
+
+
+def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter, and nearer to its hue."""
+    least = DARKEST * float(cheek.mean())
+    bright = np.maximum(colours.mean(axis=2, keepdims=True), 1)
+    wanted = np.where(bright < least, least - DEEPER * (least - bright), bright)
+    own = bright / wanted
+    brighter = own * colours * (wanted / bright) + (1 - own) * cheek * (wanted / cheek.mean())
+    width = colours.shape[1]
+    from_corner = np.minimum(np.arange(width), np.arange(width)[::-1]) / (FADES * width)
+    middle = np.sin(np.pi / 2 * np.clip(from_corner, 0, 1))[:, None] ** 2
+    return np.asarray(colours + middle * (brighter - colours), np.float32)
+
+
+def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
+    """Mean colour (3,) of the cheek below an eye."""
+    area = np.zeros(rgb.shape[:2], np.uint8)
+    cv2.fillConvexPoly(area, cv2.convexHull(mesh[list(CHEEKS[side]), :2].round().astype(np.int32)), 1)
+    return np.asarray(cv2.mean(rgb, area)[:3], np.float32) + 1
 
 
 def _above(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:

@@ -9,7 +9,7 @@ from made_face import SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.portrait.eyes import closing, prepare_eyes
-from engine.portrait.lid_skin import FAINT, HIGHER, SHADED, STRIPS, draw_lid, lid_skins
+from engine.portrait.lid_skin import DARKEST, DEEPER, FAINT, HIGHER, SHADED, STRIPS, draw_lid, lid_skins
 
 FACE = placed(160, (250, 200))
 SIZE = (500, 600)
@@ -66,6 +66,30 @@ def test_its_grain_is_that_of_the_skin_above_without_lashes(side: int) -> None:
     cv2.line(picture, (x, y - 8), (x, y + 8), BLACK, 1)
     apart = lid_skins(picture, FACE)[side] - lid_skins(plain, FACE)[side]
     assert 2 < apart.std() < 5 and np.abs(apart).max() < FAINT + 8
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_lid_is_not_as_dark_as_the_socket_s_shadow(side: int) -> None:
+    picture = painted(FACE, SIZE)
+    above = [list(STRIPS[side][0]), list(HIGHER[side])]
+    band = np.concatenate([1.4 * FACE[above[1], :2] - 0.4 * FACE[above[0], :2], FACE[above[0][::-1], :2]])
+    shadow = np.array(SKIN) * 0.4
+    cv2.fillPoly(picture, [band.round().astype(np.int32)], shadow.round().astype(int).tolist())
+    skin = lid_skins(picture, FACE)[side]
+    middle = skin[0, skin.shape[1] // 2].mean() / np.mean(SKIN)
+    assert middle == pytest.approx(DARKEST - DEEPER * (DARKEST - 0.4), abs=0.05)
+    assert skin[0, 0].mean() < 0.5 * np.mean(SKIN), "nothing changes at the corners"
+
+
+def test_its_grain_is_not_drawn_out() -> None:
+    rng = np.random.default_rng(1)
+    picture = (painted(FACE, SIZE) + rng.normal(0, 4, (SIZE[1], SIZE[0], 1))).round().clip(0, 255).astype(np.uint8)
+    skin = lid_skins(picture, FACE)[0].mean(axis=2)
+    down = np.abs(np.diff(skin, axis=0)).mean()
+    across = np.abs(np.diff(skin, axis=1)).mean()
+    assert down == pytest.approx(across, rel=0.25)
+    edge, lower = FACE[STRIPS[0][1][3], :2], FACE[145, :2]
+    assert len(skin) > np.linalg.norm(lower - edge), "as tall as the eye that it covers"
 
 
 def test_it_begins_where_the_lid_begins_to_close() -> None:
