@@ -22,7 +22,7 @@ from engine.perception.landmarks import FACE_OVAL
 FINGERS = ("Pinky", "Index", "Thumb")
 AROUND = 0.175
 """How far around a hand's middle it is looked for, in lengths of a forearm."""
-MORE = 0.15
+MORE = 0.06
 """By how much more of its place one hand must show than the other to be the one that is seen."""
 MOST_SKIN = 0.5
 """Share of the sleeves that may look like skin; of bare arms nothing can be said."""

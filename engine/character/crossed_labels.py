@@ -26,6 +26,8 @@ NARROWEST, WIDEST = 0.045, 0.085
 """Metres that half the width of an arm at its elbow has, at least and at most."""
 SHOULDER, WRIST = 0.65, 0.75
 """Half the widths of an arm at shoulder and wrist, as shares of that at the elbow."""
+LOOSE, SAG = 1.2, 0.35
+"""A sleeve is wider than from the joint to the outline; that of the arm behind is seen below the other, and hangs."""
 PALM, FINGERS = 0.045, 0.03
 """Metres that half the width of a hand has, at palm and bent fingers."""
 LENGTH = 0.13
@@ -70,7 +72,7 @@ def label_crossed(
         skin = np.asarray(cv2.warpAffine(arms.skin.astype(np.float32), to_grid, size, flags=cv2.INTER_AREA)) > 0.5
     front, back = SIDES[arms.crossing.front], arms.behind
     own = {side: _Arm.of(side, figure, template, rig, to_grid, mask) for side in SIDES}
-    covers = {side: arm.sleeve(mask.shape) & mask for side, arm in own.items()}
+    covers = {side: arm.sleeve(mask.shape, SAG if side == back else 0.0) & mask for side, arm in own.items()}
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
     if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
         hands[back] &= distance_inside(mask) > RIM
@@ -112,12 +114,16 @@ class _Arm:
         inside = distance_inside(mask)
         x, y = np.clip(np.rint(elbow), 0, [mask.shape[1] - 1, mask.shape[0] - 1]).astype(int)
         metre = template.pixels_per_metre
-        wide = float(np.clip(inside[y, x], NARROWEST * metre, WIDEST * metre))
+        wide = LOOSE * float(np.clip(inside[y, x], NARROWEST * metre, WIDEST * metre))
         return cls(shoulder, elbow, wrist, wrist + LENGTH * metre * along, wide, metre)
 
-    def sleeve(self, shape: Sequence[int]) -> NDArray[np.bool_]:
+    def sleeve(self, shape: Sequence[int], sag: float = 0.0) -> NDArray[np.bool_]:
+        """The pixels (h, w) of the sleeve, which hangs below the forearm by `sag` of half its width."""
         upper = _tapered(shape, self.shoulder, self.elbow, SHOULDER * self.wide, self.wide)
-        return upper | _tapered(shape, self.elbow, self.wrist, self.wide, WRIST * self.wide)
+        for down in {0.0, sag * self.wide}:
+            elbow, wrist = (joint + np.array([0, down]) for joint in (self.elbow, self.wrist))
+            upper |= _tapered(shape, elbow, wrist, self.wide, WRIST * self.wide)
+        return upper
 
     def hand(self, shape: Sequence[int]) -> NDArray[np.bool_]:
         return _tapered(shape, self.wrist, self.fingers, PALM * self.metre, FINGERS * self.metre)

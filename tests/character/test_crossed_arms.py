@@ -56,6 +56,18 @@ def test_the_arm_whose_hand_is_seen_is_before_the_other(man: tuple[Figure, Silho
     assert metres > 0.06, "about as thick as an arm"
 
 
+def test_a_hand_that_shows_a_little_says_as_much(media: Media) -> None:
+    """A woman in a coat: cuff and wrist of her right hand are seen on her left sleeve, of the left one a finger's edge."""
+    figure, silhouette = seen(media("fullbody/woman_coat_beret.jpg"))
+    fitted = fit_template(figure, silhouette)
+    assert fitted.crossed is not None and fitted.crossed.behind == "Left"
+    labels = label(figure, silhouette, fitted, None, (), Limits(), quiet).labels
+    x, y = np.rint(silhouette.to_grid[:, :2] @ (357, 366) + silhouette.to_grid[:, 2]).astype(
+        int
+    )  # the button of its cuff
+    assert (labels[y - 3 : y + 4, x - 3 : x + 4] == RIGHT).all()
+
+
 @pytest.mark.parametrize("name", ["man_mug_arm_across.png", "man_skirt_hands_front.jpg", "iper_apose_0.jpg"])
 def test_an_arm_before_the_trunk_or_hands_that_meet_are_not_crossed_arms(media: Media, name: str) -> None:
     figure = find_figure(media(f"fullbody/{name}"), Choice(), True, Limits(), quiet)
