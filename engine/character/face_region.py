@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from engine.character.figure import Figure
 from engine.imaging.mask_distance import distance_inside
 
+RIGHT_EDGE, NOSE_TIP, LEFT_EDGE = 234, 1, 454
+"""Vertices of the face's mesh: before the ears, and at the tip of the nose."""
 BROW = 0.3
 """How far below the top of the head, hair included, a face begins, as a share of the head's height."""
 
@@ -36,6 +38,15 @@ def face_ellipse(figure: Figure, to_grid: NDArray[np.float64], head: NDArray[np.
     x, y = (eyes + mouth) / 2 + 0.1 * up
     wide = max(1.25 * length, 0.5 * float(np.linalg.norm(place["LeftEar"] - place["RightEar"])))
     return np.array([x, y, wide, 1.9 * length, turned], np.float32)
+
+
+def face_turn(figure: Figure) -> float:
+    """How far a face is turned: -1 fully to the picture's left, 0 to the viewer, 1 to the right, by where between its edges its
+    nose is; 0 where none is seen."""
+    if figure.face is None:
+        return 0.0
+    left, nose, right = (float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE, NOSE_TIP, LEFT_EDGE))
+    return float(np.clip((2 * nose - left - right) / max(right - left, 1e-6), -1, 1)) if right > left else 0.0
 
 
 def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.labels import COLOURS, Colours
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import distance_to, grown
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""
@@ -30,6 +30,8 @@ EDGE, CONTRAST = 4, 8.0
 """Pixels around a gap within which its edge is found, and levels by which colours differ there."""
 STEPS = 0.2
 """Share of a gap's edge at which colours differ by as much, at least: a fold in dark cloth fades into it."""
+FURTHER, ROUNDS = 0.05, 3
+"""How far a gap may go on beyond the piece that is found, as a share of the height; turns of GrabCut."""
 SURE = 0.85
 """The networks' mean belief in a person from which a piece is no gap: in one they waver, in the shade of a leg they do not."""
 
@@ -60,6 +62,7 @@ def gaps(
     found = _by_colour(small, mask, believed, inside & ~limbs & (mask > 0.5), limbs, height)
     if not found.any():
         return none
+    found = _up_to_edges(small, mask, found, limbs, height)
     around = grown(found, EDGE)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
     reach = max(2, round(EDGE / scale))
@@ -122,6 +125,38 @@ def _by_colour(
         if large and steps[own & edge].sum() >= STEPS * edge[own].sum():
             found |= own
     return found
+
+
+def _up_to_edges(
+    rgb: NDArray[np.uint8],
+    alpha: NDArray[np.float32],
+    found: NDArray[np.bool_],
+    limbs: NDArray[np.bool_],
+    height: float,
+) -> NDArray[np.bool_]:
+    """The gaps (h, w) with what is around them as far as it is background, too: a piece of what is asked ends in no edge of the
+    picture. By GrabCut (Rother et al. 2004), between the `found` and what is surely limb or trunk."""
+    near = distance_to(found) < FURTHER * height
+    rows, columns = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
+    margin = round(FURTHER * height)
+    box = tuple(slice(max(0, each[0] - margin), each[-1] + 1 + margin) for each in (rows, columns))
+    person = alpha[box] > 0.5
+    trimap = np.where(person, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
+    asked = near[box] & person & ~limbs[box]
+    trimap[asked] = cv2.GC_PR_FGD
+    trimap[found[box]] = cv2.GC_BGD
+    if not asked.any() or not (trimap == cv2.GC_FGD).any():
+        return found
+    cv2.setRNGSeed(1)
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    crop = np.ascontiguousarray(rgb[box])
+    cv2.grabCut(crop, trimap, None, models[0], models[1], ROUNDS, cv2.GC_INIT_WITH_MASK)  # type: ignore[call-overload]
+    background = np.isin(trimap, (cv2.GC_BGD, cv2.GC_PR_BGD)) & person
+    _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
+    joined = np.isin(pieces, np.unique(pieces[found[box]]))
+    grow = found.copy()
+    grow[box] |= background & joined
+    return grow
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

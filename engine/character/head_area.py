@@ -9,18 +9,27 @@ from numpy.typing import NDArray
 
 from engine.imaging.mask_distance import distance_inside
 
+LEVEL = 0.04
+"""How far above and below a level pixels are on it, in half axes of the face's oval."""
+
 
 @dataclass(frozen=True)
 class Head:
     """Where a head is, (h, w) each: its pixels; `out`: how far they are from the face's middle, in half axes of its oval;
     `up`: how far above it, as a share of the way to the top (below 0, to the chin); `depth`: how far from the outline,
-    pixels of the grid, each of which is `scale` pixels."""
+    pixels of the grid, each of which is `scale` pixels; `across`: how far to the right of the face's middle, in half axes."""
 
     mask: NDArray[np.bool_]
     out: NDArray[np.float32]
     up: NDArray[np.float32]
     depth: NDArray[np.float32]
     scale: float
+    across: NDArray[np.float32]
+
+    def width_at(self, up: float) -> float:
+        """How wide the head is so far above the face's middle, in widths of the face's oval; 0 where it is not."""
+        row = self.across[self.mask & (np.abs(self.up - up) < LEVEL)]
+        return float(np.ptp(row)) / 2 if len(row) else 0.0
 
 
 def measure_head(own: NDArray[np.bool_], mask: NDArray[np.bool_], face: NDArray[np.floating], scale: float) -> Head:
@@ -31,4 +40,4 @@ def measure_head(own: NDArray[np.bool_], mask: NDArray[np.bool_], face: NDArray[
     across = (np.cos(turn) * (columns - x) + np.sin(turn) * (rows - y)) / wide
     up = (np.sin(turn) * (columns - x) - np.cos(turn) * (rows - y)) / high
     depth = distance_inside(own) / scale
-    return Head(mask, np.hypot(across, up), up, depth.astype(np.float32), scale)
+    return Head(mask, np.hypot(across, up), up, depth.astype(np.float32), scale, across.astype(np.float32))

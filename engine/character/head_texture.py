@@ -29,6 +29,8 @@ NAPE = 0.55
 """How far below the face's middle the hair reaches at the back, as a share of the way to the chin."""
 BELOW, LONG = -0.6, 0.011
 """Which share of the head must be hair this far below the face's middle, if hair is long, and hides the neck from behind."""
+CHIN, FALLS, FAIR = -0.8, 1.3, 0.5
+"""Where a head that is so much wider than its face has hair that hangs; less of it must be seen there, by this factor."""
 INSIDE = 2.0
 """Pixels of the grid from the outline inward that may show what is behind the person."""
 SIDEBURNS = -0.4
@@ -43,6 +45,8 @@ HANGING = 0.3
 """Share of it that is above the chin, if it is hair that hangs down."""
 CLEARLY = 0.7
 """How much nearer to hair than to skin a colour must be."""
+SHINES = 0.5
+"""How near to hair's colours, rather than skin's, one that is amid hair must be at least."""
 MIXED, PURER, RIM = 0.2, 0.1, 8.0
 """How much of a colour at the outline may be the background's; how much more for each pixel of the grid inward, where
 that is less likely; and how far inward it is not possible."""
@@ -71,6 +75,7 @@ def back_of_the_head(
     own: NDArray[np.bool_],
     mask: NDArray[np.bool_],
     face: NDArray[np.floating],
+    turned: float,
     scale: float,
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     """The picture (h, w, 3) with the back of the head in the head's place; and the front (h, w, 3) that this joins at the
@@ -80,7 +85,8 @@ def back_of_the_head(
     ----------
     rgb : the person's colours; `seen` (h, w, 3): the picture with what is behind them.
     covered, own, mask : (h, w) where the person is at all, where the colours are all their own, and where the head is.
-    face : its oval, as centre x and y, half axes, and degrees by which it is turned.
+    face : its oval, as centre x and y, half axes, and degrees by which it is tilted.
+    turned : to which side it looks, as `face_region.face_turn` says.
     scale : pixels for each of the grid's.
     """
     margin = round(RIM * scale)
@@ -95,7 +101,7 @@ def back_of_the_head(
     hair = hair if hair.any() else _beside_the_oval(head)
     if hair.any():
         found = _back(rgb[box], hair, head, float(oval[3]))
-        back[box] = with_far_cheek(found, rgb[box], hair, head, float(oval[2]))
+        back[box] = with_far_cheek(found, rgb[box], hair, head, float(oval[2]), turned)
         front[box] = np.where(through[..., None], back[box], rgb[box])
     return back, front
 
@@ -147,8 +153,11 @@ def find_hair(
     from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (face, sample))
     found = sample | (own & (from_hair < np.minimum(CLEARLY * from_skin, 1.5 * ALIKE)))
     found = _beside_the_face(found, sample, head)
-    _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
-    found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
+    count, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
+    shines = own & ~np.isin(gaps, gaps[face | ~head.mask])
+    pale = np.bincount(gaps[shines], (from_skin < SHINES * from_hair)[shines], minlength=count)
+    ear = pale > 0.5 * np.bincount(gaps[shines], minlength=count)
+    found |= shines & ~ear[gaps]  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
     beside = distance_to(found) < CROWN * head.scale
     through = head.mask & mixed & (from_skin > ALIKE) & beside
@@ -238,7 +247,10 @@ def _interpolated(rgb: NDArray[np.uint8], known: NDArray[np.bool_], scale: float
 
 def _nape(hair: NDArray[np.bool_], head: Head) -> float:
     """How far above the face's middle (below 0) the hair ends at the back."""
-    long = (hair & (head.up < BELOW)).sum() > LONG * head.mask.sum()
+    least = LONG * head.mask.sum()
+    if head.width_at(CHIN) > FALLS:  # what hangs there is hardly told from skin where it is fair
+        least *= FAIR
+    long = (hair & (head.up < BELOW)).sum() > least
     return float(head.up[head.mask].min()) - 1 if long else -NAPE
 
 

@@ -15,7 +15,7 @@ from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.crossed_arms import without_hidden_hand
 from engine.character.crossed_labels import label_crossed
 from engine.character.doubts import doubt_labels, require_labels
-from engine.character.face_region import face_ellipse, within_oval
+from engine.character.face_region import face_ellipse, face_turn, within_oval
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
@@ -164,7 +164,8 @@ def make_character(
     face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
-    tiles = paint_tiles(figure.rgb, silhouette.alpha, silhouette.to_grid, labels, reach, shown, face, back)
+    alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, face_turn(figure)
+    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned)
     if face is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)

@@ -83,6 +83,7 @@ def paint_tiles(
     limbs_shown: NDArray[np.bool_],
     face: NDArray[np.float32] | None,
     back: BackTexture,
+    turned: float = 0.0,
 ) -> Tiles:
     """Paint the tiles.
 
@@ -95,6 +96,7 @@ def paint_tiles(
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
+    turned : to which side the face looks, as `face_region.face_turn` says.
     """
     limbs = _own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
     shape = limbs.shape
@@ -119,7 +121,7 @@ def paint_tiles(
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     beside = body
     if oval is not None and head.any():
-        behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, scale)
+        behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
     apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
     if (labels.hidden >= 0).any():
         near = grown(labels.hidden >= 0, SLIVER)

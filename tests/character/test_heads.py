@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import cv2
 import numpy as np
+import pytest
 
+from engine.character.face_region import face_turn
+from engine.character.head_area import measure_head
 from engine.character.head_sides import with_round_sides
-from engine.character.head_texture import back_of_the_head
+from engine.character.head_texture import _nape, back_of_the_head
 from engine.character.part_surface import Surface
 from engine.character.sheets import ClosedMesh, Layer, close
 from engine.geometry.welding import is_closed
@@ -40,7 +45,7 @@ def head(hair: tuple[int, ...], wall: tuple[int, ...], long: bool = False) -> tu
 
 
 def behind(rgb: np.ndarray, mask: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    back, front = back_of_the_head(rgb, rgb, mask, mask, mask, FACE, SCALE)
+    back, front = back_of_the_head(rgb, rgb, mask, mask, mask, FACE, 0.0, SCALE)
     return back.astype(float), front.astype(float)
 
 
@@ -129,7 +134,7 @@ def test_no_face_stays_behind_on_a_head_that_the_picture_cuts_off_at_the_brows()
     rgb, mask, _ = head(WHITE, PINK)
     cut = 88
     back, _ = back_of_the_head(
-        rgb[cut:], rgb[cut:], mask[cut:], mask[cut:], mask[cut:], FACE - [0, cut, 0, 0, 0], SCALE
+        rgb[cut:], rgb[cut:], mask[cut:], mask[cut:], mask[cut:], FACE - [0, cut, 0, 0, 0], 0.0, SCALE
     )
     eyes = back[8:17, 76:125].astype(float)
     assert away(eyes, (30, 30, 30)).min() > 100 and np.median(away(eyes, SKIN)) > 40
@@ -138,8 +143,48 @@ def test_no_face_stays_behind_on_a_head_that_the_picture_cuts_off_at_the_brows()
 def test_a_cheek_at_the_outline_goes_on_behind_it_and_hair_at_the_outline_does() -> None:
     rgb, mask, _ = head(BROWN, (150, 160, 170))
     turned = mask & (np.arange(200) > 68)  # the face's own edge is the outline now, on one side
-    back, _ = back_of_the_head(rgb, rgb, turned, turned, turned, FACE, SCALE)
+    back, _ = back_of_the_head(rgb, rgb, turned, turned, turned, FACE, -0.5, SCALE)
     rows = slice(105, 130)
     assert np.median(away(back[rows, 71:76].astype(float), SKIN)) < 45
     assert np.median(away(back[rows, 100:140].astype(float), BROWN)) < 40
     assert np.median(away(back[60:80, 72:130].astype(float), BROWN)) < 40
+
+
+@pytest.mark.parametrize("to", [0.0, 0.5])
+def test_what_is_at_the_outline_of_a_face_that_does_not_turn_away_there_is_an_ear(to: float) -> None:
+    rgb, mask, _ = head(BROWN, (150, 160, 170))
+    seen = mask & (np.arange(200) > 68)
+    back, _ = back_of_the_head(rgb, rgb, seen, seen, seen, FACE, to, SCALE)
+    assert np.median(away(back[105:130, 71:76].astype(float), BROWN)) < 40
+
+
+def test_a_far_cheek_in_the_shade_is_one_and_goes_on_as_skin() -> None:
+    rgb, mask, _ = head(BROWN, (150, 160, 170))
+    turned = mask & (np.arange(200) > 68)
+    rgb[100:125, 60:74] = np.array(SKIN) * 0.5  # an eye's corner, a shadow
+    back, _ = back_of_the_head(rgb, rgb, turned, turned, turned, FACE, -0.5, SCALE)
+    assert np.median(away(back[100:125, 72:76].astype(float), SKIN)) < 45
+
+
+@pytest.mark.parametrize(("nose", "turn"), [(150, 0.0), (180, 0.6), (110, -0.8), (300, 1.0)])
+def test_a_face_turns_to_where_its_nose_is(nose: float, turn: float) -> None:
+    face = np.full((478, 3), 150, np.float32)
+    face[[234, 1, 454], 0] = 100, nose, 200
+    assert face_turn(SimpleNamespace(face=face)) == pytest.approx(turn)  # type: ignore[arg-type]
+    assert face_turn(SimpleNamespace(face=None)) == 0  # type: ignore[arg-type]
+
+
+def test_fair_hair_of_which_little_is_told_from_skin_is_long_where_it_hangs_beside_the_face() -> None:
+    _, mask, there = head(BROWN, (150, 160, 170), long=True)
+    oval = measure_head(mask, mask, np.array(FACE, float), SCALE)
+    assert oval.width_at(-0.8) == pytest.approx(132 / 80, abs=0.1)
+    low = there & (oval.up < -0.6)
+    few = there & ~low
+    rows = np.cumsum(low, axis=0) * low
+    few |= low & (rows <= 3)
+    share = (few & (oval.up < -0.6)).sum() / mask.sum()
+    assert 0.0055 < share < 0.011
+    assert _nape(few, oval) < -1
+    _, narrow_mask, _ = head(BROWN, (150, 160, 170))
+    short = measure_head(narrow_mask, narrow_mask, np.array(FACE, float), SCALE)
+    assert _nape(few & narrow_mask, short) > -1
