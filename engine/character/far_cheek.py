@@ -46,8 +46,10 @@ def with_far_cheek(
         return back
     colours = cv2.cvtColor(cv2.GaussianBlur(rgb, (0, 0), max(scale, 1.0)), cv2.COLOR_RGB2LAB).astype(np.float32)
     skin, other = (np.median(colours[where], axis=0) for where in (middle, hair))
-    alike = np.linalg.norm(colours - skin, axis=-1) / np.maximum(np.linalg.norm(colours - other, axis=-1), 1e-6)
-    plain = cheek & (head.depth > 1.5) & (alike < LIKE)  # no eye, no shadow
+    fine = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float32)
+    plain = cheek & (head.depth > 1.5)  # no eye, no shadow
+    for shown in (colours, fine):
+        plain &= np.linalg.norm(shown - skin, axis=-1) < LIKE * np.linalg.norm(shown - other, axis=-1)
     if not plain.any():
         return back
     reach = WIDE * half_width

@@ -161,7 +161,7 @@ def test_what_is_at_the_outline_of_a_face_that_does_not_turn_away_there_is_an_ea
 def test_a_far_cheek_in_the_shade_is_one_and_goes_on_as_skin() -> None:
     rgb, mask, _ = head(BROWN, (150, 160, 170))
     turned = mask & (np.arange(200) > 68)
-    rgb[100:125, 60:74] = np.array(SKIN) * 0.5  # an eye's corner, a shadow
+    rgb[100:125, 60:74] = np.array(SKIN) * 0.45  # an eye's corner, a shadow
     back, _ = back_of_the_head(rgb, rgb, turned, turned, turned, FACE, -0.5, SCALE)
     assert np.median(away(back[100:125, 72:76].astype(float), SKIN)) < 45
 
