@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.labels import COLOURS, Colours
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import distance_inside, distance_to, grown
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""
@@ -30,8 +30,9 @@ EDGE, CONTRAST = 4, 8.0
 """Pixels around a gap within which its edge is found, and levels by which colours differ there."""
 STEPS = 0.2
 """Share of a gap's edge at which colours differ by as much, at least: a fold in dark cloth fades into it."""
-FURTHER, ROUNDS = 0.05, 3
-"""How far a gap may go on beyond the piece that is found, as a share of the height; turns of GrabCut."""
+FURTHER, CORE = 0.07, 0.015
+"""How far a gap may go on beyond the piece that is found, and how far within the joints' limbs and trunk it surely ends, as shares
+of the height."""
 SURE = 0.85
 """The networks' mean belief in a person from which a piece is no gap: in one they waver, in the shade of a leg they do not."""
 
@@ -134,29 +135,25 @@ def _up_to_edges(
     limbs: NDArray[np.bool_],
     height: float,
 ) -> NDArray[np.bool_]:
-    """The gaps (h, w) with what is around them as far as it is background, too: a piece of what is asked ends in no edge of the
-    picture. By GrabCut (Rother et al. 2004), between the `found` and what is surely limb or trunk."""
-    near = distance_to(found) < FURTHER * height
+    """The gaps (h, w) with what hangs together with them and is background by its colours, too: a piece of what is asked ends in
+    no edge of the picture, and joints' limbs are wider than some people's."""
+    reach = round(FURTHER * height)
+    near = distance_to(found) < reach
     rows, columns = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
-    margin = round(FURTHER * height)
-    box = tuple(slice(max(0, each[0] - margin), each[-1] + 1 + margin) for each in (rows, columns))
-    person = alpha[box] > 0.5
-    trimap = np.where(person, cv2.GC_FGD, cv2.GC_BGD).astype(np.uint8)
-    asked = near[box] & person & ~limbs[box]
-    trimap[asked] = cv2.GC_PR_FGD
-    trimap[found[box]] = cv2.GC_BGD
-    if not asked.any() or not (trimap == cv2.GC_FGD).any():
+    box = tuple(slice(max(0, each[0] - reach), each[-1] + 1 + reach) for each in (rows, columns))
+    person, gap = alpha[box] > 0.5, found[box]
+    asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height)
+    body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
+    if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < 10 * COLOURS:
         return found
-    cv2.setRNGSeed(1)
-    models = np.zeros((1, 65)), np.zeros((1, 65))
-    crop = np.ascontiguousarray(rgb[box])
-    cv2.grabCut(crop, trimap, None, models[0], models[1], ROUNDS, cv2.GC_INIT_WITH_MASK)  # type: ignore[call-overload]
-    background = np.isin(trimap, (cv2.GC_BGD, cv2.GC_PR_BGD)) & person
+    lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
+    like = np.zeros(asked.shape, np.float32)
+    like[asked] = Colours.of(lab[body]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
+    background = gap | (asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN))
     _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
-    joined = np.isin(pieces, np.unique(pieces[found[box]]))
-    grow = found.copy()
-    grow[box] |= background & joined
-    return grow
+    whole = found.copy()
+    whole[box] |= background & np.isin(pieces, np.unique(pieces[gap]))
+    return whole
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -77,3 +77,10 @@ def test_a_mask_that_has_the_gap_or_nobody_stays_as_it_is() -> None:
     rgb, mask, gap = person()
     assert (found(rgb, np.where(gap, 0, mask).astype(np.float32)) * ~gap > 0.5).sum() == 0
     assert found(rgb, np.zeros_like(mask)).max() == 0
+
+
+def test_a_gap_goes_on_where_the_joints_trunk_is_wider_than_the_person_s() -> None:
+    rgb, mask, gap = person()
+    wider = JOINTS | {"LeftHip": (255, 290), "LeftShoulder": (256, 110)}
+    share = gaps(rgb, mask, np.float32(0.6) * mask, lambda name: np.array(wider[name], np.float32))
+    assert ((share > 0.5) & gap).sum() > 0.9 * ((share > 0.5) | gap).sum()
