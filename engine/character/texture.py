@@ -53,6 +53,8 @@ SLIVER = 5
 NEARBY = 0.04
 """How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
 printed on a shirt's middle is not on its sides, too."""
+UP_AN_ARM = 0.07
+"""The same for what a limb is made of."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -188,11 +190,13 @@ def _of_the_limbs(
     seen: NDArray[np.uint8], own: NDArray[np.bool_], hole: NDArray[np.bool_], scale: float
 ) -> NDArray[np.uint8]:
     """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
-    colours of their inside; and the `hole` behind other limbs filled from it."""
+    colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
+    shoulder."""
     inside = distance_inside(own) / scale
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
-    return filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, own)
+    known = usual_colours(seen, own & (distance_to(hole) < UP_AN_ARM * hole.shape[0])) if hole.any() else own
+    return filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, known if known.any() else own)
 
 
 def _behind_another(

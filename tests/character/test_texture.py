@@ -11,7 +11,7 @@ from engine.character.label_map import Labels
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 from engine.character.sides import FOLDED, FURTHEST, places_on_the_picture
-from engine.character.texture import joined_at_the_outline, paint_tiles
+from engine.character.texture import _of_the_limbs, joined_at_the_outline, paint_tiles
 
 SAME = np.array([[1.0, 0, 0], [0, 1, 0]])
 GREEN, RED, BROWN, SKIN = (20, 160, 60), (210, 40, 30), (70, 45, 30), (230, 180, 150)
@@ -186,3 +186,15 @@ def test_behind_an_arm_that_hangs_a_shirt_has_no_print_and_beside_it_the_picture
     tiles = paint_tiles(rgb, (labels >= 0).astype(np.float32), SAME, found, arm, arm, None, "mirror")
     assert tiles.body[arm].max() < 90
     np.testing.assert_array_equal(tiles.body[40:360, 70:160], rgb[40:360, 70:160])
+
+
+def test_where_an_arm_comes_out_from_behind_the_body_it_is_of_what_is_near_and_no_hand() -> None:
+    seen = np.full((200, 160, 3), 90, np.uint8)
+    own, hole = np.zeros((2, 200, 160), np.bool_)
+    own[60:160, 20:50] = True
+    sleeve, skin = (40, 60, 130), (225, 180, 150)
+    seen[60:130, 20:50], seen[130:160, 20:50] = sleeve, skin
+    hole[40:60, 20:70] = True
+    made = _of_the_limbs(seen, own, hole, 1.0)
+    assert np.abs(made[hole].astype(int) - sleeve).max() < 12
+    np.testing.assert_array_equal(made[135:155, 25:45], seen[135:155, 25:45])
