@@ -15,13 +15,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 from engine.imaging.seams import heal_seams
-from engine.imaging.straight_lines import continue_lines
 
 COARSEST = 120
 """Longest side, in pixels, of the coarsest picture."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from engine.imaging.continued_lines import continue_lines
 from engine.imaging.inpaint import background_plate
-from engine.imaging.straight_lines import continue_lines
 
 SIZE = 200
 CENTRE = (SIZE - 1) / 2
@@ -114,3 +114,12 @@ def test_a_grid_behind_a_head_is_straight_in_the_plate():
     hole = disc()
     plate = background_plate(np.where(hole[..., None], np.uint8(40), truth), hole.astype(np.float32))
     assert np.abs(plate.astype(float) - truth).mean(axis=2)[hole].mean() < 3
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 60), (9, 9), (60, 12)])
+def test_pictures_too_small_for_a_line_are_left(size: tuple[int, int]) -> None:
+    hole = np.zeros(size, bool)
+    hole[: (size[0] + 1) // 2, : (size[1] + 1) // 2] = True
+    picture = np.full((*size, 3), 90, np.float32)
+    picture[:, size[1] // 2] = 200
+    assert not continue_lines(picture, hole, reach=10).painted.any()
