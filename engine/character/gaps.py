@@ -63,7 +63,7 @@ def gaps(
     found = _by_colour(small, mask, believed, inside & ~limbs & (mask > 0.5), limbs, height)
     if not found.any():
         return none
-    found = _up_to_edges(small, mask, found, limbs, height)
+    found = _to_their_ends(small, mask, found, limbs, height)
     around = grown(found, EDGE)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
     reach = max(2, round(EDGE / scale))
@@ -110,9 +110,7 @@ def _by_colour(
     own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
     if min(int(own.sum()), int(behind.sum()), int(asked.sum())) < 10 * COLOURS:
         return found
-    like = np.zeros(asked.shape, np.float32)
-    like[asked] = Colours.of(lab[own]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
-    likely = asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN)
+    likely = _likely(lab, asked, own, behind)
     count, pieces, stats, _ = cv2.connectedComponentsWithStats(likely.astype(np.uint8), connectivity=4)
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (person > 0) & ~likely
@@ -128,15 +126,15 @@ def _by_colour(
     return found
 
 
-def _up_to_edges(
+def _to_their_ends(
     rgb: NDArray[np.uint8],
     alpha: NDArray[np.float32],
     found: NDArray[np.bool_],
     limbs: NDArray[np.bool_],
     height: float,
 ) -> NDArray[np.bool_]:
-    """The gaps (h, w) with what hangs together with them and is background by its colours, too: a piece of what is asked ends in
-    no edge of the picture, and joints' limbs are wider than some people's."""
+    """The gaps (h, w) with what hangs together with them and is background by its colours, too: they go on where joints' limbs and
+    trunk are wider than the person's."""
     reach = round(FURTHER * height)
     near = distance_to(found) < reach
     rows, columns = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
@@ -147,13 +145,21 @@ def _up_to_edges(
     if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < 10 * COLOURS:
         return found
     lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
-    like = np.zeros(asked.shape, np.float32)
-    like[asked] = Colours.of(lab[body]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
-    background = gap | (asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN))
+    background = gap | _likely(lab, asked, body, behind)
     _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
     whole = found.copy()
     whole[box] |= background & np.isin(pieces, np.unique(pieces[gap]))
     return whole
+
+
+def _likely(
+    lab: NDArray[np.float64], asked: NDArray[np.bool_], own: NDArray[np.bool_], behind: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """What of the pixels that are `asked` (h, w) has the colours (h, w, 3) of what is `behind` (h, w), rather than the person's `own`
+    (h, w)."""
+    like = np.zeros(asked.shape, np.float32)
+    like[asked] = Colours.of(lab[own]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
+    return np.asarray(asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN))
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

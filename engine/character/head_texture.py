@@ -45,8 +45,6 @@ HANGING = 0.3
 """Share of it that is above the chin, if it is hair that hangs down."""
 CLEARLY = 0.7
 """How much nearer to hair than to skin a colour must be."""
-SHINES = 0.5
-"""How near to hair's colours, rather than skin's, one that is amid hair must be at least."""
 MIXED, PURER, RIM = 0.2, 0.1, 8.0
 """How much of a colour at the outline may be the background's; how much more for each pixel of the grid inward, where
 that is less likely; and how far inward it is not possible."""
@@ -153,11 +151,8 @@ def find_hair(
     from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (face, sample))
     found = sample | (own & (from_hair < np.minimum(CLEARLY * from_skin, 1.5 * ALIKE)))
     found = _beside_the_face(found, sample, head)
-    count, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
-    shines = own & ~np.isin(gaps, gaps[face | ~head.mask])
-    pale = np.bincount(gaps[shines], (from_skin < SHINES * from_hair)[shines], minlength=count)
-    ear = pale > 0.5 * np.bincount(gaps[shines], minlength=count)
-    found |= shines & ~ear[gaps]  # a lock that shines, within
+    _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
+    found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
     beside = distance_to(found) < CROWN * head.scale
     through = head.mask & mixed & (from_skin > ALIKE) & beside

@@ -130,9 +130,8 @@ def _laid_through(scene: _Scene, line: Line) -> Line | None:
         shift = np.clip(-(level @ slope) / max(float(slope @ slope), 1e-6), -1, 1)[like]
         t = (strip.start + np.flatnonzero(near))[like].astype(float)
         turn, move = np.polyfit(t, shift, 1)
-        move += float(
-            (np.arange(len(slope)) / FINE - HALF_WIDTH) @ slope**2 / (slope @ slope)
-        )  # both edges of a thin one
+        offsets = np.arange(len(slope)) / FINE - HALF_WIDTH
+        move += float(offsets @ slope**2 / (slope @ slope))  # to the middle between both edges of a thin one
         direction = line.direction + turn * line.normal
         line = Line(line.point + move * line.normal, direction / np.linalg.norm(direction))
     return line

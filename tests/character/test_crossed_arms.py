@@ -62,10 +62,10 @@ def test_a_hand_that_shows_a_little_says_as_much(media: Media) -> None:
     fitted = fit_template(figure, silhouette)
     assert fitted.crossed is not None and fitted.crossed.behind == "Left"
     labels = label(figure, silhouette, fitted, None, (), Limits(), quiet).labels
-    x, y = np.rint(silhouette.to_grid[:, :2] @ (357, 366) + silhouette.to_grid[:, 2]).astype(
-        int
-    )  # the button of its cuff
-    assert (labels[y - 3 : y + 4, x - 3 : x + 4] == RIGHT).all()
+    cuffs = {RIGHT: (357, 366), LEFT: (350, 408)}  # the lower one hangs below its forearm
+    for arm, cuff in cuffs.items():
+        x, y = np.rint(silhouette.to_grid[:, :2] @ cuff + silhouette.to_grid[:, 2]).astype(int)
+        assert (labels[y - 2 : y + 3, x - 2 : x + 3] == arm).all()
 
 
 @pytest.mark.parametrize("name", ["man_mug_arm_across.png", "man_skirt_hands_front.jpg", "iper_apose_0.jpg"])
