@@ -150,7 +150,7 @@ def test_a_cheek_at_the_outline_goes_on_behind_it_and_hair_at_the_outline_does()
     assert np.median(away(back[60:80, 72:130].astype(float), BROWN)) < 40
 
 
-@pytest.mark.parametrize("to", [0.0, 0.5])
+@pytest.mark.parametrize("to", [-0.1, 0.0, 0.5])
 def test_what_is_at_the_outline_of_a_face_that_does_not_turn_away_there_is_an_ear(to: float) -> None:
     rgb, mask, _ = head(BROWN, (150, 160, 170))
     seen = mask & (np.arange(200) > 68)

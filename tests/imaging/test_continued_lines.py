@@ -100,6 +100,14 @@ def test_what_is_no_line_that_ends_there_is_left(name):
     assert not continue_lines(covered(picture, hole), hole, reach=10).painted.any()
 
 
+@pytest.mark.parametrize(("degrees", "goes_on"), [(3, False), (8, False), (25, True)])
+def test_a_line_that_only_grazes_the_hole_is_left(degrees: float, goes_on: bool) -> None:
+    hole = np.zeros((SIZE, SIZE), bool)
+    hole[: SIZE // 2] = True
+    found = continue_lines(covered(thin_line(degrees), hole), hole, reach=30)
+    assert found.painted.any() == goes_on
+
+
 def test_a_hole_that_is_everything_and_one_that_is_nothing():
     picture = thin_line(10)
     for hole in (np.ones((SIZE, SIZE), bool), np.zeros((SIZE, SIZE), bool)):
