@@ -15,11 +15,15 @@ from scipy.ndimage import gaussian_filter1d
 from engine.character.free_cloth import FreeCloth
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
+from engine.imaging.mask_distance import grown
 
 STEEPEST = 0.7
 """By how much half of the depth may grow with a step down."""
 BOXY = 2.2
 """Exponent of the cross-section, a superellipse: of 2 it would be an ellipse."""
+
+OPEN = 3.0
+"""How far cloth is open from beneath, in units of that over which it changes along the body."""
 
 
 def drape(body: Layer, cloth: FreeCloth) -> Layer:
@@ -40,7 +44,21 @@ def drape(body: Layer, cloth: FreeCloth) -> Layer:
             own = depth[row, columns]
             depth[row, columns] = own + share[k] * (middle[k] + towards * height - own)
     front, back = (Surface(depth, side.weights) for depth, side in zip(depths, (body.front, body.back), strict=True))
-    return replace(body, front=front, back=back)
+    return replace(body, front=front, back=back, hem=_hem(body.mask, cloth) if cloth.hangs else None)
+
+
+def _hem(mask: NDArray[np.bool_], cloth: FreeCloth) -> NDArray[np.float32]:
+    """How far cloth is open from beneath at its hem, pixels; 0 elsewhere (h, w)."""
+    first = cloth.rings[-1].row
+    if cloth.legs is not None and cloth.parted:
+        first = min(first, int(np.flatnonzero((cloth.legs >= 0).any(1))[0]) - 1)
+    hem = mask & cloth.worn & grown(~mask, 1)
+    hem[:first] = False
+    up, within = np.zeros(mask.shape, np.float32), hem
+    for step in range(1, round(OPEN * cloth.even) + 1):
+        within = within & np.roll(mask, step, 0)
+        up += within
+    return up
 
 
 def _hanging(half: NDArray[np.float64], steepest: float) -> NDArray[np.float64]:

@@ -37,7 +37,7 @@ TROUSERS = 0.75
 @dataclass(frozen=True)
 class Ring:
     """The cloth in one row of pixels: its `first` and `last` column, the `middle` of its depth and `half` of it, in pixels,
-    and how freely it hangs, `share` in [0, 1]."""
+    and how freely it hangs, `share` in [0, 1]. `legs`: the columns of the left and the right leg in it; NaN where one is not seen."""
 
     row: int
     first: int
@@ -45,6 +45,7 @@ class Ring:
     middle: float
     half: float
     share: float
+    legs: tuple[float, float]
 
     @property
     def width(self) -> int:
@@ -60,7 +61,8 @@ class FreeCloth:
     """What is `worn` (h, w), and its `rings`, row by row from the waist down, the first `above` of them above the crotch. It
     `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or trousers', and may
     `go_on` in legs. `lower` (h, w): what hangs beneath the last ring between and beside the legs. `even`: pixels over which
-    cloth changes along the body."""
+    cloth changes along the body. `legs` (h, w): the leg, an index of `PARTS`, that comes out from under it there, -1 elsewhere;
+    None where none is apart from it."""
 
     worn: NDArray[np.bool_]
 
@@ -70,6 +72,12 @@ class FreeCloth:
     goes_on: bool
     lower: NDArray[np.bool_]
     even: float
+    legs: NDArray[np.int8] | None = None
+
+    @property
+    def parted(self) -> bool:
+        """Whether legs that come out from under it are apart from it."""
+        return self.legs is not None and bool((self.legs >= 0).any())
 
     def rows(self) -> Iterator[tuple[int, int, NDArray[np.intp]]]:
         """Each row of it: the index of its ring, the row, its columns. What is lower is of the last ring."""
@@ -159,8 +167,14 @@ def _rings(
         if rings and share < LOOSE and width < HEM * max(ring.width for ring in rings[-LATELY:]):
             break
         near, far = float(np.nanmax(nearest[row, there])), float(np.nanmin(furthest[row, there]))
-        rings.append(Ring(row, *piece, (near + far) / 2, max((near - far) / 2, ROUND * width / 2), share))
+        legs = _middle(left[row]), _middle(right[row])
+        rings.append(Ring(row, *piece, (near + far) / 2, max((near - far) / 2, ROUND * width / 2), share, legs))
     return rings
+
+
+def _middle(row: NDArray[np.bool_]) -> float:
+    """The mean column of a row (w,); NaN where it is empty."""
+    return float(np.flatnonzero(row).mean()) if row.any() else float("nan")
 
 
 def _looseness(cloth: NDArray[np.bool_], template: NDArray[np.bool_], first: int, end: int) -> float:

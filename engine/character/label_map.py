@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.crossed_labels import ArmLabels, Behind
+from engine.character.free_cloth import FreeCloth
 from engine.character.hair_behind_arms import hair_behind_arms
 from engine.character.labels import (
     ARMS,
@@ -37,7 +38,8 @@ class Labels:
     """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
     limbs pass before others; `apart`: those that do, a leg that crosses before the other first, then arms; `parting`
     (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
-    there, or behind other cloth, -1 elsewhere; `behind`: of crossed arms the one that the other hides."""
+    there, or behind other cloth, -1 elsewhere; `behind`: of crossed arms the one that the other hides; `cloth`: what goes round
+    both legs."""
 
     labels: NDArray[np.int8]
     occlusion: NDArray[np.bool_]
@@ -45,6 +47,22 @@ class Labels:
     parting: NDArray[np.bool_]
     hidden: NDArray[np.int8]
     behind: Behind | None = None
+    cloth: FreeCloth | None = None
+
+    @property
+    def layered(self) -> Labels:
+        """The same of what is made in one piece: a skirt or a coat is the trunk's, and legs that come out from under it are
+        apart."""
+        if self.cloth is None or self.cloth.legs is None or not self.cloth.parted:
+            return self
+        legs = self.cloth.legs
+        clothed = np.where(np.isin(self.labels, LEGS), PARTS.index("torso"), self.labels)
+        return replace(
+            self,
+            labels=np.where(legs >= 0, legs, clothed).astype(np.int8),
+            apart=np.concatenate([np.unique(legs[legs >= 0]), self.apart]).astype(np.int8),
+            parting=np.zeros_like(self.parting),
+        )
 
 
 def label_parts(

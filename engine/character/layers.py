@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.crossed_labels import Behind
 from engine.character.depth_order import (
@@ -26,10 +25,10 @@ from engine.character.depth_order import (
 )
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
-from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.legs import cut_along, each_by_its_own
+from engine.character.legs_beneath import going_with, legs_beneath
 from engine.character.occlusion import largest
 from engine.character.part_surface import Surface, Warp, part_surface, warp_part
 from engine.character.posed_template import PosedTemplate
@@ -46,14 +45,15 @@ LEAST = 50
 
 
 def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None) -> list[Layer]:
-    """The body first, its head by its `face` if there is one; then each limb that is apart and large enough."""
-    apart = [int(limb) for limb in labels.apart if largest(labels.labels == limb).sum() >= LEAST]
+    """The body first, its head by its `face` if there is one; then legs that come out from under its cloth, and each limb that
+    is apart and large enough. `labels`: taken apart (`Labels.layered`)."""
+    beneath = [leg for leg in legs_beneath(labels, template, rig) if leg.mask.sum() >= LEAST]
+    legs = [leg.limb for leg in beneath]
+    apart = [int(limb) for limb in labels.apart
+             if limb not in legs and largest(labels.labels == limb).sum() >= LEAST]  # fmt: skip
     region, limbs = find_regions(labels, apart, template, rig)
-    crossing = [limb for limb in apart if limb in LEGS]
-    cloth = _around_legs(region, labels, apart, template, rig)
-    if crossing and cloth and cloth.hangs:  # what goes round both legs is one piece with them
-        return build_layers(replace(labels, apart=np.setdiff1d(labels.apart, crossing)), template, rig, face)
-    parting = labels.parting & (not crossing)
+    cloth = labels.cloth
+    parting = labels.parting & (not any(limb in LEGS for limb in apart))
     parting[: cloth.rings[-1].row + 1 if cloth else 0] = False
     body = replace(_layer(region, template, rig, face), cut=cut_along(labels.labels, parting))
     body = each_by_its_own(body, labels.labels, parting, rig)
@@ -61,6 +61,10 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         body = moved_by_both(drape(body, cloth), cloth, rig)
     layers = []
     solid = solid_arms(template, rig)
+    for leg in beneath:
+        own = labels.labels == leg.limb
+        under = overlap_beneath(going_with(_layer(leg, template, rig), body, own), body, own)
+        layers.append(replace(under, limb=leg.limb))
     for one in limbs:
         own = labels.labels == one.limb
         if one.limb in solid and not (labels.hidden == one.limb).any():
@@ -71,10 +75,10 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         if one.limb in LEGS:
             body = body_within(body, limb, own & one.joint)
         limb = limb_before(limb, body, own)
-        beneath = (
+        beneath_it = (
             overlap_beneath(limb, body, own) if limb.solid is None else _solid_beneath(limb, body, own | ~one.joint)
         )
-        layers.append(replace(beneath, limb=one.limb))
+        layers.append(replace(beneath_it, limb=one.limb))
     if labels.behind is not None:
         layers = _behind_the_other(layers, body, labels.behind, labels)
     return [body, *layers]
@@ -96,20 +100,6 @@ def _behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labe
         if before.solid is None:
             found[place[other]] = limb_around(before, moved, body, hidden)
     return found
-
-
-def _around_legs(
-    body: Region, labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig
-) -> FreeCloth | None:
-    """The cloth that goes round both legs, one that crosses before the other included."""
-    part = vertex_parts(rig)[template.triangles]
-    crossing = [limb for limb in apart if limb in LEGS]
-    clothed = body.triangles | np.isin(part, crossing).any(1)
-    sides = template.sides(clothed, body.mask.shape)
-    shown = np.where(sides.front.mask, part[:, 0][clothed][sides.front.raster.triangle], -1)
-    bare = [arm for arm in ARMS if arm not in apart]
-    cloth = (body.mask | np.isin(labels.labels, crossing)) & ~np.isin(labels.labels, bare)
-    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting)
 
 
 def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None = None) -> Layer:

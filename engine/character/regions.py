@@ -8,7 +8,7 @@ the other.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -53,11 +53,26 @@ class LimbRegion(Region):
 def find_regions(
     labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig
 ) -> tuple[Region, list[LimbRegion]]:
-    """The body's region and those of the limbs that are `apart` (indices of `PARTS`), in their order."""
+    """The body's region and those of the limbs that are `apart` (indices of `PARTS`), in their order; the body ends where
+    legs come out from under its cloth."""
     part = vertex_parts(rig)[template.triangles]
     limbs = [_limb_region(labels, limb, apart, template, rig, part) for limb in apart]
     own = np.logical_or.reduce([(~np.isin(part, apart)).any(1), *(limb.overlap for limb in limbs)])
+    legs = None if labels.cloth is None else labels.cloth.legs
+    if legs is not None:
+        own &= ~_below(legs, template, part)
+        labels = replace(labels, labels=np.where(legs >= 0, -1, labels.labels))
     return Region(_body(labels, limbs, template, part, own), own), limbs
+
+
+def _below(legs: NDArray[np.int8], template: PosedTemplate, part: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """The template's triangles (T,) of legs below the hem from under which they come (`legs` (h, w), -1 elsewhere)."""
+    below = np.zeros(len(part), np.bool_)
+    for leg in np.unique(legs[legs >= 0]):
+        own = legs == leg
+        hem = float(np.median(own.argmax(0)[own.any(0)]))
+        below |= (part == leg).all(1) & (template.vertices[template.triangles, 1].min(1) > hem)
+    return below
 
 
 def limb_in_one_piece(

@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from types import MappingProxyType
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from engine.character.part_surface import Surface
+from engine.character.sheet_border import joining_strip, open_edges, smoothed_border, to_the_edge
 from engine.character.solid_limb import SolidLimb, places_on_the_picture
 from engine.render.rasteriser import rasterise
 
@@ -28,24 +28,20 @@ FORWARD = 0.2
 """Pixels by which a limb lies before the body where both have the same depth: about the joint they overlap."""
 APART = 0.02
 """Pixels of depth between the two sides of a cut, which are otherwise in one place."""
-OUT = 1.2
-"""Pixels by which the border may move to the mask's edge."""
-STEPS, LEAST_SLOPE = 25, 0.1
-"""In how many places the edge is looked for, and how steep the mask must be there (a pixel)."""
-BORDER_SWEEPS = 3
-"""How often the border is smoothed: a silhouette of pixels is jagged."""
 
 
 @dataclass(frozen=True)
 class Layer:
     """One part: its pixels `mask` (H, W) and both its sides. `cut` (H, W) int8, if it is cut: where a 1 lies beside a 2 the
     part is not joined (one leg and the other). `solid`: what the part is made of in place of a sheet. `limb`: which that is, an
-    index of `PARTS`; -1 for the body."""
+    index of `PARTS`; -1 for the body. `hem` (H, W): where more than 0, border is a hem: front and back end there as far apart as
+    they are, and inside they are joined so many pixels further up."""
 
     mask: NDArray[np.bool_]
     front: Surface
     back: Surface
     cut: NDArray[np.int8] | None = None
+    hem: NDArray[np.float32] | None = None
     solid: SolidLimb | None = None
     limb: int = -1
 
@@ -95,7 +91,7 @@ def close(
     """
     places, owners, sources, triangles = _sheet(layers)
     count = len(places)
-    rim = _rim(triangles, count)
+    rim = open_edges(triangles, count)
     border = np.zeros(count, np.bool_)
     border[rim.ravel()] = True
     ys, xs = places.T
@@ -112,29 +108,38 @@ def close(
     for one in weights:
         one[border] = shared[border]
     middle = (z[0] + z[1]) / 2 + FORWARD * owners + APART * (sources != places).any(1)
+    up = np.zeros(count)
+    for k, layer in enumerate(layers):
+        if layer.hem is not None:
+            up[owners == k] = layer.hem[ys, xs][owners == k]
+    hem = np.zeros(count, np.bool_)
+    hem[rim[(up[rim] > 0).all(1)].ravel()] = True
     half = np.maximum((z[0] - z[1]) / 2, THINNEST)
-    half[border] = EDGE
-    points = _smoothed(np.stack([xs, ys, middle], 1).astype(np.float64), rim)
+    half[border & ~hem] = EDGE
+    points = smoothed_border(np.stack([xs, ys, middle], 1).astype(np.float64), rim)
     for k, layer in enumerate(layers):
         if (own := border & (owners == k)).any():
-            points[own, :2] = _to_the_edge(points[own, :2], np.minimum(soft, limbs.get(layer.limb, soft)))
+            points[own, :2] = to_the_edge(points[own, :2], np.minimum(soft, limbs.get(layer.limb, soft)))
     deep = np.outer(half, [0, 0, 1])
     edge = np.unique(rim)  # once more, for the strip between the sheets, which is coloured as the front is
-    again = np.full(count, -1)
+    inside = np.flatnonzero(hem)
+    again, within = np.full((2, count), -1)
     again[edge] = 2 * count + np.arange(len(edge))
-    a, b = rim.T
-    strip = np.concatenate([np.stack([b, a, again[a]], 1), np.stack([b, again[a], again[b]], 1)])
-    bones, kept = strongest(np.concatenate([*weights, weights[1][edge]]))
+    within[inside] = 2 * count + len(edge) + np.arange(len(inside))
+    strip = joining_strip(rim, again, within)
+    of = np.concatenate([np.arange(count), np.arange(count), edge, inside])
+    further_up = points[inside] - np.outer(up[inside], [0, 1, 0])
+    bones, kept = strongest(np.concatenate([*weights, weights[1][edge], weights[1][inside]]))
     sheets = ClosedMesh(
-        vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge]]),
+        vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge], further_up]),
         triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
-        front=np.repeat([True, False, True], [count, count, len(edge)]),
-        rim=np.concatenate([border, border, np.ones(len(edge), np.bool_)]),
-        layer=np.concatenate([owners, owners, owners[edge]]),
-        limb=np.array([layer.limb for layer in layers], np.int8)[np.concatenate([owners, owners, owners[edge]])],
+        front=np.repeat([True, False, True], [count, count, len(edge) + len(inside)]),
+        rim=np.concatenate([border, border, np.repeat([True, False], [len(edge), len(inside)])]),
+        layer=owners[of],
+        limb=np.array([layer.limb for layer in layers], np.int8)[owners[of]],
         bones=bones,
         weights=kept,
-        places=np.full((2 * count + len(edge), 2), np.nan),
+        places=np.full((len(of), 2), np.nan),
     )
     return _with_solids(sheets, layers)
 
@@ -218,7 +223,7 @@ def _parted(
 def _without_pinches(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     """Triangles without those around vertices where the sheet is joined by nothing but that vertex."""
     while True:
-        passes = np.bincount(_rim(triangles, count).ravel(), minlength=count)
+        passes = np.bincount(open_edges(triangles, count).ravel(), minlength=count)
         pinched = passes > 2
         if not pinched.any():
             return triangles
@@ -235,49 +240,3 @@ def _blocks(a: NDArray[np.intp], b: NDArray[np.intp], c: NDArray[np.intp], d: ND
         three = there[i] & there[j] & there[k] & ~there[missing]
         found.append(np.stack([corners[n][three] for n in (i, j, k)], 1))
     return np.concatenate(found)
-
-
-def _rim(triangles: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """Edges (E, 2) that only one triangle has, as it turns."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    there, back = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
-    return edges[~np.isin(there, back)]
-
-
-def _to_the_edge(points: NDArray[np.float64], soft: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Points (N, 2) moved along the mask's slope to the nearest place where it is 0.5; those without one within `OUT` stay."""
-    slope = [
-        np.asarray(cv2.Sobel(soft, cv2.CV_32F, *step, ksize=3, scale=1 / 8), np.float32) for step in ((1, 0), (0, 1))
-    ]
-    across = np.stack([_sampled(one, points[None])[0] for one in slope], 1)
-    steep = np.linalg.norm(across, axis=1)
-    across /= np.maximum(steep, 1e-6)[:, None]
-    steps = np.linspace(-OUT, OUT, STEPS)
-    above = _sampled(soft, points[None] + steps[:, None, None] * across[None]) - 0.5
-    crosses = above[:-1] * above[1:] <= 0
-    share = above[:-1] / np.where(above[:-1] == above[1:], 1, above[:-1] - above[1:])
-    place = np.where(crosses, steps[:-1, None] + share * (steps[1] - steps[0]), np.inf)
-    nearest = np.take_along_axis(place, np.abs(place).argmin(0)[None], 0)[0]
-    found = np.isfinite(nearest) & (steep > LEAST_SLOPE)
-    return np.asarray(points + np.where(found, nearest, 0)[:, None] * across)
-
-
-def _sampled(image: NDArray[np.float32], places: NDArray[np.floating]) -> NDArray[np.float32]:
-    """An image (H, W) between its pixels at places (M, N, 2)."""
-    x, y = (np.ascontiguousarray(places[..., axis], np.float32) for axis in range(2))
-    return np.asarray(cv2.remap(image, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE), np.float32)
-
-
-def _smoothed(points: NDArray[np.float64], rim: NDArray[np.intp]) -> NDArray[np.float64]:
-    """The points of the border drawn to the mean of their neighbours on it, alternately forth and back (G. Taubin, A
-    signal processing approach to fair surface design, SIGGRAPH 1995), so that nothing shrinks."""
-    count = len(points)
-    ends = np.concatenate([rim, rim[:, ::-1]])
-    degree = np.bincount(rim.ravel(), minlength=count)
-    moving = degree > 0
-    moved = points.copy()
-    for _ in range(BORDER_SWEEPS):
-        for share in (0.5, -0.53):
-            sums = [np.bincount(ends[:, 0], moved[ends[:, 1], axis], count)[moving] for axis in range(3)]
-            moved[moving] += share * (np.stack(sums, 1) / degree[moving, None] - moved[moving])
-    return moved

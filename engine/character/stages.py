@@ -21,6 +21,7 @@ from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import turn_head
 from engine.character.head_sides import with_round_sides
+from engine.character.hem import with_cloth
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.limb_edges import soft_limbs
@@ -38,6 +39,7 @@ from engine.character.turned_over import without_backs_in_view
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.inpaint import background_plate
+from engine.imaging.mask_distance import grown
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 
@@ -45,6 +47,8 @@ CHEEK = np.array([1, 1, 1.1, 1.1, 1])
 """How much larger than its oval a face may be."""
 FINEST = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
+BESIDE = 3
+"""Pixels of the grid around the rest of the person within which a limb ends where its colours do, not where the mask does."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
 SHADOW = 0.012
@@ -94,7 +98,7 @@ def label(
     )
     if given is not None:
         doubt_labels(figure, labels.labels, silhouette.to_grid, warn)
-    return labels
+    return with_cloth(labels, silhouette.rgb, posed, human.rig)
 
 
 def hand_labels(
@@ -119,6 +123,7 @@ def fit_template(figure: Figure, silhouette: Silhouette) -> FittedBody:
 
 def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, labels: Labels) -> ClosedMesh:
     """The mesh in the pictured pose (sections 4.1 and 4.2)."""
+    labels = labels.layered
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
     face = None
@@ -133,7 +138,8 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
 
 
 def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict[int, NDArray[np.float32]]:
-    """How far each pixel (h, w) of the grid is one of the limbs that are apart, by the picture's own pixels."""
+    """How far each pixel (h, w) of the grid is one of the limbs that are apart, by the picture's own pixels; 1 where none of the
+    rest of the person is near."""
     height, width = labels.labels.shape
     finer = min(FINEST, max(1.0, 1 / float(silhouette.to_grid[0, 0])))
     size = (round(width * finer), round(height * finer))
@@ -141,13 +147,12 @@ def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict
     matrix[:, 2] += (finer - 1) / 2
     flags = cv2.INTER_AREA if matrix[0, 0] < 1 else cv2.INTER_LINEAR
     rgb = np.asarray(cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
-    return {
-        int(limb): np.asarray(
-            cv2.resize(soft_limbs(labels.labels == limb, rgb), (width, height), interpolation=cv2.INTER_AREA),
-            np.float32,
-        )
-        for limb in labels.apart
-    }
+    borders = {}
+    for limb in labels.apart:
+        own = labels.labels == limb
+        soft = cv2.resize(soft_limbs(own, rgb), (width, height), interpolation=cv2.INTER_AREA)
+        borders[int(limb)] = np.where(grown((labels.labels >= 0) & ~own, BESIDE), soft, 1).astype(np.float32)
+    return borders
 
 
 def make_character(
@@ -160,6 +165,7 @@ def make_character(
     back: BackTexture,
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
+    labels = labels.layered
     head = labels.labels == PARTS.index("head")
     face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)

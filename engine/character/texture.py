@@ -124,7 +124,10 @@ def paint_tiles(
     beside = body
     if oval is not None and head.any():
         behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
-    apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale) if limbs.any() else seen
+    apart = seen
+    if limbs.any():
+        legs = _enlarged(_nearer(limbs & np.isin(labels.labels, LEGS), limbs & ~np.isin(labels.labels, LEGS)), size)
+        apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale, legs)
     if (labels.hidden >= 0).any():
         near = grown(labels.hidden >= 0, SLIVER)
         apart = _with_skin(apart, seen, _enlarged(near & ~limbs, size), oval, own)
@@ -186,17 +189,31 @@ def _behind_the_limbs(
     return continued_colours(body, own)
 
 
+def _nearer(some: NDArray[np.bool_], others: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """What is nearer to some pixels (h, w) than to others."""
+    return np.asarray(distance_to(some) < distance_to(others))
+
+
 def _of_the_limbs(
-    seen: NDArray[np.uint8], own: NDArray[np.bool_], hole: NDArray[np.bool_], scale: float
+    seen: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    hole: NDArray[np.bool_],
+    scale: float,
+    legs: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.uint8]:
     """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
     colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
-    shoulder."""
+    shoulder, nor, where `legs` (h, w) are, on one of these."""
     inside = distance_inside(own) / scale
     deep = inside > SOFT_EDGE[1]
     around = continued_colours(seen, deep if deep.any() else own)
-    known = usual_colours(seen, own & (distance_to(hole) < UP_AN_ARM * hole.shape[0])) if hole.any() else own
-    return filled(np.where((inside > SOFT_EDGE[0])[..., None], seen, around), hole, known if known.any() else own)
+    made = np.where((inside > SOFT_EDGE[0])[..., None], seen, around)
+    for which in (np.ones_like(own),) if legs is None else (legs, ~legs):
+        mine, lost = own & which, hole & which
+        if mine.any() and lost.any():
+            known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
+            made = filled(made, lost, known if known.any() else mine)
+    return made
 
 
 def _behind_another(

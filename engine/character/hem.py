@@ -1,0 +1,122 @@
+"""Where cloth that goes round both legs ends, and which pixels beneath are legs'.
+
+Beyond the paper, in which clothes are one with the body: legs that come out from under a hem are limbs that something passes
+before, and go on behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS, vertex_parts
+from engine.body.rig import Rig
+from engine.character.free_cloth import FreeCloth, free_cloth
+from engine.character.label_map import Labels
+from engine.character.labels import ARMS, COLOURS, GAMMA_FINE, LEGS, NOWHERE, Colours
+from engine.character.occlusion import largest
+from engine.character.posed_template import PosedTemplate
+from engine.character.regions import Region, find_regions
+from engine.geometry.graph_cut import alpha_expansion, grid_edges
+from engine.imaging.mask_distance import grown
+
+BAND = 0.05
+"""How far above and below the last ring of the cloth its hem may be, as a share of the person's height."""
+LEAN = 3.0
+"""What a pixel so far away costs with the label that is not its own there, in units of equation 16."""
+THREAD = 3
+"""Pixels up to which what seems to hang down beside a leg is the leg's edge."""
+LEAST = 50
+"""Pixels of a leg that is worth being a part of its own."""
+
+
+def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, rig: Rig) -> Labels:
+    """Labels with the cloth that goes round both legs, and where it hangs, the legs that come out from under it: what goes round
+    both is one piece with the trunk, and neither of them is apart there. `rgb` (h, w, 3): the picture on their grid."""
+    region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig)
+    cloth = around_legs(region, labels, template, rig)
+    if cloth is None or not cloth.hangs:
+        return replace(labels, cloth=cloth)
+    legs = legs_below(rgb, labels.labels, cloth)
+    lower = cloth.lower.copy()
+    first = cloth.rings[-1].row + 1
+    beneath = round(2 * BAND * _height(labels.labels))
+    lower[first : first + beneath] |= (cloth.worn & (legs < 0))[first : first + beneath]
+    cloth = replace(cloth, legs=legs, lower=lower)
+    return replace(labels, apart=np.setdiff1d(labels.apart, LEGS), cloth=cloth)
+
+
+def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig) -> FreeCloth | None:
+    """The cloth that goes round both legs, one that crosses before the other included."""
+    part = vertex_parts(rig)[template.triangles]
+    crossing = [int(limb) for limb in labels.apart if limb in LEGS]
+    clothed = body.triangles | np.isin(part, crossing).any(1)
+    sides = template.sides(clothed, body.mask.shape)
+    shown = np.where(sides.front.mask, part[:, 0][clothed][sides.front.raster.triangle], -1)
+    bare = [arm for arm in ARMS if arm not in labels.apart]
+    cloth = (body.mask | np.isin(labels.labels, crossing)) & ~np.isin(labels.labels, bare)
+    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting)
+
+
+def legs_below(rgb: NDArray[np.uint8], labels: NDArray[np.integer], cloth: FreeCloth) -> NDArray[np.int8]:
+    """The leg (h, w), an index of `PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
+    the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'."""
+    end, wide = cloth.rings[-1].row, max(2, round(BAND * _height(labels)))
+    rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
+    person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != PARTS.index("head"))
+    below = person & (rows > end) & np.isin(labels, LEGS) & ~cloth.lower
+    band = person & (abs(rows - end) <= wide) & (cloth.worn | below)
+    shown = _parted(rgb, person & (cloth.worn | below) & (abs(rows - end) <= 3 * wide), band, below, end, wide)
+    legs = np.where(band, shown, below)
+    alone = (person & ~legs).astype(np.uint8)
+    thread = person & ~(cv2.morphologyEx(alone, cv2.MORPH_OPEN, np.ones((THREAD, THREAD), np.uint8)) > 0)
+    legs |= thread & (rows > end) & grown(legs, THREAD)
+    # what hangs together with no foot is cloth
+    _, pieces = cv2.connectedComponents(legs.astype(np.uint8), connectivity=4)
+    legs &= np.isin(pieces, np.unique(pieces[legs & (rows > end + wide)]))
+    found = np.full(labels.shape, -1, np.int8)
+    away = np.stack([cv2.distanceTransform((labels != leg).astype(np.uint8), cv2.DIST_L2, 5) for leg in LEGS])
+    found[legs] = np.array(LEGS, np.int8)[away.argmin(0)][legs]
+    for leg in LEGS:
+        own = found == leg
+        whole = largest(own)
+        found[own & ~whole if whole.sum() >= LEAST else own] = -1
+    return found
+
+
+def _parted(
+    rgb: NDArray[np.uint8],
+    near: NDArray[np.bool_],
+    band: NDArray[np.bool_],
+    below: NDArray[np.bool_],
+    end: int,
+    wide: int,
+) -> NDArray[np.bool_]:
+    """Which pixels of the `band` (h, w) are legs' by their colours and by how far they are from the row where the cloth ends;
+    those that are `near` (h, w) and not in it are as `below` (h, w) says."""
+    colours = rgb.astype(np.float64)
+    learned = [colours[near & ~band & which] for which in (~below, below)]
+    if min(len(some) for some in learned) < 10 * COLOURS:
+        return below
+    rows = np.nonzero(near)[0]
+    pixels, inner, before = colours[near], band[near], below[near]
+    unary = np.stack([Colours.of(some).unlikely(pixels) for some in learned], 1)
+    off = LEAN * (rows - end) / wide
+    unary += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
+    held = np.stack([before, ~before], 1) * NOWHERE
+    edges, lengths = grid_edges(near)
+    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
+    beta = 1 / (2 * max(float(difference.mean()), 1.0))
+    weights = GAMMA_FINE * np.exp(-beta * difference) / lengths
+    cut = alpha_expansion(np.where(inner[:, None], unary, held), edges, weights, before.astype(np.intp))
+    found = np.zeros_like(near)
+    found[near] = cut > 0
+    return found
+
+
+def _height(labels: NDArray[np.integer]) -> float:
+    """Pixels of the person's height."""
+    return float(np.ptp(np.flatnonzero((labels >= 0).any(1))))
