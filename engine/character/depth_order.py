@@ -100,13 +100,17 @@ def _moved(limb: Layer, nearer: NDArray[np.float32]) -> Layer:
     return replace(limb, front=front, back=back)
 
 
-def overlap_beneath(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
+def overlap_beneath(limb: Layer, body: Layer, own: NDArray[np.bool_], deep: bool = False) -> Layer:
     """A limb whose pixels that are not its `own` (h, w), those of the overlap, lie just beneath the body's surface: there
-    they are not seen until the limb is lifted. What of it is further than the body's back passes behind and stays."""
+    they are not seen until the limb is lifted. One that passes behind lies `deep`, no further forth than the body's middle. What
+    of it is further than the body's back stays."""
     behind = (limb.front.depth + limb.back.depth) / 2 < body.back.depth
     over = body.mask & limb.mask & ~own & ~behind
     front, back = limb.front.depth.copy(), limb.back.depth.copy()
-    front[over] = np.minimum(front, _reach(body) - BENEATH)[over]
+    most = _reach(body) - BENEATH
+    if deep:
+        most = np.minimum(most, (body.front.depth + body.back.depth) / 2)
+    front[over] = np.minimum(front, most)[over]
     back[over] = np.minimum(np.maximum(back, body.back.depth + BENEATH), front - 2 * THINNEST)[over]
     return replace(limb, front=Surface(front, limb.front.weights), back=Surface(back, limb.back.weights))
 

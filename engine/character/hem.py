@@ -16,11 +16,11 @@ from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
-from engine.character.labels import ARMS, COLOURS, GAMMA_FINE, LEGS, NOWHERE, Colours
+from engine.character.labels import ARMS, COLOURS, LEGS, NOWHERE, Colours, contrast
 from engine.character.occlusion import largest
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
-from engine.geometry.graph_cut import alpha_expansion, grid_edges
+from engine.geometry.graph_cut import alpha_expansion
 from engine.imaging.mask_distance import grown
 
 BAND = 0.05
@@ -107,10 +107,7 @@ def _parted(
     off = LEAN * (rows - end) / wide
     unary += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
     held = np.stack([before, ~before], 1) * NOWHERE
-    edges, lengths = grid_edges(near)
-    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
-    beta = 1 / (2 * max(float(difference.mean()), 1.0))
-    weights = GAMMA_FINE * np.exp(-beta * difference) / lengths
+    edges, weights = contrast(colours, near)
     cut = alpha_expansion(np.where(inner[:, None], unary, held), edges, weights, before.astype(np.intp))
     found = np.zeros_like(near)
     found[near] = cut > 0

@@ -29,6 +29,7 @@ from engine.character.legs import LEGS_APART, as_the_template, beside_the_other,
 from engine.character.occlusion import occlusion_mask, occlusion_pixels, rest_places
 from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
 from engine.character.posed_template import PosedTemplate
+from engine.character.shoulders import labelled_shoulders
 from engine.character.template_maps import side_maps
 from engine.render.attributes import interpolate
 
@@ -104,13 +105,14 @@ def label_parts(
         rough = hair_behind_arms(rgb, rough, projected, known)
         around = _with_occlusion(rough, projected, rest, hidden).occlusion
         rough = refined_labels(rgb, rough, around, shown)
+        rough, plain = labelled_shoulders(rgb, rough, template, rig)
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
-        rough = without_specks(rough, known)
+        rough = without_specks(rough, known, plain)
         for hand in at_hips:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:
-                rough = without_specks(with_hand_parted(rough, found, hand.arm), known)
+                rough = without_specks(with_hand_parted(rough, found, hand.arm), known, plain)
                 hidden[found.hidden] = hand.arm
     labels = corrected(rough.astype(np.int8))
     hidden[labels != rough] = -1  # whoever paints there has seen what is there

@@ -108,10 +108,12 @@ def hair_beside_arms(
     return found
 
 
-def without_specks(labels: NDArray[np.integer], sure: NDArray[np.integer]) -> NDArray[np.intp]:
+def without_specks(
+    labels: NDArray[np.integer], sure: NDArray[np.integer], plain: NDArray[np.bool_]
+) -> NDArray[np.intp]:
     """Labels (H, W) whose small pieces have gone over to what is around them; each keeps its largest piece. An arm has no
-    other pieces, either, unless the other arm passes before it: nothing smaller than the one with its hand, which is `sure`
-    (H, W; -1 where nothing is), or than a share of the largest."""
+    other pieces, either, unless the other arm passes before it, or they are at a shoulder where labels are `plain` (H, W):
+    nothing smaller than the one with its hand, which is `sure` (H, W; -1 where nothing is), or than a share of the largest."""
     kept = labels.astype(np.intp).copy()
     for part in range(len(PARTS)):
         count, pieces, stats, _ = cv2.connectedComponentsWithStats((labels == part).astype(np.uint8), connectivity=4)
@@ -122,7 +124,7 @@ def without_specks(labels: NDArray[np.integer], sure: NDArray[np.integer]) -> ND
         small = areas < SPECK
         if part in ARMS:
             other = (labels == ARMS[1 - ARMS.index(part)]).astype(np.uint8)
-            met = np.unique(pieces[cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0])
+            met = np.unique(pieces[(cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0) | plain])
             least = areas[known.argmax()] if known.any() else ASIDE * areas[1:].max()
             small |= (areas < least) & ~np.isin(np.arange(count), met)
         small[[0, 1 + int(np.argmax(areas[1:]))]] = False
@@ -189,6 +191,16 @@ def refined_labels(
     return labels
 
 
+def contrast(colours: NDArray[np.float64], mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """The neighbours within a mask (H, W), as numbers of its pixels in reading order, (E, 2), and what it costs where their labels differ,
+    (E,): little where colours (H, W, 3) do, too. Equations 17 to 19."""
+    edges, lengths = grid_edges(mask)
+    pixels = colours[mask]
+    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
+    beta = 1 / (2 * max(float(difference.mean()), 1.0))  # equation 19
+    return edges, GAMMA_FINE * np.exp(-beta * difference) / lengths  # equations 17 and 18
+
+
 def _refine(
     colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_], template: NDArray[np.integer]
 ) -> None:
@@ -198,11 +210,8 @@ def _refine(
     meeting = [int(label) for label in np.unique(labels[region])]
     if len(meeting) < 2:
         return
-    edges, lengths = grid_edges(near)
+    edges, weights = contrast(colours, near)
     pixels, inner, first = colours[near], region[near], labels[near]
-    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
-    beta = 1 / (2 * max(float(difference.mean()), 1.0))  # equation 19
-    weights = GAMMA_FINE * np.exp(-beta * difference) / lengths  # equations 17 and 18
     astray = ASTRAY * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
     astray[template[near] < 0] = 0
     current = first

@@ -75,9 +75,10 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         if one.limb in LEGS:
             body = body_within(body, limb, own & one.joint)
         limb = limb_before(limb, body, own)
-        beneath_it = (
-            overlap_beneath(limb, body, own) if limb.solid is None else _solid_beneath(limb, body, own | ~one.joint)
-        )
+        if limb.solid is None:
+            beneath_it = overlap_beneath(limb, body, own, one.behind)
+        else:
+            beneath_it = _solid_beneath(limb, body, own | ~one.joint)
         layers.append(replace(beneath_it, limb=one.limb))
     if labels.behind is not None:
         layers = _behind_the_other(layers, body, labels.behind, labels)

@@ -43,11 +43,12 @@ class Region:
 @dataclass(frozen=True)
 class LimbRegion(Region):
     """That of a `limb`, an index of `PARTS`. Around its shoulder or hip it overlaps with the body: the template's triangles
-    `overlap` (T,) and the pixels `joint` (h, w)."""
+    `overlap` (T,) and the pixels `joint` (h, w). One that passes `behind` the body hides nothing of it."""
 
     limb: int
     overlap: NDArray[np.bool_]
     joint: NDArray[np.bool_]
+    behind: bool = False
 
 
 def find_regions(
@@ -82,20 +83,28 @@ def limb_in_one_piece(
     template: PosedTemplate,
     triangles: NDArray[np.bool_],
     joint: NDArray[np.bool_],
-) -> NDArray[np.bool_]:
-    """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and,
-    where another that is `apart` passes before it or it does not reach its joint, what the template has there (`triangles`
-    (T,)); what of it goes on behind the other arm, and its hidden hand."""
+) -> tuple[NDArray[np.bool_], bool]:
+    """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and what
+    the template has (`triangles` (T,)) where another that is `apart` passes before it, or the body, so that it comes out in
+    two places or does not reach its joint; what of it goes on behind the other arm, and its hidden hand. And whether it is the
+    body that it passes behind."""
     own, person = labels.labels == limb, labels.labels >= 0
     seen = own | (person & joint & grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
-    piece = largest(seen)
-    torn, lost = piece.sum() < WHOLE * seen.sum(), not (piece & joint).any()
-    if torn or lost:
+    lost = not (largest(seen) & joint).any()
+    behind = lost
+    if lost or _torn(seen):
         between = grown(template.covers(triangles, own.shape), UNDER)
-        seen = seen | (between & (person if lost else np.isin(labels.labels, apart)))
+        beneath = between & np.isin(labels.labels, apart)
+        behind = lost or _torn(seen | beneath)
+        seen = (own | (between & person)) if behind else seen | beneath
     if labels.behind is not None and labels.behind.limb == limb:
         seen = seen | labels.behind.area
-    return largest(seen | (labels.hidden == limb))
+    return largest(seen | (labels.hidden == limb)), behind
+
+
+def _torn(mask: NDArray[np.bool_]) -> bool:
+    """Whether much of a mask is not in one piece."""
+    return bool(largest(mask).sum() < WHOLE * mask.sum())
 
 
 def _limb_region(
@@ -103,10 +112,10 @@ def _limb_region(
 ) -> LimbRegion:
     """`part` (T, 3): that of each corner of the template's triangles."""
     overlap, joint = _around_joint(limb, template, rig, labels.labels.shape)
-    mask = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
+    mask, behind = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
     if limb in LEGS:
         mask = largest(mask & (_inner(labels) | (labels.labels == limb)))
-    return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint)
+    return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 
 
 def _body(
@@ -118,16 +127,18 @@ def _body(
 ) -> NDArray[np.bool_]:
     """The pixels (h, w) of the body in one piece, completed behind the limbs. `part` (T, 3): that of each corner of the template's
     triangles; `triangles` (T,): which of them are the body's."""
-    before = np.isin(labels.labels, [one.limb for one in limbs])
-    hides = before & np.logical_or.reduce([np.zeros_like(before), *(one.mask for one in limbs)])
-    body = (labels.labels >= 0) & ~hides
+    apart = np.isin(labels.labels, [one.limb for one in limbs])
+    covered = np.logical_or.reduce([np.zeros_like(apart), *(one.mask for one in limbs)])
+    body = (labels.labels >= 0) & ~(apart & covered)
     if not limbs:
         return largest(body)
+    before = np.isin(labels.labels, [one.limb for one in limbs if not one.behind])
     crossing = np.zeros_like(before)
     for leg in (one.limb for one in limbs if one.limb in LEGS):
         crossing = labels.labels == leg
         body = body | (crossing & _bone(template, (part == sum(LEGS) - leg).all(1), before.shape))
-    body = completed(body, hides, labels.occlusion | crossing, template.covers(triangles, before.shape))
+    whole = template.covers(triangles, before.shape)
+    body = completed(body, before & covered, labels.occlusion | crossing, whole)
     body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
     for one in limbs:
         body = largest(body | (before & one.joint & (_inner(labels) | ~crossing)))

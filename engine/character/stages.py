@@ -23,6 +23,7 @@ from engine.character.head import turn_head
 from engine.character.head_sides import with_round_sides
 from engine.character.hem import with_cloth
 from engine.character.label_map import Labels, label_parts
+from engine.character.labels import ARMS
 from engine.character.layers import build_layers
 from engine.character.limb_edges import soft_limbs
 from engine.character.measures import picture_camera, pose
@@ -49,6 +50,8 @@ FINEST = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
 BESIDE = 3
 """Pixels of the grid around the rest of the person within which a limb ends where its colours do, not where the mask does."""
+ARM, ALONG = ("Arm", "Hand"), 0.05
+"""What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
 SHADOW = 0.012
@@ -170,8 +173,9 @@ def make_character(
     face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
+    along = _along_with_arms(mesh, labels)
     alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, face_turn(figure)
-    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned)
+    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned, along)
     if face is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
@@ -181,6 +185,17 @@ def make_character(
     character = relaxed(replace(character, mesh=fewer_triangles(character, triangles)))
     height, width = figure.rgb.shape[:2]
     return without_backs_in_view(character, picture_camera(character, fitted, (height, width)))
+
+
+def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
+    """What of an arm (h, w) the body has, too, and moves as that does: about the shoulder."""
+    names = load_human().rig.names
+    along = np.zeros(labels.labels.shape, np.bool_)
+    for arm, side in zip(ARMS, ("Left", "Right"), strict=True):
+        own = np.array([name.startswith(side) and any(part in name for part in ARM) for name in names])
+        goes = (mesh.layer == 0) & ((mesh.weights * own[mesh.bones]).sum(1) > ALONG)
+        along |= mesh.pixels(np.flatnonzero(goes), along.shape) & (labels.labels == arm)
+    return along
 
 
 def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:

@@ -86,6 +86,7 @@ def paint_tiles(
     face: NDArray[np.float32] | None,
     back: BackTexture,
     turned: float = 0.0,
+    along: NDArray[np.bool_] | None = None,
 ) -> Tiles:
     """Paint the tiles.
 
@@ -99,6 +100,7 @@ def paint_tiles(
         face.
     back : where the back's colours come from.
     turned : to which side the face looks, as `face_region.face_turn` says.
+    along : (h, w) what of the body goes with a limb, as at shoulders, and so is of its colours.
     """
     limbs = _own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
     shape = limbs.shape
@@ -118,7 +120,8 @@ def paint_tiles(
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
+    before = around if along is None else around & ~_enlarged(along & limbs, size)
+    body = _behind_the_limbs(seen, labels, before, own, oval) if limbs.any() else seen
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     beside = body

@@ -36,7 +36,7 @@ def found(labels: np.ndarray) -> Labels:
 def limb(labels: np.ndarray, shoulder: np.ndarray) -> np.ndarray:
     template = bar((20, 30), (10, 110))
     own = np.ones(len(template.triangles), np.bool_)
-    return limb_in_one_piece(found(labels), LEFT, (LEFT, RIGHT), template, own, shoulder)
+    return limb_in_one_piece(found(labels), LEFT, (LEFT, RIGHT), template, own, shoulder)[0]
 
 
 def test_an_arm_in_one_piece_is_what_is_seen_of_it() -> None:

@@ -1,0 +1,62 @@
+"""Shoulders at which colours say what is arm and what is trunk: where they are bare, or sleeves are another cloth than what is worn
+over them.
+
+Beyond the paper, whose labels are found by colours where limbs pass before others (section 4.2.1), and by shape elsewhere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS
+from engine.body.rig import Rig
+from engine.character.labels import ARMS, COLOURS, Colours, contrast
+from engine.character.posed_template import PosedTemplate
+from engine.geometry.graph_cut import alpha_expansion
+
+REACH, TRUNK = 0.13, 0.35
+"""Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
+SURE = 4.0
+"""By how much a colour must be likelier of one than of the other, in units of equation 16."""
+MOSTLY, STRAY = 0.8, 0.3
+"""Share of the pixels that must be so, and of those labelled an arm that may be of the trunk's colours: more are a sleeve's, cut
+from the cloth of the trunk."""
+
+
+def labelled_shoulders(
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: PosedTemplate, rig: Rig
+) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Labels (h, w) in which arm and trunk part at the shoulders where their colours do, and where that is (h, w): where nearly all
+    colours of the picture `rgb` (h, w, 3) are either the arm's or the trunk's, as these are further away."""
+    y, x = np.mgrid[: labels.shape[0], : labels.shape[1]]
+    colours = rgb.astype(np.float64)
+    out, plain = labels.astype(np.intp).copy(), np.zeros(labels.shape, np.bool_)
+    torso = labels == PARTS.index("torso")
+    joints = [template.joints[rig.index(f"{side}Arm")] for side in ("Left", "Right")]
+    away = [np.hypot(x - joint[0], y - joint[1]) / template.pixels_per_metre for joint in joints]
+    near = np.minimum(*away) < REACH
+    for arm, distance in zip(ARMS, away, strict=True):
+        own = labels == arm
+        here = (distance < REACH) & (own | torso)
+        learned = [colours[torso & ~near & (distance < TRUNK)], colours[own & ~near]]
+        if not here.any() or min(len(some) for some in learned) < 10 * COLOURS:
+            continue
+        known = [Colours.of(some) for some in learned]
+        known += _hair(colours[labels == PARTS.index("head")], known[1])
+        unlikely = np.stack([one.unlikely(colours[here]) for one in known], 1)
+        likelier = unlikely[:, 0] - unlikely[:, 1]
+        of_the_trunk = (likelier < 0) & own[here]
+        if (abs(likelier) > SURE).mean() > MOSTLY and of_the_trunk.sum() <= STRAY * own[here].sum():
+            found = alpha_expansion(unlikely, *contrast(colours, here), unlikely.argmin(1))
+            out[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
+            plain |= here
+    return out, plain
+
+
+def _hair(head: NDArray[np.float64], arm: Colours) -> list[Colours]:
+    """The colours of a head (N, 3) that are none of the `arm`'s: hair, where skin is bare. None where it has hardly any."""
+    if len(head) < 10 * COLOURS:
+        return []
+    hair = head[arm.unlikely(head) - Colours.of(head).unlikely(head) > SURE]
+    return [Colours.of(hair)] if len(hair) >= 10 * COLOURS else []
