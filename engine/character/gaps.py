@@ -12,17 +12,22 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import COLOURS, Colours
+from engine.character.labels import COLOURS, NOWHERE, Colours, contrast
+from engine.geometry.graph_cut import alpha_expansion
 from engine.imaging.mask_distance import distance_inside, distance_to, grown
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""
 ARM, LEG = 0.035, 0.04
 """Width of what is surely an arm or a leg, as a share of the person's height."""
+HAND, FINGERTIPS = 0.03, 2.2
+"""Width of where a hand may be, and how much further its tips are from the wrist than its knuckles."""
 AROUND, NEAR = 0.125, 0.05
 """How far from the person background is, and how far from a place colours tell of it, as shares of their height."""
 CERTAIN = 2.0
 """By how much (a logarithm) background has to be likelier."""
+MOST = 3.0
+"""By how much colours count at most (a logarithm) where a gap's edge is looked for."""
 LEAST, NARROWEST = 2.4e-4, 0.01
 """Area of a gap as a share of the height's square, and its width as a share of the height, at least: what is smaller is a
 crease or a braid."""
@@ -30,7 +35,7 @@ EDGE, CONTRAST = 4, 8.0
 """Pixels around a gap within which its edge is found, and levels by which colours differ there."""
 STEPS = 0.2
 """Share of a gap's edge at which colours differ by as much, at least: a fold in dark cloth fades into it."""
-FURTHER, CORE = 0.07, 0.015
+FURTHER, CORE = 0.1, 0.015
 """How far a gap may go on beyond the piece that is found, and how far within the joints' limbs and trunk it surely ends, as shares
 of the height."""
 SURE = 0.85
@@ -59,11 +64,11 @@ def gaps(
         np.asarray(cv2.resize(of, size, interpolation=cv2.INTER_AREA), np.float32) for of in (alpha, belief)
     )
     height = float(np.ptp(tall) + 1) * scale
-    inside, limbs = _by_joints(lambda name: point(name) * scale, mask.shape, height)
+    inside, limbs, hands = _by_joints(lambda name: point(name) * scale, mask.shape, height)
     found = _by_colour(small, mask, believed, inside & ~limbs & (mask > 0.5), limbs, height)
     if not found.any():
         return none
-    found = _to_their_ends(small, mask, found, limbs, height)
+    found = _to_their_ends(small, mask, found, limbs, hands, height)
     around = grown(found, EDGE)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
     reach = max(2, round(EDGE / scale))
@@ -74,9 +79,9 @@ def gaps(
 
 def _by_joints(
     point: Callable[[str], NDArray[np.floating]], shape: tuple[int, ...], height: float
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """What lies inside of arms and legs (h, w), and what is surely a limb or the trunk (h, w)."""
-    inside, limbs = (np.zeros((shape[0], shape[1]), np.uint8) for _ in range(2))
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
+    """What lies inside of arms and legs (h, w), what is surely a limb or the trunk (h, w), and where hands may be (h, w)."""
+    inside, limbs, hands = (np.zeros((shape[0], shape[1]), np.uint8) for _ in range(3))
 
     def places(*names: str) -> NDArray[np.int32]:
         return np.rint(np.stack([point(name) for name in names])).astype(np.int32)
@@ -87,9 +92,12 @@ def _by_joints(
         cv2.fillPoly(inside, [places(*arm, f"{side}Hip")], (1,))
         for chain, wide in ((arm, ARM), (leg, LEG)):
             cv2.polylines(limbs, [places(*chain)], False, (1,), max(1, round(wide * height)))
+        wrist, *knuckles = places(f"{side}Wrist", f"{side}Index", f"{side}Pinky")
+        tips = np.rint(wrist + FINGERTIPS * (np.mean(knuckles, axis=0) - wrist)).astype(np.int32)
+        cv2.polylines(hands, [np.stack([wrist, tips])], False, (1,), max(1, round(HAND * height)))
     cv2.fillPoly(inside, [places("LeftHip", "LeftAnkle", "RightAnkle", "RightHip")], (1,))
     cv2.fillPoly(limbs, [places("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")], (1,))
-    return inside > 0, limbs > 0
+    return inside > 0, limbs > 0, hands > 0
 
 
 def _by_colour(
@@ -131,6 +139,7 @@ def _to_their_ends(
     alpha: NDArray[np.float32],
     found: NDArray[np.bool_],
     limbs: NDArray[np.bool_],
+    hands: NDArray[np.bool_],
     height: float,
 ) -> NDArray[np.bool_]:
     """The gaps (h, w) with what hangs together with them and is background by its colours, too: they go on where joints' limbs and
@@ -140,16 +149,33 @@ def _to_their_ends(
     rows, columns = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
     box = tuple(slice(max(0, each[0] - reach), each[-1] + 1 + reach) for each in (rows, columns))
     person, gap = alpha[box] > 0.5, found[box]
-    asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height)
+    asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height) & ~hands[box]
     body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
     if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < 10 * COLOURS:
         return found
     lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
-    background = gap | _likely(lab, asked, body, behind)
+    background = _cut(lab, asked, gap, Colours.of(lab[body]), Colours.of(lab[behind]))
     _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
     whole = found.copy()
-    whole[box] |= background & np.isin(pieces, np.unique(pieces[gap]))
+    whole[box] = background & np.isin(pieces, np.unique(pieces[gap & background]))
     return whole
+
+
+def _cut(
+    lab: NDArray[np.float64], asked: NDArray[np.bool_], gap: NDArray[np.bool_], body: Colours, behind: Colours
+) -> NDArray[np.bool_]:
+    """The `gap` (h, w) and what of the pixels that are `asked` (h, w) is more of it, up to where colours (h, w, 3) change: those of a
+    white shirt before a white wall say little of themselves."""
+    core = distance_inside(gap) > 1
+    zone = grown(asked | gap, 1)
+    pixels = lab[zone]
+    likelier = np.clip(body.unlikely(pixels) - behind.unlikely(pixels) - CERTAIN, -MOST, MOST)
+    unary = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
+    unary[core[zone]] = NOWHERE, 0
+    unary[~(asked | gap)[zone]] = 0, NOWHERE
+    out = np.zeros_like(gap)
+    out[zone] = alpha_expansion(unary, *contrast(lab, zone), gap[zone].astype(np.intp)) > 0
+    return out
 
 
 def _likely(

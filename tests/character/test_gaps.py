@@ -11,15 +11,18 @@ WALL, SHIRT, SKIN, JEANS = (200, 90, 150), (40, 60, 160), (225, 180, 150), (30, 
 JOINTS = {
     **{"LeftShoulder": (250, 110), "LeftElbow": (310, 200), "LeftWrist": (262, 290), "LeftHip": (235, 290)},
     **{"RightShoulder": (150, 110), "RightElbow": (130, 200), "RightWrist": (125, 290), "RightHip": (165, 290)},
+    **{"LeftIndex": (246, 296), "LeftPinky": (248, 304), "RightIndex": (121, 312), "RightPinky": (129, 312)},
     **{"LeftKnee": (235, 400), "LeftAnkle": (235, 500), "RightKnee": (165, 400), "RightAnkle": (165, 500)},
 }
 
 
-def person(behind: tuple[int, int, int] = WALL) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Somebody with one hand on the hip before a wall: the picture, a mask without gaps, and the gap beside that arm."""
+def person(
+    behind: tuple[int, int, int] = WALL, joints: dict[str, tuple[int, int]] = JOINTS
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Somebody with one hand on the hip before a wall, or as their joints are: the picture, a mask without gaps, and the gap beside that arm."""
     rgb = np.full((560, 400, 3), behind, np.uint8)
     mask = np.zeros((560, 400), np.uint8)
-    at = {name: np.array(place) for name, place in JOINTS.items()}
+    at = {name: np.array(place) for name, place in joints.items()}
     trunk = np.stack([at[name] for name in ("LeftShoulder", "RightShoulder", "RightHip", "LeftHip")]).astype(np.int32)
     arms = [
         np.stack([at[f"{s}{j}"] for j in ("Shoulder", "Elbow", "Wrist")]).astype(np.int32) for s in ("Left", "Right")
@@ -41,8 +44,10 @@ def person(behind: tuple[int, int, int] = WALL) -> tuple[np.ndarray, np.ndarray,
     return np.clip(rgb + noise, 0, 255).astype(np.uint8), np.asarray((mask > 0) | gap, np.float32), gap
 
 
-def found(rgb: np.ndarray, mask: np.ndarray, belief: float = 0.6) -> np.ndarray:
-    return gaps(rgb, mask, np.float32(belief) * mask, lambda name: np.array(JOINTS[name], np.float32))
+def found(
+    rgb: np.ndarray, mask: np.ndarray, belief: float = 0.6, joints: dict[str, tuple[int, int]] = JOINTS
+) -> np.ndarray:
+    return gaps(rgb, mask, np.float32(belief) * mask, lambda name: np.array(joints[name], np.float32))
 
 
 def test_a_gap_is_found_to_its_edges_and_nothing_else() -> None:
@@ -84,3 +89,27 @@ def test_a_gap_goes_on_where_the_joints_trunk_is_wider_than_the_person_s() -> No
     wider = JOINTS | {"LeftHip": (255, 290), "LeftShoulder": (256, 110)}
     share = gaps(rgb, mask, np.float32(0.6) * mask, lambda name: np.array(wider[name], np.float32))
     assert ((share > 0.5) & gap).sum() > 0.9 * ((share > 0.5) | gap).sum()
+
+
+def test_before_a_wall_nearly_as_white_as_the_shirt_a_gap_goes_to_its_edges() -> None:
+    """What is found at first is its middle: the colours of wall and shirt say little. At the edges they change."""
+    rgb, mask, gap = person(behind=(222, 222, 224))
+    shirt = (np.abs(rgb.astype(int) - SHIRT).max(2) < 20) & ~gap
+    noise = np.random.default_rng(3).normal(0, 6, rgb.shape)
+    edge = shirt & (cv2.dilate((~shirt).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0)
+    for where, white in ((shirt, 236), (edge, 190)):
+        rgb[where] = np.clip(white + noise, 0, 255)[where]
+    share = found(rgb, mask)
+    assert ((share > 0.5) & gap).sum() > 0.99 * ((share > 0.5) | gap).sum()
+
+
+def test_a_hand_of_the_walls_colours_at_a_gaps_end_stays() -> None:
+    lowered = {"LeftWrist": (300, 280), "LeftIndex": (297, 300), "LeftPinky": (303, 300), "LeftElbow": (312, 200)}
+    rgb, mask, gap = person(joints=JOINTS | lowered)
+    hand = cv2.line(np.zeros(mask.shape, np.uint8), (298, 296), (298, 322), (1,), 16) > 0
+    rgb[hand] = WALL
+    filled = np.maximum(mask, hand)
+    filled[280:326, 255:300] = 1  # networks close the gap as far down as the hand reaches
+    share = found(rgb, filled, joints=JOINTS | lowered)
+    assert share[gap].mean() > 0.8 and share[290:320, 265:282].mean() > 0.8
+    assert share[300:322, 296:301].mean() < 0.2

@@ -241,12 +241,13 @@ def test_an_arm_is_one_piece_unless_the_other_passes_before_it() -> None:
     labels[10:20, 10:60], labels[60:62, 100:102] = left, left  # an arm and a speck
     labels[40:50, 10:60], labels[40:50, 30:36] = right, left  # an arm with the other before it: three pieces
     labels[70:75, 60:90] = right  # a piece aside, more than a quarter of the largest
-    found = without_specks(labels, np.full(labels.shape, -1))
+    nowhere = np.zeros(labels.shape, np.bool_)
+    found = without_specks(labels, np.full(labels.shape, -1), nowhere)
     np.testing.assert_array_equal(found == left, (labels == left) & (np.arange(120) < 90))
     np.testing.assert_array_equal(found == right, labels == right)
     hand = np.full(labels.shape, -1)
     hand[42:48, 50:60] = right
-    found = without_specks(labels, hand)
+    found = without_specks(labels, hand, nowhere)
     assert (found[70:75, 60:90] == torso).all(), "smaller than the piece with the hand"
     assert (found[40:50, 10:30] == right).all()
 

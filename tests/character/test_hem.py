@@ -14,6 +14,7 @@ from engine.character.free_cloth import FreeCloth, Ring
 from engine.character.hem import legs_below, with_cloth
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
+from engine.character.legs_beneath import _under
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
@@ -159,3 +160,18 @@ def test_an_outline_that_leans_inward_is_no_hem() -> None:
     assert len(ys) > 50 and (ys == 90).all()
     for y, x in zip(ys, xs, strict=True):
         assert mask[y - int(hem[y, x]) : y, x].all()
+
+
+def test_under_cloth_a_leg_goes_on_beside_the_other_and_not_over_it() -> None:
+    """The hem slants, so that the other leg, which touches this one, has come out where this one has not."""
+    own, other, cloth, bone = np.zeros((4, 120, 80), np.bool_)
+    cloth[10:60, 5:75] = True
+    own[60:110, 30:44] = other[46:110, 18:30] = True
+    cloth &= ~other
+    bone[0:110, 26:48] = True
+    under = _under(own, cloth, bone, 20)
+    assert under[45:60, 32:42].all() and not (under & other).any()
+    rows = np.flatnonzero(under.any(1))
+    assert rows[0] == 40 and rows[-1] == 59
+    width = under.sum(1)[rows]
+    assert width[0] < 0.75 * width[-1], "narrower at its end"

@@ -63,3 +63,13 @@ def test_an_arm_that_does_not_reach_its_shoulder_is_led_there_over_the_body() ->
     assert (whole & shoulder).any()
     assert whole[25, 14:110].all()
     assert not whole[:10].any()
+
+
+def test_an_arm_that_comes_out_in_two_places_is_led_from_one_to_the_other_behind_the_body() -> None:
+    """More of it is seen at its shoulder than of its hand."""
+    labels = np.full(SHAPE, -1)
+    labels[5:55, 5:115] = TORSO
+    labels[20:30, 10:50] = labels[20:30, 95:110] = LEFT
+    whole = limb(labels, rectangle((20, 30), (8, 14)))
+    assert whole[25, 10:110].all()
+    assert not whole[:10].any() and not whole[50:].any()
