@@ -6,10 +6,23 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.mask_distance import grown
+
 BESIDE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""
 CONTRAST = 12.0
 """Levels by which colours differ on two sides of an edge, at least."""
+
+APART = 3
+"""Pixels of the grid around the rest of the person within which a limb ends where its colours do, and not where the mask does."""
+
+
+def border(limb: NDArray[np.bool_], person: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """How far each pixel (h, w) of the grid is a `limb`'s (h, w), by the pixels of the picture (H, W, 3) on a finer one; 1 where none
+    of the rest of the `person` (h, w) is near."""
+    size = (limb.shape[1], limb.shape[0])
+    soft = np.asarray(cv2.resize(soft_limbs(limb, rgb), size, interpolation=cv2.INTER_AREA), np.float32)
+    return np.where(grown(person & ~limb, APART), soft, 1).astype(np.float32)
 
 
 def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.float32]:

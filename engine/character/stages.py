@@ -25,7 +25,7 @@ from engine.character.hem import with_cloth
 from engine.character.label_map import Labels, label_parts
 from engine.character.labels import ARMS
 from engine.character.layers import build_layers
-from engine.character.limb_edges import soft_limbs
+from engine.character.limb_edges import border
 from engine.character.measures import picture_camera, pose
 from engine.character.options import LabelStroke
 from engine.character.pockets import hands_at_hips
@@ -40,7 +40,6 @@ from engine.character.turned_over import without_backs_in_view
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.inpaint import background_plate
-from engine.imaging.mask_distance import grown
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 
@@ -48,8 +47,6 @@ CHEEK = np.array([1, 1, 1.1, 1.1, 1])
 """How much larger than its oval a face may be."""
 FINEST = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
-BESIDE = 3
-"""Pixels of the grid around the rest of the person within which a limb ends where its colours do, not where the mask does."""
 ARM, ALONG = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
 FACE_COUNTS = 6.0
@@ -141,8 +138,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
 
 
 def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict[int, NDArray[np.float32]]:
-    """How far each pixel (h, w) of the grid is one of the limbs that are apart, by the picture's own pixels; 1 where none of the
-    rest of the person is near."""
+    """For each of the limbs that are apart, what `border` says of it (h, w), by the picture's own pixels."""
     height, width = labels.labels.shape
     finer = min(FINEST, max(1.0, 1 / float(silhouette.to_grid[0, 0])))
     size = (round(width * finer), round(height * finer))
@@ -150,12 +146,7 @@ def limb_borders(figure: Figure, silhouette: Silhouette, labels: Labels) -> dict
     matrix[:, 2] += (finer - 1) / 2
     flags = cv2.INTER_AREA if matrix[0, 0] < 1 else cv2.INTER_LINEAR
     rgb = np.asarray(cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
-    borders = {}
-    for limb in labels.apart:
-        own = labels.labels == limb
-        soft = cv2.resize(soft_limbs(own, rgb), (width, height), interpolation=cv2.INTER_AREA)
-        borders[int(limb)] = np.where(grown((labels.labels >= 0) & ~own, BESIDE), soft, 1).astype(np.float32)
-    return borders
+    return {int(limb): border(labels.labels == limb, labels.labels >= 0, rgb) for limb in labels.apart}
 
 
 def make_character(

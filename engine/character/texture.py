@@ -120,8 +120,9 @@ def paint_tiles(
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
-    before = around if along is None else around & ~_enlarged(along & limbs, size)
-    body = _behind_the_limbs(seen, labels, before, own, oval) if limbs.any() else seen
+    body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
+    if along is not None:
+        body = np.where((_enlarged(along & limbs, size) & own)[..., None], seen, body)
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = _enlarged(labels.labels == PARTS.index("head"), size) & own
     beside = body

@@ -54,6 +54,15 @@ def test_what_a_limb_shares_with_the_body_lies_beneath_its_surface() -> None:
     np.testing.assert_array_equal(sunk.back.depth[own], arm.back.depth[own])
 
 
+def test_an_arm_that_passes_behind_comes_no_further_forth_than_the_bodys_middle() -> None:
+    body, shared = slab(rectangle((5, 55), (5, 60)), 10.0, -10.0), rectangle((20, 30), (40, 60))
+    arm, own = slab(rectangle((20, 30), (40, 100)), 14.0, -9.0), rectangle((20, 30), (60, 100))
+    sunk = overlap_beneath(arm, body, own, deep=True)
+    assert np.allclose(sunk.front.depth[shared & inner(body.mask)], 0)
+    assert (sunk.front.depth[shared] > sunk.back.depth[shared]).all()
+    np.testing.assert_array_equal(sunk.front.depth[own], arm.front.depth[own])
+
+
 def test_an_arm_bends_to_the_pocket_that_its_hand_is_in() -> None:
     body, hidden = slab(rectangle((5, 55), (5, 115)), 10.0, -10.0), rectangle((20, 30), (15, 30))
     arm = slab(rectangle((20, 30), (15, 110)), 16.0, 12.0)

@@ -250,6 +250,10 @@ def test_an_arm_is_one_piece_unless_the_other_passes_before_it() -> None:
     found = without_specks(labels, hand, nowhere)
     assert (found[70:75, 60:90] == torso).all(), "smaller than the piece with the hand"
     assert (found[40:50, 10:30] == right).all()
+    shoulder = np.zeros(labels.shape, np.bool_)
+    shoulder[68:78, 55:95] = True
+    found = without_specks(labels, hand, shoulder)
+    assert (found[70:75, 60:90] == right).all(), "at a shoulder whose colours tell it from the trunk"
 
 
 def test_refined_labels_go_to_where_the_colours_change() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.character.limb_edges import soft_limbs
+from engine.character.limb_edges import border, soft_limbs
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 
@@ -41,3 +41,12 @@ def test_the_border_of_a_limb_s_surface_goes_there_and_the_body_s_does_not() -> 
         mesh = close([Layer(labels, *sides, limb=limb)], whole, {3: soft})
         edge = mesh.rim & (mesh.vertices[:, 0] > 40) & (np.abs(mesh.vertices[:, 1] - 200) < 80)
         np.testing.assert_allclose(mesh.vertices[edge, 0], at, atol=0.1)
+
+
+def test_where_only_the_background_is_beside_it_a_limb_s_border_is_the_mask_s() -> None:
+    labels, rgb = picture()
+    shirt = np.zeros_like(labels)
+    shirt[100:300, 52:90] = True
+    found = border(labels, labels | shirt, rgb)
+    assert (found[110:290, :46] == 1).all()
+    assert 0 < found[200, 51] < 1 and found[200, 54] == 0

@@ -37,7 +37,11 @@ FACE = (80, 58, 22, 26, 0)
 
 
 def painted(  # type: ignore[no-untyped-def]
-    back: str = "mirror", shows: bool = True, face: tuple[float, ...] = FACE, hand: tuple[int, int] | None = None
+    back: str = "mirror",
+    shows: bool = True,
+    face: tuple[float, ...] = FACE,
+    hand: tuple[int, int] | None = None,
+    along=None,
 ):
     rgb, labels = person()
     none = np.zeros(labels.shape, np.bool_)
@@ -50,7 +54,7 @@ def painted(  # type: ignore[no-untyped-def]
         hidden[140:165, slice(*hand)] = apart[0]
     found = Labels(labels.astype(np.int8), none, apart, none, hidden)
     shown = (labels == apart[0]) & shows
-    return paint_tiles(rgb, alpha, SAME, found, reach, shown, np.float32(face), back), labels  # type: ignore[arg-type]
+    return paint_tiles(rgb, alpha, SAME, found, reach, shown, np.float32(face), back, along=along), labels  # type: ignore[arg-type]
 
 
 def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
@@ -61,6 +65,15 @@ def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     assert np.abs(tiles.limbs[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
         "where the dress hides it an arm is an arm"
     )
+
+
+def test_what_of_the_body_goes_with_an_arm_has_its_colours() -> None:
+    along = np.zeros((240, 160), np.bool_)
+    along[140:165, 40:60] = True
+    tiles, labels = painted(along=along)
+    np.testing.assert_array_equal(tiles.body[142:163, 42:57], person()[0][142:163, 42:57])
+    rest = (labels == PARTS.index("right_arm")) & (np.arange(160) > 65)
+    assert np.abs(tiles.body[rest].astype(int) - GREEN).max() <= 6
 
 
 def test_beside_an_arm_its_surface_has_the_arms_colours_and_not_those_behind() -> None:
