@@ -6,6 +6,7 @@ Beyond the paper, whose labels are found by colours where limbs pass before othe
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +15,7 @@ from engine.body.rig import Rig
 from engine.character.labels import ARMS, COLOURS, Colours, contrast
 from engine.character.posed_template import PosedTemplate
 from engine.geometry.graph_cut import alpha_expansion
+from engine.imaging.mask_distance import grown
 
 REACH, TRUNK = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
@@ -49,9 +51,18 @@ def labelled_shoulders(
         of_the_trunk = (likelier < 0) & own[here]
         if (abs(likelier) > SURE).mean() > MOSTLY and of_the_trunk.sum() <= STRAY * own[here].sum():
             found = alpha_expansion(unlikely, *contrast(colours, here), unlikely.argmin(1))
-            out[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
+            whole = out.copy()
+            whole[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
+            astray = _astray((whole == arm), (own & ~here) | grown(labels < 0, 1))
+            out[here & ~astray] = whole[here & ~astray]
             plain |= here
     return out, plain
+
+
+def _astray(arm: NDArray[np.bool_], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pieces of an `arm` (h, w) that nothing `seen` of it (h, w) touches: a neck is as bare as a shoulder."""
+    _, pieces = cv2.connectedComponents(arm.astype(np.uint8), connectivity=4)
+    return arm & ~np.isin(pieces, np.unique(pieces[arm & seen]))
 
 
 def _hair(head: NDArray[np.float64], arm: Colours) -> list[Colours]:

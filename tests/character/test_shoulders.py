@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 
-from engine.body.parts import PARTS
+from engine.body.parts import PARTS, vertex_parts
 from engine.character.label_map import Labels
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import find_regions
@@ -20,8 +21,6 @@ def seen() -> tuple[PosedTemplate, np.ndarray, np.ndarray]:
     """The standing template, its labels, and which of its pixels the left shoulder's are (h, w)."""
     rig, template = load_human().rig, standing({})
     labels = np.full(SIZE, -1)
-    from engine.body.parts import vertex_parts
-
     part = vertex_parts(rig)[template.triangles]
     for index in range(len(PARTS)):
         labels[template.covers((part == index).all(1), SIZE)] = index
@@ -59,6 +58,17 @@ def test_hair_over_a_shoulder_is_the_heads() -> None:
     rgb[lock[0] : lock[0] + 8, lock[1] - 4 : lock[1] + 4] = HAIR
     found, _ = labelled_shoulders(rgb, truth, template, load_human().rig)
     assert (found[lock[0] + 1 : lock[0] + 7, lock[1] - 3 : lock[1] + 3] == HEAD).mean() > 0.9
+
+
+def test_skin_within_the_trunk_is_no_arms() -> None:
+    """As that of a neck, or in a low neckline."""
+    template, truth, near = seen()
+    rgb = painted(truth, SKIN, WHITE)
+    inner = cv2.erode((near & (truth == TORSO)).astype(np.uint8), np.ones((5, 5), np.uint8)) > 0
+    assert inner.sum() > 30
+    rgb[inner] = SKIN
+    found, plain = labelled_shoulders(rgb, truth, template, load_human().rig)
+    assert plain[inner].all() and (found[inner] == TORSO).mean() > 0.9
 
 
 def test_short_sleeves_of_the_shirts_cloth_and_shirts_of_one_colour_stay_as_they_are() -> None:
