@@ -39,6 +39,11 @@ class PosedTemplate:
         """The pixels (h, w) of a grid that `chosen` triangles (T,) cover."""
         return side_maps(self.vertices, self.triangles[chosen], (shape[0], shape[1]), "front").mask
 
+    def shows(self, chosen: NDArray[np.bool_], shape: Sequence[int]) -> NDArray[np.bool_]:
+        """The pixels (h, w) of a grid at which `chosen` triangles (T,) are nearest of all."""
+        seen = side_maps(self.vertices, self.triangles, (shape[0], shape[1]), "front")
+        return np.asarray(seen.mask & chosen[seen.raster.triangle])
+
     def sides(self, chosen: NDArray[np.bool_], shape: Sequence[int]) -> TemplateSides:
         """`chosen` triangles (T,) seen from both sides, on a grid (h, w)."""
         triangles, size = self.triangles[chosen], (shape[0], shape[1])

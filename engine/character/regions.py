@@ -28,6 +28,8 @@ UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
 FLESH = 0.02
 """Metres from the outline of the template's leg, within which it may be wider than the person's."""
+SHOWN = 0.5
+"""Share of a limb that the template shows where it is not seen, below which it is taken to be behind the body there."""
 WHOLE = 0.9
 """Share of a limb in one piece, below which another is taken to pass before it."""
 
@@ -86,19 +88,20 @@ def limb_in_one_piece(
 ) -> tuple[NDArray[np.bool_], bool]:
     """The pixels (h, w) of a limb in one piece: what is seen of it, what it shares with the body around its `joint` (h, w), and what
     the template has (`triangles` (T,)) where another that is `apart` passes before it, or the body, so that it comes out in
-    two places or does not reach its joint; what of it goes on behind the other arm, and its hidden hand. And whether it is the
-    body that it passes behind."""
+    two places or does not reach its joint; what of it goes on behind the other arm, and its hidden hand. And whether it passes
+    behind the body."""
     own, person = labels.labels == limb, labels.labels >= 0
+    if labels.behind is not None and labels.behind.limb == limb:
+        own = own | labels.behind.area
     seen = own | (person & joint & grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
-    lost = not (largest(seen) & joint).any()
-    behind = lost
+    lost, behind = not (largest(seen) & joint).any(), False
     if lost or _torn(seen):
         between = grown(template.covers(triangles, own.shape), UNDER)
         beneath = between & np.isin(labels.labels, apart)
-        behind = lost or _torn(seen | beneath)
-        seen = (own | (between & person)) if behind else seen | beneath
-    if labels.behind is not None and labels.behind.limb == limb:
-        seen = seen | labels.behind.area
+        led = between & person
+        hidden = lost and float(template.shows(triangles, own.shape)[led].mean()) < SHOWN
+        behind = hidden or _torn(seen | beneath)
+        seen = own | led if behind else seen | (led if lost else beneath)
     return largest(seen | (labels.hidden == limb)), behind
 
 

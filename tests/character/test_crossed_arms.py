@@ -102,7 +102,9 @@ def test_an_arm_goes_on_where_it_is_behind_the_other() -> None:
         labels.astype(np.int8), none, np.array([LEFT, RIGHT], np.int8), none, np.full(SHAPE, -1, np.int8), behind
     )
     template = bar((20, 30), (10, 20))
-    whole = limb_in_one_piece(found, LEFT, (LEFT, RIGHT), template, np.ones(2, np.bool_), rectangle((20, 30), (8, 14)))
+    whole, _ = limb_in_one_piece(
+        found, LEFT, (LEFT, RIGHT), template, np.ones(2, np.bool_), rectangle((20, 30), (8, 14))
+    )
     assert whole[25, 10:100].all()
 
 

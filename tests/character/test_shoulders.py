@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 
@@ -97,3 +99,27 @@ def test_an_arm_that_comes_out_in_two_places_behind_the_trunk_is_one_and_hides_n
     assert not body.mask[labels == LEFT].any()
     whole = Labels(truth.astype(np.int8), none, np.array([LEFT], np.int8), none, np.full(SIZE, -1, np.int8))
     assert not find_regions(whole, [LEFT], template, rig)[1][0].behind
+
+
+def test_a_forearm_whose_upper_arm_is_before_the_trunk_hides_it() -> None:
+    """Nothing but hand and forearm are labelled the arm's: the template's upper arm is before the trunk, or behind it."""
+    template, truth, _ = seen()
+    rig = load_human().rig
+    elbow = int(template.joints[rig.index("LeftForeArm"), 1])
+    labels = np.where((truth == LEFT) & (np.arange(SIZE[0])[:, None] < elbow), TORSO, truth)
+    none = np.zeros(SIZE, np.bool_)
+    apart = Labels(labels.astype(np.int8), none, np.array([LEFT], np.int8), none, np.full(SIZE, -1, np.int8))
+    _, (arm,) = find_regions(apart, [LEFT], template, rig)
+    assert not arm.behind and arm.mask[truth == LEFT].mean() > 0.9
+    turned = replace(template, vertices=template.vertices + _behind(template, LEFT))
+    assert find_regions(apart, [LEFT], turned, rig)[1][0].behind
+
+
+def _behind(template: PosedTemplate, limb: int) -> np.ndarray:
+    """What moves a limb of the template (V, 3) to the middle of the trunk, and behind it."""
+    part = vertex_parts(load_human().rig) == limb
+    middle = template.joints[load_human().rig.index("Hips"), 0]
+    away = np.zeros_like(template.vertices)
+    shoulder = template.joints[load_human().rig.index("LeftArm"), 0]
+    away[part] = [middle - shoulder, 0, -1.0 * template.pixels_per_metre]
+    return away
