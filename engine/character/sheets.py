@@ -53,7 +53,7 @@ class ClosedMesh:
     `vertices` (V, 3) float64: x, y, z; `triangles` (T, 3) int32, counter-clockwise seen from outside for one who looks at
     the picture. `front` (V,) bool: of the front sheet; vertices on a border are there twice, where
     it meets the front's colours and the back's.
-    `rim` (V,) bool: on such a border. `layer` (V,) int: the part, and `limb` (V,) int8 which limb that is, -1 for the body. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
+    `rim` (V,) bool: on such a border, where it is no hem. `layer` (V,) int: the part, and `limb` (V,) int8 which limb that is, -1 for the body. `bones` (V, 4) and `weights` (V, 4) float32: the strongest influences, strongest first,
     summing to one. `places` (V, 2): the pixel whose colour a vertex takes, where that is not its own, x and y; else NaN.
     """
 
@@ -134,7 +134,7 @@ def close(
         vertices=np.concatenate([points + deep, points - deep, (points - deep)[edge], further_up]),
         triangles=np.concatenate([triangles, triangles[:, ::-1] + count, strip]).astype(np.int32),
         front=np.repeat([True, False, True], [count, count, len(edge) + len(inside)]),
-        rim=np.concatenate([border, border, np.repeat([True, False], [len(edge), len(inside)])]),
+        rim=(border & ~hem)[of] & (np.arange(len(of)) < 2 * count + len(edge)),
         layer=owners[of],
         limb=np.array([layer.limb for layer in layers], np.int8)[owners[of]],
         bones=bones,

@@ -188,8 +188,11 @@ def _behind_the_limbs(
     if face is not None:
         shown &= ~(head & within_oval(face, shown.shape))
     leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
+    hidden = limbs & own
+    if labels.cloth is not None and labels.cloth.legs is not None:
+        hidden &= ~_enlarged(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
     for part in (head, leg, ~head & ~leg):
-        body = filled(body, limbs & own & part, usual_colours(seen, shown & part))
+        body = filled(body, hidden & part, usual_colours(seen, shown & part))
     return continued_colours(body, own)
 
 

@@ -129,8 +129,9 @@ def test_a_hem_is_open_from_beneath(dressed: tuple[PosedTemplate, Labels, np.nda
     x, y = SIZE[1] // 2, hem - 1
     near = (mesh.layer == 0) & (abs(mesh.vertices[:, 0] - x) < 1) & (abs(mesh.vertices[:, 1] - y) < 2)
     deep = layers[0].front.depth[y - 4, x] - layers[0].back.depth[y - 4, x]
-    assert np.ptp(mesh.vertices[near & mesh.rim, 2]) > 0.8 * deep, "front and back end apart"
-    inside = (mesh.layer == 0) & (abs(mesh.vertices[:, 0] - x) < 1) & ~mesh.rim
+    assert np.ptp(mesh.vertices[near, 2]) > 0.8 * deep, "front and back end apart"
+    assert not mesh.rim[near].any(), "and have their own colours, not those further in"
+    inside = (mesh.layer == 0) & (abs(mesh.vertices[:, 0] - x) < 1)
     depth = abs(mesh.vertices[inside, 2] - layers[0].front.depth[y - 4, x] + deep / 2)
     assert depth.min() < 0.2 * deep, "and are joined between them"
     assert mesh.vertices[inside][depth.argmin(), 1] < y - 8, "further up"
