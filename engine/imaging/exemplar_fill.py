@@ -19,9 +19,10 @@ SPREAD = 0.02
 
 
 def exemplar_fill(
-    image: NDArray[np.float32], hole: NDArray[np.bool_], sources: NDArray[np.bool_]
+    image: NDArray[np.float32], hole: NDArray[np.bool_], sources: NDArray[np.bool_], known: NDArray[np.bool_]
 ) -> NDArray[np.float32]:
-    """`image` (H, W, 3) with `hole` (H, W) filled from patches centred on `sources` (H, W).
+    """`image` (H, W, 3) with `hole` (H, W) filled from patches centred on `sources` (H, W). What is neither a hole nor `known` (H, W) has
+    no say and stays.
 
     Returns float32 (H, W, 3). Hole pixels that no whole patch reaches (in the picture's corners) are left.
     """
@@ -30,7 +31,7 @@ def exemplar_fill(
     half = (ys + xs) % 2 == 0 if len(ys) > 500 else np.ones(len(ys), bool)
     ys, xs = ys[half], xs[half]
     planes = colour_planes(image)
-    _fill(planes, hole.copy(), (~hole).astype(np.float32), ys.astype(np.int32), xs.astype(np.int32))
+    _fill(planes, hole.copy(), known.astype(np.float32), ys.astype(np.int32), xs.astype(np.int32))
     return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
+from engine.imaging.mask_distance import grown
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
 from engine.imaging.poisson import membrane
@@ -97,7 +98,8 @@ def _fill(
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
-        guess = exemplar_fill(guess, coarsest.hole, sources)
+        asked = coarsest.hole & grown(coarsest.wanted, SIDE)
+        guess = exemplar_fill(guess, asked, sources, ~coarsest.hole)
     field: NDArray[np.int32] | None = None
     for level in reversed(levels):
         sources = valid_centres(~level.hole)
