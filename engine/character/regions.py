@@ -144,6 +144,9 @@ def _body(
     body = completed(body, before & covered, labels.occlusion | crossing, whole)
     body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
     for one in limbs:
+        if one.behind:  # what lies between two borders of pixels would gape; a shoulder beside it is no trunk's
+            body = body | ((labels.labels == one.limb) & ~one.joint & grown(body, 1))
+    for one in limbs:
         body = largest(body | (before & one.joint & (_inner(labels) | ~crossing)))
     return body
 
