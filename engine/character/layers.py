@@ -47,7 +47,7 @@ LEAST = 50
 def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None) -> list[Layer]:
     """The body first, its head by its `face` if there is one; then legs that come out from under its cloth, and each limb that
     is apart and large enough. `labels`: taken apart (`Labels.layered`)."""
-    beneath = [leg for leg in legs_beneath(labels, template, rig) if leg.mask.sum() >= LEAST]
+    beneath = legs_beneath(labels, template, rig)
     legs = [leg.limb for leg in beneath]
     apart = [int(limb) for limb in labels.apart
              if limb not in legs and largest(labels.labels == limb).sum() >= LEAST]  # fmt: skip

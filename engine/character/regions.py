@@ -99,7 +99,8 @@ def limb_in_one_piece(
         between = grown(template.covers(triangles, own.shape), UNDER)
         beneath = between & np.isin(labels.labels, apart)
         led = between & person
-        hidden = lost and float(template.shows(triangles, own.shape)[led].mean()) < SHOWN
+        shown = template.shows(triangles, own.shape) & led
+        hidden = lost and shown.sum() < SHOWN * led.sum()
         behind = hidden or _torn(seen | beneath)
         seen = own | led if behind else seen | (led if lost else beneath)
     return largest(seen | (labels.hidden == limb)), behind

@@ -53,7 +53,7 @@ def labelled_shoulders(
             found = alpha_expansion(unlikely, *contrast(colours, here), unlikely.argmin(1))
             whole = out.copy()
             whole[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
-            astray = _astray((whole == arm), (own & ~here) | grown(labels < 0, 1))
+            astray = _astray(whole == arm, (own & ~here) | grown(labels < 0, 1))
             out[here & ~astray] = whole[here & ~astray]
             plain |= here
     return out, plain

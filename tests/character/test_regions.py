@@ -7,7 +7,7 @@ import numpy as np
 from engine.body.parts import PARTS
 from engine.character.label_map import Labels
 from engine.character.posed_template import PosedTemplate
-from engine.character.regions import limb_in_one_piece
+from engine.character.regions import LimbRegion, _body, limb_in_one_piece
 
 SHAPE = (60, 120)
 LEFT, RIGHT, TORSO = (PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
@@ -73,3 +73,13 @@ def test_an_arm_that_comes_out_in_two_places_is_led_from_one_to_the_other_behind
     whole = limb(labels, rectangle((20, 30), (8, 14)))
     assert whole[25, 10:110].all()
     assert not whole[:10].any() and not whole[50:].any()
+
+
+def test_beside_an_arm_that_passes_behind_it_the_body_leaves_no_gap_but_at_the_shoulder() -> None:
+    trunk, arm, joint = rectangle((5, 55), (5, 60)), rectangle((5, 55), (60, 70)), rectangle((5, 25), (55, 75))
+    labels = found(np.where(trunk, TORSO, np.where(arm, LEFT, -1)))
+    template, own = bar((5, 55), (5, 60)), np.ones(2, np.bool_)
+    behind = LimbRegion(arm, ~own, LEFT, ~own, joint, behind=True)
+    body = _body(labels, [behind], template, np.full((2, 3), TORSO), own)
+    assert body[27:53, 60].all() and not body[:, 61:].any()
+    assert not body[7:23, 60].any(), "a shoulder is no trunk's"
