@@ -41,6 +41,11 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     if cloth is None or not cloth.hangs:
         return replace(labels, cloth=cloth)
     legs = legs_below(rgb, labels.labels, cloth)
+    part = vertex_parts(rig)[template.triangles]
+    for leg in np.unique(legs[legs >= 0]):
+        first = np.flatnonzero((legs == leg).any(1))[0]
+        if template.covers((part == leg).all(1), legs.shape)[first:].sum() < LEAST:
+            legs[legs == leg] = -1  # nothing says what shape it has
     lower = cloth.lower.copy()
     first = cloth.rings[-1].row + 1
     beneath = round(2 * BAND * _height(labels.labels))

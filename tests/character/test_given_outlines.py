@@ -184,3 +184,18 @@ def test_a_map_unlike_the_skeleton_is_doubted(
     assert code == "labels_unlike_joints" and "left leg. Paint" in message
     ((_, message),) = told(np.where(own >= 0, TORSO, -1))
     assert all(limb in message for limb in ("left arm", "right arm", "left leg", "right leg"))
+
+
+def test_an_outline_that_goes_on_beneath_the_feet_is_made_too(figure: Figure, tmp_path: Path) -> None:
+    """An ellipse around somebody: round both legs as a skirt is, with an end that is below all of the template's legs."""
+    height, width = figure.rgb.shape[:2]
+    ellipse = np.zeros((height, width), np.uint8)
+    axes = (round(0.2 * width), round(0.435 * height))
+    cv2.ellipse(ellipse, (width // 2, round(0.535 * height)), axes, 0, 0, 360, 1, -1)
+    own = cut_out(figure, written(tmp_path / "mask.png", ellipse > 0), (), LIMITS, None, None, quiet)
+    fitted = fit_template(figure, own)
+    labels = label(figure, own, fitted, None, (), LIMITS, quiet)
+    assert labels.cloth is not None and labels.cloth.hangs
+    mesh = build_mesh(figure, own, fitted, labels)
+    covered = mesh.seen_layer((own.mask.shape[0], own.mask.shape[1])) >= 0
+    assert (covered & own.mask).sum() > 0.98 * own.mask.sum()
