@@ -24,10 +24,10 @@ HAND, FINGERTIPS = 0.03, 2.2
 """Width of where a hand may be, and how much further its tips are from the wrist than its knuckles."""
 AROUND, NEAR = 0.125, 0.05
 """How far from the person background is, and how far from a place colours tell of it, as shares of their height."""
-CERTAIN = 2.0
-"""By how much (a logarithm) background has to be likelier."""
-MOST = 3.0
-"""By how much colours count at most (a logarithm) where a gap's edge is looked for."""
+CERTAIN, CERTAIN_IN_DOUBT = 2.0, 1.2
+"""By how much (a logarithm) background has to be likelier, and where networks waver and the colours are those close by."""
+MOST, MOST_AT_EDGES = 10.0, 3.0
+"""By how much a pixel's colours count at most (a logarithm): where gaps are looked for, and where their edges are."""
 LEAST, NARROWEST = 2.4e-4, 0.01
 """Area of a gap as a share of the height's square, and its width as a share of the height, at least: what is smaller is a
 crease or a braid."""
@@ -108,20 +108,35 @@ def _by_colour(
     limbs: NDArray[np.bool_],
     height: float,
 ) -> NDArray[np.bool_]:
-    """The gaps (h, w) in what is `asked` (h, w)."""
-    found = np.zeros(asked.shape, np.bool_)
+    """The gaps (h, w) in what is `asked` (h, w): by the colours near all of it, and by those near each of its pieces, where light
+    falls otherwise."""
     lab = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float64)
-    person = (alpha > 0.5).astype(np.uint8)
-    outside = (alpha < 0.05) & (cv2.dilate(person, _square(AROUND * height)) > 0)
-    near = cv2.dilate(asked.astype(np.uint8), _square(NEAR * height)) > 0
-    close = outside & near
-    own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
-    if min(int(own.sum()), int(behind.sum()), int(asked.sum())) < 10 * COLOURS:
-        return found
-    likely = _likely(lab, asked, own, behind)
+    outside = (alpha < 0.05) & (cv2.dilate((alpha > 0.5).astype(np.uint8), _square(AROUND * height)) > 0)
+    count, pieces = cv2.connectedComponents(asked.astype(np.uint8), connectivity=4)
+    found = np.zeros(asked.shape, np.bool_)
+    for part in (asked, *(pieces == piece for piece in range(1, count))):
+        near = cv2.dilate(part.astype(np.uint8), _square(NEAR * height)) > 0
+        close = outside & near
+        own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
+        if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= 10 * COLOURS:
+            enough = CERTAIN if part is asked else np.where(belief < SURE, CERTAIN_IN_DOUBT, CERTAIN)
+            likely = part & (_likelier(lab, part, own, behind) > enough)
+            found |= _large_with_edges(lab, likely, alpha, belief, height)
+    return found
+
+
+def _large_with_edges(
+    lab: NDArray[np.float64],
+    likely: NDArray[np.bool_],
+    alpha: NDArray[np.float32],
+    belief: NDArray[np.float32],
+    height: float,
+) -> NDArray[np.bool_]:
+    """The pieces of what is `likely` (h, w) a gap that are one: large enough, with an edge, and no certain person."""
+    found = np.zeros(likely.shape, np.bool_)
     count, pieces, stats, _ = cv2.connectedComponentsWithStats(likely.astype(np.uint8), connectivity=4)
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
-    rest = (person > 0) & ~likely
+    rest = (alpha > 0.5) & ~likely
     edge = likely & grown(rest, 1)
     steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > CONTRAST
     for piece in range(1, count):
@@ -169,7 +184,7 @@ def _cut(
     core = distance_inside(gap) > 1
     zone = grown(asked | gap, 1)
     pixels = lab[zone]
-    likelier = np.clip(body.unlikely(pixels) - behind.unlikely(pixels) - CERTAIN, -MOST, MOST)
+    likelier = np.clip(body.unlikely(pixels) - behind.unlikely(pixels) - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)
     unary = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
     unary[core[zone]] = NOWHERE, 0
     unary[~(asked | gap)[zone]] = 0, NOWHERE
@@ -178,14 +193,14 @@ def _cut(
     return out
 
 
-def _likely(
+def _likelier(
     lab: NDArray[np.float64], asked: NDArray[np.bool_], own: NDArray[np.bool_], behind: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """What of the pixels that are `asked` (h, w) has the colours (h, w, 3) of what is `behind` (h, w), rather than the person's `own`
-    (h, w)."""
+) -> NDArray[np.float32]:
+    """By how much (h, w), a logarithm, pixels that are `asked` (h, w) rather have the colours (h, w, 3) of what is `behind` (h, w)
+    than the person's `own` (h, w)."""
     like = np.zeros(asked.shape, np.float32)
     like[asked] = Colours.of(lab[own]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
-    return np.asarray(asked & (cv2.GaussianBlur(like, (0, 0), 1.5) > CERTAIN))
+    return np.asarray(cv2.GaussianBlur(np.clip(like, -MOST, MOST), (0, 0), 1.5), np.float32)
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

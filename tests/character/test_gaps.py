@@ -103,6 +103,20 @@ def test_before_a_wall_nearly_as_white_as_the_shirt_a_gap_goes_to_its_edges() ->
     assert ((share > 0.5) & gap).sum() > 0.99 * ((share > 0.5) | gap).sum()
 
 
+def test_in_a_gap_of_which_networks_waver_the_colours_close_by_have_to_say_less() -> None:
+    """A wall that is lit beside one arm, nearly as light as the shirt, and dark elsewhere."""
+    rgb, mask, gap = person(behind=(90, 100, 110))
+    lit = gap.copy()
+    lit[80:320, 250:] |= mask[80:320, 250:] == 0
+    shirt = (np.abs(rgb.astype(int) - SHIRT).max(2) < 20) & ~gap
+    noise = np.random.default_rng(4).normal(0, 6, rgb.shape)
+    for where, white in ((lit, 229), (shirt, 236)):
+        rgb[where] = np.clip(white + noise, 0, 255)[where]
+    share = found(rgb, mask)
+    assert ((share > 0.5) & gap).sum() > 0.95 * ((share > 0.5) | gap).sum()
+    assert found(rgb, mask, belief=0.86).max() == 0
+
+
 def test_a_hand_of_the_walls_colours_at_a_gaps_end_stays() -> None:
     lowered = {"LeftWrist": (300, 280), "LeftIndex": (297, 300), "LeftPinky": (303, 300), "LeftElbow": (312, 200)}
     rgb, mask, gap = person(joints=JOINTS | lowered)
