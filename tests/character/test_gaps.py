@@ -110,7 +110,7 @@ def test_in_a_gap_of_which_networks_waver_the_colours_close_by_have_to_say_less(
     lit[80:320, 250:] |= mask[80:320, 250:] == 0
     shirt = (np.abs(rgb.astype(int) - SHIRT).max(2) < 20) & ~gap
     noise = np.random.default_rng(4).normal(0, 6, rgb.shape)
-    for where, white in ((lit, 229), (shirt, 236)):
+    for where, white in ((lit, 230), (shirt, 236)):
         rgb[where] = np.clip(white + noise, 0, 255)[where]
     share = found(rgb, mask)
     assert ((share > 0.5) & gap).sum() > 0.95 * ((share > 0.5) | gap).sum()
