@@ -112,14 +112,15 @@ def _by_colour(
     falls otherwise."""
     lab = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float64)
     outside = (alpha < 0.05) & (cv2.dilate((alpha > 0.5).astype(np.uint8), _square(AROUND * height)) > 0)
-    count, pieces = cv2.connectedComponents(asked.astype(np.uint8), connectivity=4)
+    in_doubt = np.where(belief < SURE, CERTAIN_IN_DOUBT, CERTAIN)
+    _, pieces, stats, _ = cv2.connectedComponentsWithStats(asked.astype(np.uint8), connectivity=4)
+    large = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] >= LEAST * height**2)
     found = np.zeros(asked.shape, np.bool_)
-    for part in (asked, *(pieces == piece for piece in range(1, count))):
+    for part, enough in ((asked, np.full_like(in_doubt, CERTAIN)), *((pieces == piece, in_doubt) for piece in large)):
         near = cv2.dilate(part.astype(np.uint8), _square(NEAR * height)) > 0
         close = outside & near
         own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
         if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= 10 * COLOURS:
-            enough = CERTAIN if part is asked else np.where(belief < SURE, CERTAIN_IN_DOUBT, CERTAIN)
             likely = part & (_likelier(lab, part, own, behind) > enough)
             found |= _large_with_edges(lab, likely, alpha, belief, height)
     return found

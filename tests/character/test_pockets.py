@@ -14,11 +14,14 @@ from benchmarks.character_steps import wake
 from engine.character.figure import Figure
 from engine.character.labels import ARMS, PARTS
 from engine.character.measures import pose
+from engine.character.options import CharacterOptions
+from engine.character.pipeline import cut_all_out, find_figures, reconstruct
 from engine.character.pockets import HandAtHip, hands_at_hips, parted, with_hand_parted
 from engine.geometry.welding import weld
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
 from engine.perception.body import LANDMARKS
+from engine.run import Run
 
 SHAPE = (160, 120)
 LEFT, TORSO, LEG = (PARTS.index(name) for name in ("left_arm", "torso", "left_leg"))
@@ -160,6 +163,15 @@ def test_a_hidden_hand_comes_out_and_the_cloth_stays(
     for frame in range(0, len(wave.rotations), 10):
         posed = pose(character, wave, frame)
         assert (np.linalg.norm(posed[a] - posed[b], axis=1) > 3 * length).mean() < 0.005
+
+
+@pytest.mark.parametrize(("name", "hidden"), [("man_green_coat.png", True), ("iper_apose_1.jpg", False)])
+def test_the_report_tells_of_a_hand_that_is_made_up(name: str, hidden: bool, media: Callable[[str], Path]) -> None:
+    run, options = Run(), CharacterOptions()
+    (figure,) = find_figures(media(f"fullbody/{name}"), options, run)
+    (figure,), (silhouette,) = cut_all_out([figure], None, options, run)
+    reconstruct(figure, silhouette, None, options, run)
+    assert ("hand_in_pocket" in [notice.code for notice in run.notices]) == hidden
 
 
 def test_a_label_painted_over_a_hidden_hand_overrules_it(media: Callable[[str], Path]) -> None:
