@@ -25,8 +25,9 @@ from engine.character.labels import (
     rough_labels,
     without_specks,
 )
-from engine.character.legs import LEGS_APART, as_the_template, beside_the_other, leg_before
+from engine.character.legs import LEGS_APART
 from engine.character.occlusion import occlusion_mask, occlusion_pixels, rest_places
+from engine.character.overlapping_legs import as_the_template, beside_the_other, leg_before
 from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
 from engine.character.posed_template import PosedTemplate
 from engine.character.shoulders import labelled_shoulders
@@ -88,7 +89,7 @@ def label_parts(
     hidden = np.full(mask.shape, -1, np.int8)
 
     def before(labels: NDArray[np.integer]) -> int | None:
-        return leg_before(labels, template.joints, rig, template.pixels_per_metre)
+        return leg_before(labels, template, rig)
 
     if given is not None:
         rough = complete_labels(mask, given)

@@ -19,15 +19,15 @@ from engine.body.rig import Rig
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed, largest
+from engine.character.overlapping_legs import standing_off
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.mask_distance import grown
+from engine.character.unseen_limbs import unseen_limbs
+from engine.imaging.mask_distance import distance_to, grown
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
 UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
-FLESH = 0.02
-"""Metres from the outline of the template's leg, within which it may be wider than the person's."""
 SHOWN = 0.5
 """Share of a limb that the template shows where it is not seen, below which it is taken to be behind the body there."""
 WHOLE = 0.9
@@ -60,7 +60,8 @@ def find_regions(
     legs come out from under its cloth."""
     part = vertex_parts(rig)[template.triangles]
     limbs = [_limb_region(labels, limb, apart, template, rig, part) for limb in apart]
-    own = np.logical_or.reduce([(~np.isin(part, apart)).any(1), *(limb.overlap for limb in limbs)])
+    elsewhere = [*apart, *(one.limb for one in unseen_limbs(labels, template, rig))]
+    own = np.logical_or.reduce([(~np.isin(part, elsewhere)).any(1), *(limb.overlap for limb in limbs)])
     legs = None if labels.cloth is None else labels.cloth.legs
     if legs is not None:
         own &= ~_below(legs, template, part)
@@ -118,7 +119,9 @@ def _limb_region(
     overlap, joint = _around_joint(limb, template, rig, labels.labels.shape)
     mask, behind = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
     if limb in LEGS:
-        mask = largest(mask & (_inner(labels) | (labels.labels == limb)))
+        trunk = template.covers(np.asarray((~np.isin(part, ARMS)).all(1)), mask.shape)
+        hand = np.isin(labels.labels, ARMS) & ~trunk
+        mask = largest(mask & ((_inner(labels) & ~hand) | (labels.labels == limb)))
     return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 
 
@@ -140,23 +143,28 @@ def _body(
     crossing = np.zeros_like(before)
     for leg in (one.limb for one in limbs if one.limb in LEGS):
         crossing = labels.labels == leg
-        body = body | (crossing & _bone(template, (part == sum(LEGS) - leg).all(1), before.shape))
+        body = body | (crossing & _hidden_leg(labels.labels, leg, template, part))
     whole = template.covers(triangles, before.shape)
     body = completed(body, before & covered, labels.occlusion | crossing, whole)
     body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
     for one in limbs:
         if one.behind:  # what lies between two borders of pixels would gape; a shoulder beside it is no trunk's
             body = body | ((labels.labels == one.limb) & ~one.joint & grown(body, 1))
-    for one in limbs:
-        body = largest(body | (before & one.joint & (_inner(labels) | ~crossing)))
+    for one in limbs:  # not behind another, as a hand that hangs beside the hip, where no trunk is
+        of_both = before & one.joint & ((labels.labels == one.limb) | whole)
+        body = largest(body | (of_both & (_inner(labels) | ~crossing)))
     return body
 
 
-def _bone(template: PosedTemplate, leg: NDArray[np.bool_], shape: Sequence[int]) -> NDArray[np.bool_]:
-    """The pixels (h, w) surely inside of a leg of the template, its triangles `leg` (T,), whatever is before it: what joins the
-    leg's pieces. Its outline is left to what is seen above and below."""
-    depth = np.asarray(cv2.distanceTransform(template.covers(leg, shape).astype(np.uint8), cv2.DIST_L2, 5))
-    return depth > FLESH * template.pixels_per_metre
+def _hidden_leg(
+    labels: NDArray[np.integer], before: int, template: PosedTemplate, part: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the leg behind the one that is `before`, wherever it may be seen: the template's, and what is worn on it,
+    as on the other. `part` (T, 3): that of each corner of the template's triangles."""
+    front, behind = (
+        distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, sum(LEGS) - before)
+    )
+    return np.asarray(behind <= standing_off(labels, before, front))
 
 
 def _around_joint(

@@ -36,7 +36,8 @@ SEEN = 0.02
 class SolidLimb:
     """`vertices` (V, 3) in picture space and at `rest` (V, 3), metres; `triangles` (T, 3), closed; `weights` (V, J); `front`,
     `back` (h, w): its depths, NaN beside it. `seen`, `sure`, `upper`, `hand` (V,) bool: which vertices the picture shows, which of
-    them away from the limb's outline, and which are above the elbow and of the hand."""
+    them away from the limb's outline, and which are above the elbow and of the hand. `like`: the limb of the other side, whose
+    colours it has if it is not seen."""
 
     vertices: NDArray[np.float64]
     rest: NDArray[np.float64]
@@ -48,6 +49,7 @@ class SolidLimb:
     sure: NDArray[np.bool_]
     upper: NDArray[np.bool_]
     hand: NDArray[np.bool_]
+    like: SolidLimb | None = None
 
     def moved(self, front: NDArray[np.float32], back: NDArray[np.float32], which: NDArray[np.bool_]) -> SolidLimb:
         """The limb when its depths have become others, and `which` of its vertices (V,) go with them."""
@@ -112,16 +114,17 @@ def _inner(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 def places_on_the_picture(limbs: Sequence[SolidLimb]) -> list[NDArray[np.float64]]:
     """For each of some limbs the pixels (V, 2), x and y, whose colours its vertices take: their own where they are seen, else those
-    of the nearest at rest that is, of a hand for a hand and of an arm for an arm. NaN where nothing is seen."""
+    of the nearest at rest that is, of a hand for a hand and of an arm for an arm; of a limb that is not seen those of the one that it
+    is like. NaN where nothing is seen."""
     found = []
     for limb in limbs:
         places = np.full((len(limb.vertices), 2), np.nan)
-        other = next((one for one in limbs if one is not limb), None)
+        other = limb.like or next((one for one in limbs if one is not limb), None)
         for group in (limb.hand, ~limb.hand):
             wanted, source, flip = group & ~limb.seen, limb, 1.0
             shown = group & (limb.sure if (group & limb.sure).any() else limb.seen)
-            if not shown.any() and other is not None and group is limb.hand:
-                source, flip, shown = other, -1.0, other.hand & other.sure
+            if not shown.any() and other is not None and (limb.like or group is limb.hand):
+                source, flip, shown = other, -1.0, (other.hand if group is limb.hand else ~other.hand) & other.sure
             if not shown.any():
                 source, flip, shown = limb, 1.0, limb.sure
             if shown.any() and wanted.any():

@@ -20,7 +20,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import load_human
 from engine.geometry.welding import is_closed
-from tests.character.test_crossed_legs import SIZE, standing
+from tests.character.test_overlapping_legs import SIZE, standing
 
 TORSO, LEFT, RIGHT = (PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
 GREEN, SKIN, GREY = (40, 120, 60), (225, 180, 150), (140, 140, 145)

@@ -14,7 +14,7 @@ from engine.character.regions import find_regions
 from engine.character.shoulders import labelled_shoulders
 from engine.character.template_fit import load_human
 from engine.imaging.mask_distance import grown
-from tests.character.test_crossed_legs import SIZE, standing
+from tests.character.test_overlapping_legs import SIZE, standing
 
 HEAD, TORSO, LEFT, RIGHT = (PARTS.index(name) for name in ("head", "torso", "left_arm", "right_arm"))
 SKIN, WHITE, HAIR, GREY = (215, 170, 145), (235, 235, 238), (45, 30, 25), (120, 120, 125)

@@ -1,4 +1,4 @@
-"""Legs that cross: which is before, and the other made where it is hidden. The template stands for the person, so that all is
+"""Legs that cross, or hide one another from the side: which is before, and the other made where it is hidden. The template stands for the person, so that all is
 known of what nobody sees."""
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from engine.body.fitting import COEFFICIENTS, Fit
 from engine.body.parts import PARTS, vertex_parts
 from engine.character.label_map import label_parts
 from engine.character.layers import build_layers
-from engine.character.legs import as_the_template, leg_before
+from engine.character.overlapping_legs import as_the_template, leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import close
 from engine.character.template_fit import FittedBody, load_human, pose_template
@@ -24,6 +24,7 @@ SIZE = (448, 260)
 LEFT, RIGHT = PARTS.index("left_leg"), PARTS.index("right_leg")
 ARMS_DOWN = {"LeftArm": (0, 0, -60), "RightArm": (0, 0, 60)}
 AT_THE_KNEES = {"LeftUpLeg": (-14, 0, -16), "LeftLeg": (14, 0, -4), "RightUpLeg": (2, 0, 10)}
+FROM_THE_SIDE = {"Hips": (0, 75, 0)}
 AT_THE_SHINS = {"RightUpLeg": (-9, 0, 13), "RightLeg": (4, 0, 0), "LeftUpLeg": (5, 0, -7), "LeftLeg": (6, 0, 0)}
 
 
@@ -46,7 +47,9 @@ def leg_of(template: PosedTemplate, leg: int) -> np.ndarray:
 
 @pytest.mark.parametrize("worn", [0, 4], ids=["bare", "in trousers"])
 @pytest.mark.parametrize(
-    ("turns", "before", "behind"), [(AT_THE_KNEES, LEFT, RIGHT), (AT_THE_SHINS, RIGHT, LEFT)], ids=["knees", "shins"]
+    ("turns", "before", "behind"),
+    [(AT_THE_KNEES, LEFT, RIGHT), (AT_THE_SHINS, RIGHT, LEFT), (FROM_THE_SIDE, RIGHT, LEFT)],
+    ids=["knees", "shins", "side"],
 )
 def test_the_leg_behind_goes_on_where_it_is_hidden(
     turns: dict[str, tuple[int, int, int]], before: int, behind: int, worn: int
@@ -89,19 +92,18 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
         assert surface.weights[hidden & body.mask][:, moving].sum(1).max() < 0.05, "the other leg does not move it"
 
 
-def test_legs_that_stand_side_by_side_do_not_cross() -> None:
-    rig, template = load_human().rig, standing({})
-    labels = np.full(SIZE, LEFT)
-    assert leg_before(labels, template.joints, rig, template.pixels_per_metre) is None
+@pytest.mark.parametrize(("turn", "before"), [(0, None), (30, None), (75, RIGHT), (-75, LEFT), (105, RIGHT)])
+def test_the_nearer_leg_is_before_the_other_as_the_body_turns(turn: int, before: int | None) -> None:
+    assert leg_before(np.full(SIZE, LEFT), standing({"Hips": (0, turn, 0)}), load_human().rig) == before
 
 
 def test_the_leg_before_is_the_one_that_is_seen_where_they_cross() -> None:
     rig, template = load_human().rig, standing(AT_THE_KNEES)
     for leg in (LEFT, RIGHT):
         labels = np.full(SIZE, leg)
-        assert leg_before(labels, template.joints, rig, template.pixels_per_metre) == leg
+        assert leg_before(labels, template, rig) == leg
     nothing = np.full(SIZE, -1)
-    assert leg_before(nothing, template.joints, rig, template.pixels_per_metre) is None
+    assert leg_before(nothing, template, rig) is None
 
 
 def test_trousers_of_the_leg_before_hide_as_much_as_they_stand_off() -> None:

@@ -1,0 +1,113 @@
+"""Arms behind the trunk, of which the picture shows nothing. The template stands for the person, seen from its right side."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.body.parts import PARTS, vertex_parts
+from engine.character.label_map import Labels, label_parts
+from engine.character.layers import build_layers
+from engine.character.posed_template import PosedTemplate
+from engine.character.regions import find_regions
+from engine.character.sheets import Layer, close
+from engine.character.solid_limb import places_on_the_picture
+from engine.character.template_fit import load_human
+from engine.character.unseen_limbs import unseen_limbs
+from engine.geometry.welding import is_closed
+from tests.character.test_overlapping_legs import SIZE, standing
+
+LEFT, RIGHT, TORSO = (PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
+SHIRT, SKIN, WALL = (60, 60, 160), (220, 170, 140), (200, 200, 200)
+
+
+@pytest.fixture(scope="module")
+def template() -> PosedTemplate:
+    return standing({"Hips": (0, 90, 0)})
+
+
+@pytest.fixture(scope="module")
+def labels(template: PosedTemplate) -> Labels:
+    return labelled(template, clothed(template))
+
+
+@pytest.fixture(scope="module")
+def layers(labels: Labels, template: PosedTemplate) -> list[Layer]:
+    return build_layers(labels, template, load_human().rig)
+
+
+def clothed(template: PosedTemplate) -> NDArray[np.bool_]:
+    """The person's outline: clothes stand off by three pixels."""
+    covered = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
+    return cv2.dilate(covered.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
+
+
+def labelled(template: PosedTemplate, mask: NDArray[np.bool_]) -> Labels:
+    rgb = np.where(mask[..., None], SHIRT, WALL).astype(np.uint8)
+    return label_parts(rgb, mask, template, load_human().rig)
+
+
+def triangles_of(template: PosedTemplate, limb: int) -> NDArray[np.bool_]:
+    return (vertex_parts(load_human().rig)[template.triangles] == limb).all(1)
+
+
+def test_an_arm_behind_the_trunk_is_made_apart_from_it(
+    labels: Labels, template: PosedTemplate, layers: list[Layer]
+) -> None:
+    assert not (labels.labels == LEFT).any()
+    body, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, load_human().rig)
+    assert not (body.triangles & triangles_of(template, LEFT)).any()
+    arm = next(layer for layer in layers if layer.limb == LEFT)
+    assert arm.solid is not None
+    mesh = close(layers, clothed(template).astype(np.float32))
+    _, point = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
+    assert is_closed(point.ravel()[mesh.triangles])
+    long = np.ptp(arm.solid.vertices[:, 1]) / template.pixels_per_metre
+    assert 0.55 < long < 0.75
+
+
+def test_nothing_of_it_is_seen(template: PosedTemplate, layers: list[Layer]) -> None:
+    mask = clothed(template)
+    shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
+    number = next(k for k, layer in enumerate(layers) if layer.limb == LEFT)
+    assert not (shown == number).any()
+    assert (shown >= 0).sum() > 0.98 * mask.sum()
+
+
+def test_it_is_moved_by_its_own_joints_alone(layers: list[Layer]) -> None:
+    arm = next(layer for layer in layers if layer.limb == LEFT).solid
+    assert arm is not None
+    own = [name.startswith("Left") for name in load_human().rig.names]
+    assert arm.weights[~arm.upper][:, own].sum(1).min() > 0.99
+
+
+def test_it_has_the_colours_of_the_other_arm(labels: Labels, layers: list[Layer]) -> None:
+    arm = next(layer for layer in layers if layer.limb == LEFT).solid
+    assert arm is not None and arm.like is not None
+    (places,) = places_on_the_picture([arm])
+    assert np.isfinite(places).all()
+    x, y = np.clip(np.rint(places), 0, np.array(SIZE)[::-1] - 1).astype(int).T
+    assert (labels.labels[y, x] == RIGHT).mean() > 0.98
+    sleeve, hand = places[~arm.hand, 1], places[arm.hand, 1]
+    assert sleeve.min() < hand.min(), "a hand is like a hand, below the sleeves"
+    wrist = arm.like.vertices[arm.like.hand, 1].min()
+    assert (hand >= wrist - 1).all()
+
+
+def test_an_arm_that_the_picture_cuts_off_is_not_made_up() -> None:
+    template = standing({})
+    mask = clothed(template) & ~cv2.dilate(
+        template.covers(triangles_of(template, LEFT), SIZE).astype(np.uint8), np.ones((15, 15), np.uint8)
+    ).astype(bool)
+    found = labelled(template, mask)
+    without = np.where(found.labels == LEFT, TORSO, found.labels).astype(np.int8)
+    given = label_parts(np.zeros((*SIZE, 3), np.uint8), mask, template, load_human().rig, without)
+    assert not (given.labels == LEFT).any()
+    assert unseen_limbs(given, template, load_human().rig) == []
+
+
+def test_whoever_is_seen_whole_lacks_nothing() -> None:
+    template = standing({})
+    assert unseen_limbs(labelled(template, clothed(template)), template, load_human().rig) == []
