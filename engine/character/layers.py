@@ -37,7 +37,7 @@ from engine.character.sheets import Layer
 from engine.character.skirt_weights import moved_by_both
 from engine.character.solid_limb import solid_arms, solid_limb
 from engine.character.template_maps import SideMaps, weights_at
-from engine.character.unseen_limbs import UnseenLimb, made, unseen_limbs
+from engine.character.unseen_limbs import unseen_layer, unseen_limbs
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
@@ -81,8 +81,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         else:
             beneath_it = _solid_beneath(limb, body, own | ~one.joint)
         layers.append(replace(beneath_it, limb=one.limb))
-    for unseen in unseen_limbs(labels, template, rig):
-        layers.append(_unseen_layer(unseen, [body, *layers], labels, template, rig))
+    layers += [unseen_layer(one, [body, *layers], labels, template, rig) for one in unseen_limbs(labels, template, rig)]
     if labels.behind is not None:
         layers = _behind_the_other(layers, body, labels.behind, labels)
     return [body, *layers]
@@ -127,17 +126,6 @@ def _solid_layer(one: LimbRegion, template: PosedTemplate, rig: Rig, own: NDArra
     limb = solid_limb(one.triangles, one.mask, template, rig, own)
     unused = np.zeros((*own.shape, 0), np.float32)
     return Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused), solid=limb)
-
-
-def _unseen_layer(one: UnseenLimb, before: Sequence[Layer], labels: Labels, template: PosedTemplate, rig: Rig) -> Layer:
-    """A limb that is not seen, behind all that is `before` it."""
-    limb = made(one, labels, template, rig)
-    unused = np.zeros((*one.mask.shape, 0), np.float32)
-    layer = Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused))
-    for other in before:
-        layer = limb_behind(layer, other, layer.mask)
-    everywhere = np.ones(len(limb.vertices), np.bool_)
-    return replace(layer, solid=limb.moved(layer.front.depth, layer.back.depth, everywhere), limb=one.limb)
 
 
 def _solid_beneath(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:

@@ -49,6 +49,8 @@ FINEST = 3.0
 """Pixels of a limb's edge for each of the grid's, at most."""
 ARM, ALONG = ("Arm", "Hand"), 0.05
 """What is in the names of joints of arms, and the share in what moves the body from which on it is moved by them."""
+WRIST = 0.3
+"""Share in what moves an arm from which on it is moved by the hand."""
 FACE_COUNTS = 6.0
 """How much more a triangle of the head counts where triangles are saved."""
 SHADOW = 0.012
@@ -165,8 +167,9 @@ def make_character(
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
+    sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
     alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, face_turn(figure)
-    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned, along)
+    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned, along, sleeves)
     if face is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
@@ -187,6 +190,13 @@ def _along_with_arms(mesh: ClosedMesh, labels: Labels) -> NDArray[np.bool_]:
         goes = (mesh.layer == 0) & ((mesh.weights * own[mesh.bones]).sum(1) > ALONG)
         along |= mesh.pixels(np.flatnonzero(goes), along.shape) & (labels.labels == arm)
     return along
+
+
+def _sleeve(mesh: ClosedMesh, arm: int, labels: Labels) -> NDArray[np.bool_]:
+    """What the surface of an arm that is apart covers (h, w), without its hand."""
+    hand = np.array(["Hand" in name for name in load_human().rig.names])
+    worn = (mesh.limb == arm) & ((mesh.weights * hand[mesh.bones]).sum(1) < WRIST)
+    return mesh.pixels(np.flatnonzero(worn), labels.labels.shape)
 
 
 def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:

@@ -6,6 +6,7 @@ the front, on which the face gives way to what surrounds it (hair, a hat).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,18 +15,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
-from engine.character.crossed_labels import Behind
 from engine.character.face_region import within_oval
 from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
 from engine.character.limb_edges import soft_limbs
+from engine.character.limb_texture import behind_another, own_of_limbs, paint_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
-from engine.imaging.mask_distance import distance_inside, distance_to, grown
-from engine.imaging.nearest import nearest_in
+from engine.imaging.mask_distance import distance_inside, distance_to
+from engine.imaging.nearest import continued_colours
 from engine.imaging.patch_fill import filled
 from engine.imaging.poisson import poisson_blend
+from engine.imaging.resample import enlarged_mask
 from engine.imaging.usual_colours import usual_colours
 
 BackTexture = Literal["mirror", "inpaint"]
@@ -45,16 +47,9 @@ SEAM_FROM, SEAM_TO = 2.0, 8.0
 HEAD_FROM, HEAD_TO = 1.8, 4.9
 """The same for heads: the back's colours begin on the front, a pixel and a half within the outline, and hair where ears
 and temples end, which is about where the outline is."""
-SOFT_EDGE = (0.5, 1.5)
-"""Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
-surely its own."""
-SLIVER = 5
-"""Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
 NEARBY = 0.04
 """How far from a limb the body is looked at for what it is made of behind it, as a share of the person's height: what is
 printed on a shirt's middle is not on its sides, too."""
-UP_AN_ARM = 0.07
-"""The same for what a limb is made of."""
 TALLEST, WIDEST = 2048, 4096
 """Pixels of height of a tile, and of width of the whole texture, at most: what every graphics card takes."""
 TILES = 3
@@ -87,6 +82,7 @@ def paint_tiles(
     back: BackTexture,
     turned: float = 0.0,
     along: NDArray[np.bool_] | None = None,
+    sleeves: Mapping[int, NDArray[np.bool_]] | None = None,
 ) -> Tiles:
     """Paint the tiles.
 
@@ -101,8 +97,9 @@ def paint_tiles(
     back : where the back's colours come from.
     turned : to which side the face looks, as `face_region.face_turn` says.
     along : (h, w) what of the body goes with a limb, as at shoulders, and so is of its colours.
+    sleeves : (h, w) what the surface of each arm that is apart covers above its hand, by its index.
     """
-    limbs = _own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
+    limbs = own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
     shape = limbs.shape
     tiles = TILES + (labels.behind is not None)
     scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // tiles / shape[1])
@@ -122,22 +119,16 @@ def paint_tiles(
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
     body = _behind_the_limbs(seen, labels, around, own, oval) if limbs.any() else seen
     if along is not None:
-        body = np.where((_enlarged(along & limbs, size) & own)[..., None], seen, body)
+        body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
-    head = _enlarged(labels.labels == PARTS.index("head"), size) & own
+    head = enlarged_mask(labels.labels == PARTS.index("head"), size) & own
     beside = body
     if oval is not None and head.any():
         behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
-    apart = seen
-    if limbs.any():
-        legs = _enlarged(_nearer(limbs & np.isin(labels.labels, LEGS), limbs & ~np.isin(labels.labels, LEGS)), size)
-        apart = _of_the_limbs(seen, around & own, _enlarged(limbs_reach & ~limbs, size), scale, legs)
-    if (labels.hidden >= 0).any():
-        near = grown(labels.hidden >= 0, SLIVER)
-        apart = _with_skin(apart, seen, _enlarged(near & ~limbs, size), oval, own)
+    apart = paint_limbs(seen, own, around, labels, limbs, limbs_reach, sleeves or {}, oval, scale)
     hidden = None
     if labels.behind is not None:
-        hidden = labels.behind.limb, _behind_another(apart, labels, labels.behind, seen, own, oval)
+        hidden = labels.behind.limb, behind_another(apart, labels, labels.behind, seen, own, oval)
     back_tile = joined_at_the_outline(beside, behind, own, head, scale)
     return Tiles(apart, body, back_tile, head, scale, shift, hidden)
 
@@ -161,14 +152,6 @@ def atlas(tiles: Tiles, mesh: ClosedMesh, body_layer: int) -> tuple[NDArray[np.u
     return np.concatenate(pictures, 1), place.astype(np.float32)
 
 
-def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """The picture with each pixel outside of `own` in the colour of the nearest one inside, softly."""
-    if not own.any() or own.all():
-        return rgb
-    soft = np.asarray(cv2.GaussianBlur(rgb[nearest_in(own)], (0, 0), 2.0))
-    return np.where(own[..., None], rgb, soft).astype(np.uint8)
-
-
 def _behind_the_limbs(
     seen: NDArray[np.uint8],
     labels: Labels,
@@ -181,75 +164,19 @@ def _behind_the_limbs(
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
-    head = _enlarged(beneath == PARTS.index("head"), size)
+    head = enlarged_mask(beneath == PARTS.index("head"), size)
     away = distance_to(limbs) / size[1]
     body = continued_colours(seen, own & ~limbs)
     shown = own & ~limbs & (away < NEARBY)
     if face is not None:
         shown &= ~(head & within_oval(face, shown.shape))
-    leg = _enlarged(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
+    leg = enlarged_mask(np.isin(beneath, LEGS) & bool(np.isin(labels.apart, LEGS).any()), size)
     hidden = limbs & own
     if labels.cloth is not None and labels.cloth.legs is not None:
-        hidden &= ~_enlarged(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
+        hidden &= ~enlarged_mask(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
     for part in (head, leg, ~head & ~leg):
         body = filled(body, hidden & part, usual_colours(seen, shown & part))
     return continued_colours(body, own)
-
-
-def _nearer(some: NDArray[np.bool_], others: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """What is nearer to some pixels (h, w) than to others."""
-    return np.asarray(distance_to(some) < distance_to(others))
-
-
-def _of_the_limbs(
-    seen: NDArray[np.uint8],
-    own: NDArray[np.bool_],
-    hole: NDArray[np.bool_],
-    scale: float,
-    legs: NDArray[np.bool_] | None = None,
-) -> NDArray[np.uint8]:
-    """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
-    colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
-    shoulder, nor, where `legs` (h, w) are, on one of these."""
-    inside = distance_inside(own) / scale
-    deep = inside > SOFT_EDGE[1]
-    around = continued_colours(seen, deep if deep.any() else own)
-    made = np.where((inside > SOFT_EDGE[0])[..., None], seen, around)
-    for which in (np.ones_like(own),) if legs is None else (legs, ~legs):
-        mine, lost = own & which, hole & which
-        if mine.any() and lost.any():
-            known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
-            made = filled(made, lost, known if known.any() else mine)
-    return made
-
-
-def _behind_another(
-    limbs: NDArray[np.uint8],
-    labels: Labels,
-    behind: Behind,
-    seen: NDArray[np.uint8],
-    own: NDArray[np.bool_],
-    face: NDArray[np.floating] | None,
-) -> NDArray[np.uint8]:
-    """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
-    size = (own.shape[1], own.shape[0])
-    mine = labels.labels == behind.limb
-    edge = grown(behind.area, SLIVER // 2)
-    worn = usual_colours(limbs, _enlarged(mine & ~edge, size) & own)
-    whole = filled(limbs, _enlarged(behind.area | (mine & edge), size), worn)
-    return _with_skin(whole, seen, _enlarged(behind.hand, size), face, own)
-
-
-def _with_skin(
-    rgb: NDArray[np.uint8],
-    seen: NDArray[np.uint8],
-    hands: NDArray[np.bool_],
-    face: NDArray[np.floating] | None,
-    own: NDArray[np.bool_],
-) -> NDArray[np.uint8]:
-    """The picture (h, w, 3) with `hands` (h, w) that are hidden in the face's colour; as it was where no face is `seen`."""
-    skin = np.zeros_like(own) if face is None else within_oval(face, own.shape) & own
-    return np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), rgb) if skin.any() else rgb
 
 
 def joined_at_the_outline(
@@ -278,22 +205,10 @@ def _from_the_sides(
     for part, name in enumerate(PARTS):
         if name == "head":
             continue  # its middle is the face
-        region = _enlarged(labels.labels == part, size) & own
+        region = enlarged_mask(labels.labels == part, size) & own
         depth = distance_inside(region)
         if (thick := float(depth.max())) < THICK:
             continue
         middle = depth > SIDES * thick
         out = filled(out, middle, region & ~middle)
     return out
-
-
-def _own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
-    beyond slivers elsewhere. The others are on the body, whatever they are called."""
-    near = grown(shown, 1)
-    more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
-    return np.asarray((labelled & near) | (more > 0))
-
-
-def _enlarged(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:
-    return np.asarray(cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)) > 0.5

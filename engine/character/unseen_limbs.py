@@ -6,6 +6,7 @@ Beyond the paper, whose limbs are all seen. Left to the body, such a limb would 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import cv2
@@ -14,10 +15,13 @@ from numpy.typing import NDArray
 
 from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
+from engine.character.depth_order import limb_behind
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import largest
+from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
+from engine.character.sheets import Layer
 from engine.character.solid_limb import SolidLimb, solid_limb
 
 LEAST = 50
@@ -58,9 +62,22 @@ def unseen_limbs(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Unse
     return found
 
 
-def made(one: UnseenLimb, labels: Labels, template: PosedTemplate, rig: Rig) -> SolidLimb:
-    """The limb, of the colours of the other side's."""
-    nothing, own = np.zeros_like(one.mask), labels.labels == OTHER[one.limb]
-    chosen = (vertex_parts(rig)[template.triangles] == OTHER[one.limb]).any(1)
-    like = solid_limb(chosen, largest(own), template, rig, own)
-    return replace(solid_limb(one.triangles, one.mask, template, rig, nothing), like=like)
+def unseen_layer(one: UnseenLimb, layers: Sequence[Layer], labels: Labels, template: PosedTemplate, rig: Rig) -> Layer:
+    """The limb, in the colours of the other side's, behind all that is seen before it: the body, first of the `layers`, and limbs."""
+    limb = solid_limb(one.triangles, one.mask, template, rig, np.zeros_like(one.mask))
+    limb = replace(limb, like=_other_side(one.limb, labels, template, rig))
+    unused = np.zeros((*one.mask.shape, 0), np.float32)
+    layer = Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused), limb=one.limb)
+    apart = [other.limb for other in layers[1:]]
+    for before in layers:
+        own = labels.labels == before.limb if before.limb >= 0 else ~np.isin(labels.labels, apart)
+        layer = limb_behind(layer, before, own)
+    everywhere = np.ones(len(limb.vertices), np.bool_)
+    return replace(layer, solid=limb.moved(layer.front.depth, layer.back.depth, everywhere))
+
+
+def _other_side(limb: int, labels: Labels, template: PosedTemplate, rig: Rig) -> SolidLimb:
+    """The limb of the other side, where the picture shows it."""
+    own = labels.labels == OTHER[limb]
+    chosen = (vertex_parts(rig)[template.triangles] == OTHER[limb]).any(1)
+    return solid_limb(chosen, largest(own), template, rig, own)

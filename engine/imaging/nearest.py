@@ -19,3 +19,11 @@ def nearest_in(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.in
     row_of, column_of = np.zeros((2, int(labels.max()) + 1), np.intp)
     row_of[labels[mask]], column_of[labels[mask]] = rows, columns
     return row_of[labels], column_of[labels]
+
+
+def continued_colours(rgb: NDArray[np.uint8], own: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """The picture with each pixel outside of `own` in the colour of the nearest one inside, softly."""
+    if not own.any() or own.all():
+        return rgb
+    soft = np.asarray(cv2.GaussianBlur(rgb[nearest_in(own)], (0, 0), 2.0))
+    return np.where(own[..., None], rgb, soft).astype(np.uint8)

@@ -38,3 +38,8 @@ def size_within(shape: tuple[int, ...], longest: int) -> tuple[int, int]:
 def even_size(width: float, height: float) -> tuple[int, int]:
     """The nearest even width and height (at least 2), as 4:2:0 video wants them."""
     return max(2, 2 * round(width / 2)), max(2, 2 * round(height / 2))
+
+
+def enlarged_mask(mask: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.bool_]:
+    """A mask (H, W) at `size` = (width, height): its edge runs between the pixels."""
+    return np.asarray(cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)) > 0.5

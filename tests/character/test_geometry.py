@@ -26,8 +26,8 @@ from engine.character.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
-from engine.character.texture import continued_colours
 from engine.geometry.welding import is_closed
+from engine.imaging.nearest import continued_colours
 from engine.motion.kinematics import joint_places
 
 

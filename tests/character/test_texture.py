@@ -8,10 +8,11 @@ import numpy as np
 from engine.body.parts import PARTS
 from engine.character.face_region import face_within
 from engine.character.label_map import Labels
+from engine.character.limb_texture import of_the_limbs, paint_limbs
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 from engine.character.sides import FOLDED, FURTHEST, places_on_the_picture
-from engine.character.texture import _of_the_limbs, joined_at_the_outline, paint_tiles
+from engine.character.texture import joined_at_the_outline, paint_tiles
 
 SAME = np.array([[1.0, 0, 0], [0, 1, 0]])
 GREEN, RED, BROWN, SKIN = (20, 160, 60), (210, 40, 30), (70, 45, 30), (230, 180, 150)
@@ -208,7 +209,7 @@ def test_where_an_arm_comes_out_from_behind_the_body_it_is_of_what_is_near_and_n
     sleeve, skin = (40, 60, 130), (225, 180, 150)
     seen[60:130, 20:50], seen[130:160, 20:50] = sleeve, skin
     hole[40:60, 20:70] = True
-    made = _of_the_limbs(seen, own, hole, 1.0)
+    made = of_the_limbs(seen, own, hole, 1.0)
     assert np.abs(made[hole].astype(int) - sleeve).max() < 12
     np.testing.assert_array_equal(made[135:155, 25:45], seen[135:155, 25:45])
 
@@ -222,6 +223,35 @@ def test_a_leg_that_goes_on_under_a_skirt_is_of_its_own_colours_and_not_of_the_h
     seen[leg], seen[hand] = trousers, skin
     under = np.zeros_like(own)
     under[hole] = True
-    made = _of_the_limbs(seen, own, under, 1.0, legs)
+    made = of_the_limbs(seen, own, under, 1.0, legs)
     assert np.abs(made[hole].astype(int) - trousers).max() < 12
     np.testing.assert_array_equal(made[85:105, 95:145], seen[85:105, 95:145])
+
+
+def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> None:
+    """The left arm is behind the trunk, all but its hand; the right one is before it. Neither is the colour of the trunk."""
+    seen = np.full((200, 160, 3), (120, 40, 40), np.uint8)
+    found = np.full((200, 160), -1, np.int8)
+    left, right = (PARTS.index(f"{side}_arm") for side in ("left", "right"))
+    hand, hidden, other = np.s_[130:150, 110:126], np.s_[60:130, 110:126], np.s_[60:150, 40:60]
+    found[20:180, 30:130] = PARTS.index("torso")
+    found[hand], found[other] = left, right
+    sleeve, skin = (40, 60, 130), (225, 180, 150)
+    seen[hand], seen[other] = skin, sleeve
+    reach = np.isin(found, (left, right))
+    reach[hidden] = True
+    sleeves = {arm: np.zeros_like(reach) for arm in (left, right)}
+    sleeves[left][hidden], sleeves[right][other] = True, True
+    labels = Labels(
+        found, np.zeros_like(reach), np.array([left, right], np.int8), np.zeros_like(reach), np.full_like(found, -1)
+    )
+    limbs = np.isin(found, (left, right))
+    everything = np.ones_like(reach)
+    made = paint_limbs(seen, everything, limbs, labels, limbs, reach, sleeves, None, 1.0)
+    assert np.abs(made[62:120, 111:125].astype(int) - sleeve).max() < 12
+    np.testing.assert_array_equal(made[133:147, 113:123], seen[133:147, 113:123])
+    np.testing.assert_array_equal(made[65:145, 43:57], seen[65:145, 43:57])
+    half = {left: sleeves[left] | (found == left), right: sleeves[right]}
+    found[hidden] = left
+    kept = paint_limbs(seen, everything, limbs | reach, labels, limbs | reach, reach, half, None, 1.0)
+    np.testing.assert_array_equal(kept[65:125, 113:123], seen[65:125, 113:123], "what is seen stays as it is seen")

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS, vertex_parts
+from engine.character.free_cloth import FreeCloth
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.posed_template import PosedTemplate
@@ -111,3 +114,32 @@ def test_an_arm_that_the_picture_cuts_off_is_not_made_up() -> None:
 def test_whoever_is_seen_whole_lacks_nothing() -> None:
     template = standing({})
     assert unseen_limbs(labelled(template, clothed(template)), template, load_human().rig) == []
+
+
+def test_a_leg_that_nobody_sees_stands_beside_the_other() -> None:
+    template, rig = standing({"Hips": (0, 90, 0)}), load_human().rig
+    mask = clothed(template)
+    left, right = PARTS.index("left_leg"), PARTS.index("right_leg")
+    found = labelled(template, mask).labels
+    labels = label_parts(
+        np.zeros((*SIZE, 3), np.uint8), mask, template, rig, np.where(found == left, right, found).astype(np.int8)
+    )
+    assert {one.limb for one in unseen_limbs(labels, template, rig)} == {LEFT, left}
+    layers = build_layers(labels, template, rig)
+    shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
+    leg = next(layer for layer in layers if layer.limb == left).solid
+    assert leg is not None
+    assert [layers[k].limb for k in np.unique(shown[shown >= 0])] == [-1, RIGHT]
+    own = template.vertices[np.unique(template.triangles[triangles_of(template, left)])]
+    off = (leg.vertices[:, 2].mean() - own[:, 2].mean()) / template.pixels_per_metre
+    assert abs(off) < 0.05, "behind the other as the template has it"
+    assert np.ptp(leg.vertices[:, 2]) < np.ptp(own[:, 2]) + 0.05 * template.pixels_per_metre
+
+
+def test_a_skirt_hides_no_leg() -> None:
+    template, rig = standing({}), load_human().rig
+    mask = clothed(template)
+    found = labelled(template, mask)
+    skirt = np.where(np.isin(found.labels, [PARTS.index("left_leg")]), PARTS.index("right_leg"), found.labels)
+    cloth = FreeCloth(mask, (), 0, True, False, np.zeros_like(mask), 1.0)
+    assert unseen_limbs(replace(found, labels=skirt.astype(np.int8), cloth=cloth), template, rig) == []

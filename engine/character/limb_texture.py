@@ -1,0 +1,151 @@
+"""The colours of limbs that are apart: what is seen of them, and what is made where something passes before them.
+
+The paper's section 5 fills hidden regions by PatchMatch. Beyond it, they are filled from what is near of the same limb, or
+from the other one where hardly more than a hand is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.character.crossed_labels import Behind
+from engine.character.face_region import within_oval
+from engine.character.label_map import Labels
+from engine.character.labels import ARMS, LEGS
+from engine.imaging.mask_distance import distance_inside, distance_to, grown
+from engine.imaging.nearest import continued_colours
+from engine.imaging.patch_fill import filled
+from engine.imaging.resample import enlarged_mask
+from engine.imaging.usual_colours import usual_colours
+
+SOFT_EDGE = (0.5, 1.5)
+"""Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are
+surely its own."""
+SLIVER = 5
+"""Pixels of the grid up to which a limb that shows beside its label is the outline's roughness."""
+UP_AN_ARM = 0.07
+"""How far from what is hidden of a limb its colours are looked up, as a share of the person's height."""
+HARDLY = 0.25
+"""Share of an arm that is seen, below which the other one tells more of what it wears."""
+
+
+def own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
+    beyond slivers elsewhere. The others are on the body, whatever they are called."""
+    near = grown(shown, 1)
+    more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
+    return np.asarray((labelled & near) | (more > 0))
+
+
+def paint_limbs(
+    seen: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    around: NDArray[np.bool_],
+    labels: Labels,
+    limbs: NDArray[np.bool_],
+    reach: NDArray[np.bool_],
+    sleeves: Mapping[int, NDArray[np.bool_]],
+    face: NDArray[np.floating] | None,
+    scale: float,
+) -> NDArray[np.uint8]:
+    """The tile (H, W, 3) of the limbs that are apart.
+
+    Parameters
+    ----------
+    seen : the picture (H, W, 3), continued beyond the person's `own` pixels (H, W).
+    around : (H, W) what the limbs show, to their edges in the picture.
+    limbs, reach, sleeves : on the grid of the `labels` (h, w), what is seen of limbs; all that their surfaces cover; and what that
+        of each arm covers above its hand, by its index.
+    face : an ellipse around the face, in pixels of the tile.
+    scale : pixels of the tile for each of the grid's.
+    """
+    size = (own.shape[1], own.shape[0])
+    made = seen
+    if limbs.any():
+        legs = np.isin(labels.labels, LEGS)
+        legs = enlarged_mask(distance_to(limbs & legs) < distance_to(limbs & ~legs), size)
+        hole = enlarged_mask(reach & ~limbs, size)
+        made = of_the_limbs(seen, around & own, hole, scale, legs)
+        near = enlarged_mask(grown(limbs | reach, SLIVER), size)  # what an unseen limb is like may be elsewhere
+        made = np.where(near[..., None], made, seen)
+    for arm in sleeves:
+        made = _like_the_other_sleeve(made, seen, labels, arm, sleeves, limbs, own)
+    if (labels.hidden >= 0).any():
+        hands = grown(labels.hidden >= 0, SLIVER) & ~limbs
+        made = _with_skin(made, seen, enlarged_mask(hands, size), face, own)
+    return made
+
+
+def of_the_limbs(
+    seen: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    hole: NDArray[np.bool_],
+    scale: float,
+    legs: NDArray[np.bool_] | None = None,
+) -> NDArray[np.uint8]:
+    """The limbs (h, w, 3): what is seen of their `own`; around it, where a surface that was made on the grid may end, the
+    colours of their inside; and the `hole` behind what is before them filled from what is usual near it: a hand's skin is on no
+    shoulder, nor, where `legs` (h, w) are, on one of these."""
+    inside = distance_inside(own) / scale
+    deep = inside > SOFT_EDGE[1]
+    around = continued_colours(seen, deep if deep.any() else own)
+    made = np.where((inside > SOFT_EDGE[0])[..., None], seen, around)
+    for which in (np.ones_like(own),) if legs is None else (legs, ~legs):
+        mine, lost = own & which, hole & which
+        if mine.any() and lost.any():
+            known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
+            made = filled(made, lost, known if known.any() else mine)
+    return made
+
+
+def _like_the_other_sleeve(
+    made: NDArray[np.uint8],
+    seen: NDArray[np.uint8],
+    labels: Labels,
+    arm: int,
+    sleeves: Mapping[int, NDArray[np.bool_]],
+    limbs: NDArray[np.bool_],
+    own: NDArray[np.bool_],
+) -> NDArray[np.uint8]:
+    """The limbs as they are `made` (h, w, 3) with the sleeve of an arm of which hardly more than the hand is `seen` made of what the
+    other one is, where none of the `limbs` (h, w) is seen."""
+    other = sum(ARMS) - arm
+    shown = {one: (labels.labels == one) & sleeve for one, sleeve in sleeves.items()}
+    if other not in sleeves or shown[arm].sum() > HARDLY * sleeves[arm].sum() or shown[other].sum() < shown[arm].sum():
+        return made
+    size = (own.shape[1], own.shape[0])
+    hole = enlarged_mask(sleeves[arm] & ~limbs, size)
+    return filled(made, hole, usual_colours(seen, enlarged_mask(shown[other], size) & own))
+
+
+def behind_another(
+    limbs: NDArray[np.uint8],
+    labels: Labels,
+    behind: Behind,
+    seen: NDArray[np.uint8],
+    own: NDArray[np.bool_],
+    face: NDArray[np.floating] | None,
+) -> NDArray[np.uint8]:
+    """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
+    size = (own.shape[1], own.shape[0])
+    mine = labels.labels == behind.limb
+    edge = grown(behind.area, SLIVER // 2)
+    worn = usual_colours(limbs, enlarged_mask(mine & ~edge, size) & own)
+    whole = filled(limbs, enlarged_mask(behind.area | (mine & edge), size), worn)
+    return _with_skin(whole, seen, enlarged_mask(behind.hand, size), face, own)
+
+
+def _with_skin(
+    rgb: NDArray[np.uint8],
+    seen: NDArray[np.uint8],
+    hands: NDArray[np.bool_],
+    face: NDArray[np.floating] | None,
+    own: NDArray[np.bool_],
+) -> NDArray[np.uint8]:
+    """The picture (h, w, 3) with `hands` (h, w) that are hidden in the face's colour; as it was where no face is `seen`."""
+    skin = np.zeros_like(own) if face is None else within_oval(face, own.shape) & own
+    return np.where(hands[..., None], np.median(seen[skin], axis=0).astype(np.uint8), rgb) if skin.any() else rgb
