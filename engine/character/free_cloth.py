@@ -62,7 +62,7 @@ class FreeCloth:
     `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or trousers', and may
     `go_on` in legs. `lower` (h, w): what hangs beneath the last ring between and beside the legs. `even`: pixels over which
     cloth changes along the body. `legs` (h, w): the leg, an index of `PARTS`, that comes out from under it there, -1 elsewhere;
-    None where none is apart from it."""
+    None where none is apart from it. `before`: of these the one that passes before the other, None where neither does."""
 
     worn: NDArray[np.bool_]
 
@@ -73,6 +73,7 @@ class FreeCloth:
     lower: NDArray[np.bool_]
     even: float
     legs: NDArray[np.int8] | None = None
+    before: int | None = None
 
     @property
     def parted(self) -> bool:
@@ -99,17 +100,19 @@ def free_cloth(
     nearest: NDArray[np.floating],
     furthest: NDArray[np.floating],
     parting: NDArray[np.bool_],
+    overlap: NDArray[np.bool_] | None = None,
 ) -> FreeCloth | None:
     """Find it: in each row one piece, round all that the template has there. None where nothing goes round it.
 
     `cloth` (h, w): which pixels may be cloth; `shown` (h, w): the part that the template's body shows, -1 beside it;
     `nearest` and `furthest` (h, w): its depths there; `parting` (h, w): where one leg meets the other. There close cloth is
-    trousers, unless it gets loose further down and ends in a hem.
+    trousers, unless it gets loose further down and ends in a hem. `overlap` (h, w): where one of the template's legs hides the other.
     """
     trunk, left, right = (shown == PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
     if not (cloth.any() and trunk.any() and left.any() and right.any()):
         return None
-    rings = _rings(cloth, trunk, left, right, nearest, furthest)
+    both = (left.any(1) & right.any(1)) | (False if overlap is None else overlap.any(1))
+    rings = _rings(cloth, (trunk, left, right), trunk.any(1) | both, nearest, furthest)
     high = float(np.ptp(np.flatnonzero(cloth.any(1))))
     far = max(2, round(BENEATH * high))
     hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
@@ -146,17 +149,18 @@ def _hem(rings: Sequence[Ring], cloth: NDArray[np.bool_], template: NDArray[np.b
 
 def _rings(
     cloth: NDArray[np.bool_],
-    trunk: NDArray[np.bool_],
-    left: NDArray[np.bool_],
-    right: NDArray[np.bool_],
+    template: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
+    within: NDArray[np.bool_],
     nearest: NDArray[np.floating],
     furthest: NDArray[np.floating],
 ) -> list[Ring]:
-    """From the waist down, row by row as long as one piece goes round all that the template has there."""
+    """From the waist down, row by row as long as one piece goes round all that the `template` has there, its trunk and its left and
+    right leg (h, w) each: `within` the rows (h,) of the trunk and of both legs."""
+    trunk, left, right = template
     rings: list[Ring] = []
     rows = np.flatnonzero(trunk.any(1))
     for row in range(int(rows[0] + WAIST * (rows[-1] - rows[0])), len(cloth)):
-        if not (trunk[row].any() or (left[row].any() and right[row].any())):
+        if not within[row]:
             break
         there = np.flatnonzero((trunk | left | right)[row])
         piece = _piece(cloth[row], (there[0] + there[-1]) // 2)

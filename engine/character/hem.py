@@ -18,6 +18,7 @@ from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, COLOURS, LEGS, NOWHERE, Colours, contrast
 from engine.character.occlusion import largest
+from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.geometry.graph_cut import alpha_expansion
@@ -40,7 +41,8 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     cloth = around_legs(region, labels, template, rig)
     if cloth is None or not cloth.hangs:
         return replace(labels, cloth=cloth)
-    legs = legs_below(rgb, labels.labels, cloth)
+    before = leg_before(labels.labels, template, rig)
+    legs = legs_below(rgb, labels.labels, cloth, before)
     part = vertex_parts(rig)[template.triangles]
     for leg in np.unique(legs[legs >= 0]):
         first = np.flatnonzero((legs == leg).any(1))[0]
@@ -50,7 +52,7 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
     first = cloth.rings[-1].row + 1
     beneath = round(2 * BAND * _height(labels.labels))
     lower[first : first + beneath] |= (cloth.worn & (legs < 0))[first : first + beneath]
-    cloth = replace(cloth, legs=legs, lower=lower)
+    cloth = replace(cloth, legs=legs, lower=lower, before=before)
     return replace(labels, apart=np.setdiff1d(labels.apart, LEGS), cloth=cloth)
 
 
@@ -63,12 +65,16 @@ def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig)
     shown = np.where(sides.front.mask, part[:, 0][clothed][sides.front.raster.triangle], -1)
     bare = [arm for arm in ARMS if arm not in labels.apart]
     cloth = (body.mask | np.isin(labels.labels, crossing)) & ~np.isin(labels.labels, bare)
-    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting)
+    legs = [template.covers(clothed & (part == leg).all(1), shown.shape) for leg in LEGS]
+    return free_cloth(cloth, shown, sides.front.depth, sides.back.depth, labels.parting, legs[0] & legs[1])
 
 
-def legs_below(rgb: NDArray[np.uint8], labels: NDArray[np.integer], cloth: FreeCloth) -> NDArray[np.int8]:
+def legs_below(
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], cloth: FreeCloth, before: int | None = None
+) -> NDArray[np.int8]:
     """The leg (h, w), an index of `PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
-    the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'."""
+    the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'. Each is in one piece, unless the one that is `before` it
+    parts it."""
     end, wide = cloth.rings[-1].row, max(2, round(BAND * _height(labels)))
     rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
     person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != PARTS.index("head"))
@@ -88,8 +94,17 @@ def legs_below(rgb: NDArray[np.uint8], labels: NDArray[np.integer], cloth: FreeC
     for leg in LEGS:
         own = found == leg
         whole = largest(own)
+        if before not in (None, leg):
+            whole |= _beside(own, grown(found == before, 1))
         found[own & ~whole if whole.sum() >= LEAST else own] = -1
     return found
+
+
+def _beside(own: NDArray[np.bool_], other: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The pieces of a leg's `own` pixels (h, w), large enough, that have some of the `other`'s (h, w)."""
+    _, pieces, stats, _ = cv2.connectedComponentsWithStats(own.astype(np.uint8), connectivity=4)
+    met = np.unique(pieces[own & other])
+    return np.isin(pieces, met[stats[met, cv2.CC_STAT_AREA] >= LEAST])
 
 
 def _parted(

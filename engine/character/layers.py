@@ -66,6 +66,8 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         own = labels.labels == leg.limb
         under = overlap_beneath(going_with(_layer(leg, template, rig), body, own), body, own)
         layers.append(replace(under, limb=leg.limb))
+    if cloth and cloth.before is not None:
+        layers = _leg_behind(layers, cloth.before, labels)
     for one in limbs:
         own = labels.labels == one.limb
         if one.limb in solid and not (labels.hidden == one.limb).any():
@@ -103,6 +105,13 @@ def _behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labe
         if before.solid is None:
             found[place[other]] = limb_around(before, moved, body, hidden)
     return found
+
+
+def _leg_behind(legs: Sequence[Layer], before: int, labels: Labels) -> list[Layer]:
+    """Legs that come out from under cloth, the one that another is `before` behind that one."""
+    front = [leg for leg in legs if leg.limb == before]
+    shown = labels.labels == before
+    return [leg if leg.limb == before or not front else limb_behind(leg, front[0], shown) for leg in legs]
 
 
 def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None = None) -> Layer:

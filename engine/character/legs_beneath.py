@@ -14,6 +14,7 @@ from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.label_map import Labels
 from engine.character.occlusion import largest
+from engine.character.overlapping_legs import hidden_leg
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion
@@ -38,6 +39,8 @@ def legs_beneath(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Limb
     found = []
     for leg in np.unique(cloth.legs[cloth.legs >= 0]):
         own, chosen = cloth.legs == leg, (part == leg).all(1)
+        if cloth.before not in (None, leg):
+            own = largest(own | ((cloth.legs == cloth.before) & hidden_leg(cloth.legs, cloth.before, template, part)))
         mask = own | _under(own, clothed, template.covers(chosen, own.shape), up)
         high = template.vertices[template.triangles, 1].max(1) > np.flatnonzero(mask.any(1))[0]
         nothing = np.zeros_like(own)

@@ -98,3 +98,14 @@ def beside_the_other(labels: NDArray[np.integer], leg: int) -> NDArray[np.bool_]
     """The pixels (h, w) of a leg beside which the other one shows."""
     other = labels == sum(LEGS) - leg
     return (labels == leg) & grown(other, 1)
+
+
+def hidden_leg(
+    labels: NDArray[np.integer], before: int, template: PosedTemplate, part: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """The pixels (h, w) of the leg behind the one that is `before`, wherever it may be seen: the template's, and what is worn on it,
+    as on the other. `part` (T, 3): that of each corner of the template's triangles."""
+    front, behind = (
+        distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, sum(LEGS) - before)
+    )
+    return np.asarray(behind <= standing_off(labels, before, front))

@@ -19,10 +19,10 @@ from engine.body.rig import Rig
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed, largest
-from engine.character.overlapping_legs import standing_off
+from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
 from engine.character.unseen_limbs import unseen_limbs
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import grown
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
@@ -143,7 +143,7 @@ def _body(
     crossing = np.zeros_like(before)
     for leg in (one.limb for one in limbs if one.limb in LEGS):
         crossing = labels.labels == leg
-        body = body | (crossing & _hidden_leg(labels.labels, leg, template, part))
+        body = body | (crossing & hidden_leg(labels.labels, leg, template, part))
     whole = template.covers(triangles, before.shape)
     body = completed(body, before & covered, labels.occlusion | crossing, whole)
     body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
@@ -154,17 +154,6 @@ def _body(
         of_both = before & one.joint & ((labels.labels == one.limb) | whole)
         body = largest(body | (of_both & (_inner(labels) | ~crossing)))
     return body
-
-
-def _hidden_leg(
-    labels: NDArray[np.integer], before: int, template: PosedTemplate, part: NDArray[np.intp]
-) -> NDArray[np.bool_]:
-    """The pixels (h, w) of the leg behind the one that is `before`, wherever it may be seen: the template's, and what is worn on it,
-    as on the other. `part` (T, 3): that of each corner of the template's triangles."""
-    front, behind = (
-        distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, sum(LEGS) - before)
-    )
-    return np.asarray(behind <= standing_off(labels, before, front))
 
 
 def _around_joint(

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.body.parts import PARTS
+from engine.body.parts import PARTS, vertex_parts
 from engine.character.drape import drape
 from engine.character.free_cloth import FreeCloth, Ring
 from engine.character.hem import legs_below, with_cloth
@@ -20,7 +20,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import load_human
 from engine.geometry.welding import is_closed
-from tests.character.test_overlapping_legs import SIZE, standing
+from tests.character.test_overlapping_legs import AT_THE_SHINS, SIZE, standing
 
 TORSO, LEFT, RIGHT = (PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
 GREEN, SKIN, GREY = (40, 120, 60), (225, 180, 150), (140, 140, 145)
@@ -176,3 +176,47 @@ def test_under_cloth_a_leg_goes_on_beside_the_other_and_not_over_it() -> None:
     assert rows[0] == 40 and rows[-1] == 59
     width = under.sum(1)[rows]
     assert width[0] < 0.75 * width[-1], "narrower at its end"
+
+
+def in_a_skirt(turns: dict[str, tuple[int, int, int]]) -> tuple[PosedTemplate, Labels, int]:
+    """The template so posed, in a green skirt to its knees: what it is, its labels and the hem's row."""
+    human, template = load_human(), standing(turns)
+    mask = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
+    hips, knees = (int(template.joints[human.rig.index(name), 1]) for name in ("LeftUpLeg", "LeftLeg"))
+    y, x = np.mgrid[: SIZE[0], : SIZE[1]]
+    middle = float(template.joints[human.rig.index("Hips"), 0])
+    skirted = (y >= hips - 30) & (y < knees + 5) & (abs(x - middle) < 34 + (y - hips) / 2.5)
+    rgb = np.where(skirted[..., None], GREEN, np.where(mask[..., None], SKIN, GREY)).astype(np.uint8)
+    labels = with_cloth(label_parts(rgb, mask | skirted, template, human.rig), rgb, template, human.rig)
+    return template, labels, knees + 5
+
+
+@pytest.mark.parametrize(
+    ("turns", "before"), [(AT_THE_SHINS, RIGHT), ({"Hips": (0, 80, 0)}, RIGHT)], ids=["cross", "side"]
+)
+def test_beneath_a_skirt_the_leg_behind_goes_on_where_the_other_hides_it(
+    turns: dict[str, tuple[int, int, int]], before: int
+) -> None:
+    template, labels, hem = in_a_skirt(turns)
+    behind = LEFT + RIGHT - before
+    assert labels.cloth is not None and labels.cloth.before == before
+    layers = {layer.limb: layer for layer in build_layers(labels.layered, template, load_human().rig)}
+    own = [template.covers((vertex_parts(load_human().rig)[template.triangles] == leg).all(1), SIZE)
+           for leg in (behind, before)]  # fmt: skip
+    hidden = own[0] & own[1]
+    hidden[: hem + 2] = False
+    assert hidden.sum() > 250
+    leg, other = layers[behind], layers[before]
+    assert (leg.mask & hidden).sum() > 0.95 * hidden.sum()
+    assert not (layers[-1].mask & own[0])[hem + 4 :].any(), "none of it is the skirt's"
+    both = leg.mask & other.mask & (labels.layered.labels == before)
+    assert (leg.front.depth < other.front.depth)[both].all()
+    rows = np.flatnonzero(leg.mask.any(1))
+    assert rows[0] < hem - 10 and rows[-1] > SIZE[0] * 0.8, "from under it to the sole"
+
+
+def test_a_skirt_goes_round_legs_that_stride_to_the_side() -> None:
+    """Where one leg hides the other, both are there."""
+    _, labels, hem = in_a_skirt({"Hips": (0, -60, 0), "LeftUpLeg": (-20, 0, 0), "RightUpLeg": (14, 0, 0)})
+    assert labels.cloth is not None and labels.cloth.parted
+    assert abs(labels.cloth.rings[-1].row - hem) < 12
