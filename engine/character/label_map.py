@@ -28,10 +28,11 @@ from engine.character.labels import (
 from engine.character.legs import LEGS_APART
 from engine.character.occlusion import occlusion_mask, occlusion_pixels, rest_places
 from engine.character.overlapping_legs import as_the_template, beside_the_other, leg_before
-from engine.character.pockets import HandAtHip, parted, template_hand, with_hand_parted
+from engine.character.pockets import parted, template_hand, with_hand_parted
 from engine.character.posed_template import PosedTemplate
 from engine.character.shoulders import labelled_shoulders
 from engine.character.template_maps import side_maps
+from engine.character.unfound_hands import UnfoundHand
 from engine.render.attributes import interpolate
 
 
@@ -75,12 +76,12 @@ def label_parts(
     given: NDArray[np.int8] | None = None,
     corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
     sure: NDArray[np.int8] | None = None,
-    at_hips: Sequence[HandAtHip] = (),
+    unfound: Sequence[UnfoundHand] = (),
     crossed: ArmLabels | None = None,
 ) -> Labels:
     """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
-    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands `at_hips`
-    that were not found are looked for there; `crossed` arms are as they say and the template's are not; `corrected` has the
+    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands that are
+    `unfound` are looked for where they would be; `crossed` arms are as they say and the template's are not; `corrected` has the
     last word."""
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
@@ -110,7 +111,7 @@ def label_parts(
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
         rough = without_specks(rough, known, plain)
-        for hand in at_hips:
+        for hand in unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:
                 rough = without_specks(with_hand_parted(rough, found, hand.arm), known, plain)

@@ -1,6 +1,8 @@
-"""Hands at the hips that are hardly seen, or not at all: in a pocket, behind the tail of a coat.
+"""Hands that were not found: what shows around them, and whether they are hidden, in a pocket or behind the tail of a coat.
 
-Beyond the paper. Colours part what shows there, the arm's from the cloth's; the template has the hand that the picture lacks.
+Beyond the paper. Colours part what shows there, the arm's from the cloth's; where skin and cloth are alike it counts whether the
+cloth goes on where the hand would be, and how sure of its fingers the body's network is. The template has the hand that the picture
+lacks.
 """
 
 from __future__ import annotations
@@ -13,17 +15,19 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.body.rig import Rig
-from engine.character.figure import SIDES, Figure
+from engine.character.figure import SIDES
 from engine.character.labels import ARMS, COLOURS, Colours, complete_labels
 from engine.character.template_maps import side_maps
+from engine.character.unfound_hands import SURE, UnfoundHand
 from engine.imaging.mask_distance import distance_to, grown
-from engine.perception.body import LANDMARKS
 
-LOW, BESIDE, REACH = 0.7, 1.5, 0.5
-"""Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
-how far from that joint, at most, in lengths of the trunk."""
-DOUBTFUL = 0.85
-"""Confidence of a finger below which the hand may be hidden."""
+UNSEEN = 0.7
+"""Confidence of a finger below which the hand surely is not seen."""
+GOES_ON, HARDLY = 0.2, 0.4
+"""Share of the template's hand that stands out from the cloth around it, up to which the cloth goes on there, whatever else is said;
+and up to which it does if no skin is seen there, or no finger."""
+USUAL = 0.9
+"""Share of the cloth that does not stand out from itself."""
 AROUND, NEAR, BY = 1.2, 2.5, 0.3
 """Lengths of the hand from its middle within which pixels are parted, and within which cloth tells of its colours; and how far
 that is from the template's hand, at least: the hand may be beside it."""
@@ -31,7 +35,7 @@ CUFF = 0.3
 """Lengths of the hand by which a sleeve reaches beyond the wrist."""
 CERTAIN = 3.0
 """By how much (a logarithm) a colour has to be likelier."""
-HIDDEN = 0.5
+HIDDEN = 0.7
 """Share of the template's hand that is surely no skin where a hand is hidden."""
 HUES = 8.0
 """Distance of two hues (CIE Lab, 8 bits, without lightness) below which they say nothing."""
@@ -44,48 +48,12 @@ OTHER_LIGHT = 10.0
 
 
 @dataclass(frozen=True)
-class HandAtHip:
-    """A hand that was looked for at the hip and not found, of an `arm` (an index of `PARTS`): its `wrist` (2,) and the `knuckles`
-    (2,) on the grid; whether even its joints are `doubtful`; the `skin` of the face (N, 3), RGB."""
-
-    arm: int
-    wrist: NDArray[np.float64]
-    knuckles: NDArray[np.float64]
-    doubtful: bool
-    skin: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
 class PartedHand:
     """What shows around a hand: the `arm`'s and the `cloth`'s pixels (h, w), and those where the hand is `hidden`."""
 
     arm: NDArray[np.bool_]
     cloth: NDArray[np.bool_]
     hidden: NDArray[np.bool_]
-
-
-def hands_at_hips(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.float64]) -> tuple[HandAtHip, ...]:
-    """Those of a figure, on the grid of `rgb` (h, w, 3). None where no face says what skin looks like."""
-    if figure.face is None:
-        return ()
-
-    def at(name: str) -> NDArray[np.float64]:
-        return np.asarray(to_grid[:, :2] @ figure.point(name) + to_grid[:, 2], np.float64)
-
-    shoulders, hips = ((at(f"Left{joint}") + at(f"Right{joint}")) / 2 for joint in ("Shoulder", "Hip"))
-    down = hips - shoulders
-    trunk = max(float(np.linalg.norm(down)), 1.0)
-    skin = _skin(rgb, figure.face[:, :2] @ to_grid[:, :2].T + to_grid[:, 2])
-    found = []
-    for arm, side, hand in zip(ARMS, SIDES, figure.hands, strict=True):
-        wrist, hip = at(f"{side}Wrist"), at(f"{side}Hip")
-        aside = float((wrist - hips) @ (hip - hips)) > BESIDE * float(np.sum((hip - hips) ** 2))
-        low = float((wrist - shoulders) @ down) > LOW * trunk**2
-        if hand is None and aside and low and np.linalg.norm(wrist - hip) < REACH * trunk:
-            sure = min(figure.confidence[LANDMARKS.index(f"{side}{finger}")] for finger in ("Index", "Pinky"))
-            knuckles = (at(f"{side}Index") + at(f"{side}Pinky")) / 2
-            found.append(HandAtHip(arm, wrist, knuckles, bool(sure < DOUBTFUL), skin))
-    return tuple(found)
 
 
 def template_hand(
@@ -98,10 +66,10 @@ def template_hand(
 
 
 def parted(
-    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.bool_], hand: HandAtHip
+    rgb: NDArray[np.uint8], labels: NDArray[np.integer], template: NDArray[np.bool_], hand: UnfoundHand
 ) -> PartedHand | None:
-    """What colours say, of the picture (h, w, 3) with its labels (h, w), around one hand, which the `template` (h, w) has
-    there. None where they say nothing.
+    """What the picture (h, w, 3) with its labels (h, w) says around one hand, which the `template` (h, w) has
+    there. None where it says nothing.
 
     Of a hand that is seen the skin is the arm's. Of a hidden one what has the cloth's colours rather than the sleeve's is the
     cloth's, and beyond the cuff all that is not surely the sleeve's.
@@ -119,49 +87,45 @@ def parted(
     arm, worn = labels == hand.arm, np.isin(labels, [PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
     around = (distance < AROUND * length) & (arm | worn)
     sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
-    if min(int(one.sum()) for one in (sleeve, cloth, around)) < 10 * COLOURS or len(hand.skin) < 10 * COLOURS:
-        return None
-    if _alike(hand.skin, rgb[cloth]):
+    if min(int(one.sum()) for one in (sleeve, cloth, around)) < 10 * COLOURS:
         return None
     colours = rgb.astype(np.float64)
-    shown = colours[around]
-    skin = Colours.of(hand.skin)
-    skin = replace(skin, covariances=skin.covariances + OTHER_LIGHT * np.eye(3))
-    of_skin, of_sleeve, of_cloth = (
-        one.unlikely(shown) for one in (skin, Colours.of(colours[sleeve]), Colours.of(colours[cloth]))
-    )
+    of_cloth, of_sleeve = Colours.of(colours[cloth]), Colours.of(colours[sleeve])
 
     def evened(values: NDArray[np.float64]) -> NDArray[np.float32]:
         on_grid = np.zeros(labels.shape, np.float32)
         on_grid[around] = values
         return np.asarray(cv2.GaussianBlur(on_grid, (0, 0), EVEN))
 
-    like_skin = evened(np.minimum(of_cloth, of_sleeve) - of_skin)
-    if not hand.doubtful or (like_skin < -CERTAIN)[seen].mean() < HIDDEN:
-        bare = _around_what_is_sure(around & (like_skin > 0), like_skin > CERTAIN)
-        nothing = np.zeros_like(arm)
-        return PartedHand(_joined(bare, arm) & around, nothing, nothing)
-    sleeved = evened(of_cloth - np.minimum(of_sleeve, of_skin))
+    usual = np.quantile(of_cloth.unlikely(colours[cloth]), USUAL)
+    stands_out = float((of_cloth.unlikely(colours[seen]) > usual).mean())
+    unlikely = {"cloth": of_cloth.unlikely(colours[around]), "sleeve": of_sleeve.unlikely(colours[around])}
+    if len(hand.skin) >= 10 * COLOURS and not _alike(hand.skin, rgb[cloth]):
+        skin = Colours.of(hand.skin)
+        skin = replace(skin, covariances=skin.covariances + OTHER_LIGHT * np.eye(3))
+        unlikely["skin"] = skin.unlikely(colours[around])
+        like_skin = evened(np.minimum(unlikely["cloth"], unlikely["sleeve"]) - unlikely["skin"])
+        if (like_skin < -CERTAIN)[seen].mean() < HIDDEN or stands_out > HARDLY:
+            return None if hand.before else _bare(like_skin, arm, around)
+    elif hand.confidence > SURE or stands_out > (HARDLY if hand.confidence < UNSEEN else GOES_ON):
+        return None
+    sleeved = evened(unlikely["cloth"] - np.minimum(unlikely["sleeve"], unlikely.get("skin", np.inf)))
     cloth = arm & around & (sleeved < np.where(beyond > CUFF * length, CERTAIN, -CERTAIN))
     fingers = cv2.morphologyEx(seen.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((WEB, WEB), np.uint8)) > 0
     return PartedHand(np.zeros_like(arm), cloth, fingers & (worn | cloth))
+
+
+def _bare(like_skin: NDArray[np.float32], arm: NDArray[np.bool_], around: NDArray[np.bool_]) -> PartedHand:
+    """A hand that is seen: what is like skin (h, w), joined with its arm (h, w) where both are `around` (h, w) its place."""
+    bare = _around_what_is_sure(around & (like_skin > 0), like_skin > CERTAIN)
+    nothing = np.zeros_like(arm)
+    return PartedHand(_joined(bare, arm) & around, nothing, nothing)
 
 
 def with_hand_parted(labels: NDArray[np.intp], found: PartedHand, arm: int) -> NDArray[np.intp]:
     """Labels (h, w) in which an arm has what is its own, and the trunk and the legs what is theirs."""
     beneath = complete_labels(labels >= 0, np.where(np.isin(labels, ARMS), -1, labels))
     return np.where(found.arm, arm, np.where(found.cloth, beneath, labels))
-
-
-def _skin(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[np.float64]:
-    """The half of the colours (N, 3) of a face (478, 2) that are nearest to its median: no eyes, lips or beard."""
-    inside = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillConvexPoly(inside, cv2.convexHull(np.rint(face).astype(np.int32)), (1,))
-    colours = rgb[inside > 0].astype(np.float64)
-    if not len(colours):
-        return colours
-    off = np.linalg.norm(colours - np.median(colours, axis=0), axis=1)
-    return np.asarray(colours[off <= np.median(off)])
 
 
 def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:

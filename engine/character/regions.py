@@ -22,12 +22,14 @@ from engine.character.occlusion import completed, largest
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
 from engine.character.unseen_limbs import unseen_limbs
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import distance_to, grown
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
 UNDER = 3
 """Pixels by which the body goes on behind an arm everywhere: what lies between two borders of pixels would gape."""
+WRIST = 4.0
+"""Pixels by which a way from the sleeve to a hidden hand may be longer than the shortest."""
 SHOWN = 0.5
 """Share of a limb that the template shows where it is not seen, below which it is taken to be behind the body there."""
 WHOLE = 0.9
@@ -104,7 +106,15 @@ def limb_in_one_piece(
         hidden = lost and shown.sum() < SHOWN * led.sum()
         behind = hidden or _torn(seen | beneath)
         seen = own | led if behind else seen | (led if lost else beneath)
-    return largest(seen | (labels.hidden == limb)), behind
+    return largest(_with_hand(seen, labels.hidden == limb)), behind
+
+
+def _with_hand(arm: NDArray[np.bool_], hidden: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """An arm (h, w) with its `hidden` hand (h, w), and what is between them: the template's wrist need not be at the cuff."""
+    if not (hidden.any() and arm.any()):
+        return arm | hidden
+    to_arm, to_hand = distance_to(arm), distance_to(hidden)
+    return np.asarray(arm | hidden | (to_arm + to_hand <= to_arm[hidden].min() + WRIST))
 
 
 def _torn(mask: NDArray[np.bool_]) -> bool:

@@ -28,7 +28,6 @@ from engine.character.layers import build_layers
 from engine.character.limb_edges import border
 from engine.character.measures import picture_camera, pose
 from engine.character.options import LabelStroke
-from engine.character.pockets import hands_at_hips
 from engine.character.relaxing import relaxed
 from engine.character.rigging import Character, bind
 from engine.character.sheets import ClosedMesh, close
@@ -37,6 +36,7 @@ from engine.character.strokes import read_labels, relabel
 from engine.character.template_fit import FittedBody, fit_figure, load_human, pose_template
 from engine.character.texture import BackTexture, atlas, paint_tiles
 from engine.character.turned_over import without_backs_in_view
+from engine.character.unfound_hands import unfound_hands
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.inpaint import background_plate
@@ -93,7 +93,7 @@ def label(
         given,
         lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
         hand_labels(without_hidden_hand(figure, fitted.crossed).hands, silhouette.to_grid, silhouette.mask.shape),
-        hands_at_hips(figure, silhouette.rgb, silhouette.to_grid),
+        unfound_hands(figure, silhouette.rgb, silhouette.to_grid),
         None
         if fitted.crossed is None
         else label_crossed(figure, fitted.crossed, posed, human.rig, silhouette.to_grid, silhouette.mask),

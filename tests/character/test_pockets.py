@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from benchmarks.character_steps import wake
+from benchmarks.character_steps import Woken, wake
+from benchmarks.dressed_template import Look, Turns, dress
+from benchmarks.known_person import SIZE, draw_into
+from benchmarks.known_places import places
+from engine.body.shape import Phenotype
 from engine.character.figure import Figure
 from engine.character.labels import ARMS, PARTS
 from engine.character.measures import pose
 from engine.character.options import CharacterOptions
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct
-from engine.character.pockets import HandAtHip, hands_at_hips, parted, with_hand_parted
+from engine.character.pockets import parted, with_hand_parted
+from engine.character.unfound_hands import UnfoundHand, unfound_hands
 from engine.geometry.welding import weld
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
@@ -36,32 +43,46 @@ FACE = np.array([[50, 5, 0], [70, 5, 0], [70, 25, 0], [50, 25, 0]], np.float32)
 ON_GRID = np.array([[1.0, 0, 0], [0, 1, 0]])
 
 
-def figure(places: dict[str, tuple[float, float]], face: bool = True, left_hand: bool = False) -> Figure:
+def figure(
+    places: dict[str, tuple[float, float]], face: bool = True, left_hand: bool = False, sure: float = 0.6
+) -> Figure:
     points, none = np.zeros((len(LANDMARKS), 2), np.float32), np.zeros(SHAPE, np.bool_)
     for name, place in (STANDING | places).items():
         points[LANDMARKS.index(name)] = place
-    sure = np.full(len(LANDMARKS), 0.6, np.float32)
+    confidence = np.full(len(LANDMARKS), sure, np.float32)
     hands = (np.zeros((21, 3), np.float32) if left_hand else None, None)
-    return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, sure, np.zeros((len(LANDMARKS), 3), np.float32), True,
+    return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, confidence, np.zeros((len(LANDMARKS), 3), np.float32), True,
                   SHAPE[::-1], np.zeros((1, 4), np.float32), 0, none, FACE if face else None, hands)  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("seen", "expected"),
-    [
-        (figure({}), ARMS),
-        (figure({}, left_hand=True), ARMS[1:]),
-        (figure({}, face=False), ()),
-        (figure({"LeftWrist": (90, 50)}), ARMS[1:]),
-        (figure({"LeftWrist": (62, 88)}), ARMS[1:]),
-        (figure({"LeftWrist": (118, 88)}), ARMS[1:]),
-    ],
-    ids=["both", "one is seen", "no skin to compare", "raised", "before the belly", "far from the hip"],
-)
-def test_hands_are_looked_for_at_their_hips(seen: Figure, expected: tuple[int, ...]) -> None:
-    found = hands_at_hips(seen, seen.rgb, ON_GRID)
-    assert tuple(hand.arm for hand in found) == expected
-    assert all(hand.doubtful for hand in found)
+def test_hands_are_looked_for_at_their_hips() -> None:
+    def arms(seen: Figure) -> tuple[int, ...]:
+        return tuple(hand.arm for hand in unfound_hands(seen, seen.rgb, ON_GRID))
+
+    assert arms(figure({})) == ARMS
+    assert arms(figure({}, sure=0.95)) == ARMS, "it may be too small to be known for a hand"
+    assert arms(figure({}, left_hand=True)) == ARMS[1:]
+    assert arms(figure({"LeftWrist": (90, 50)})) == ARMS[1:], "raised"
+    assert arms(figure({"LeftWrist": (118, 88)})) == ARMS[1:], "far from the hip"
+    (left, _) = unfound_hands(figure({}), figure({}).rgb, ON_GRID)
+    np.testing.assert_array_equal(left.wrist, [85, 88])
+    np.testing.assert_array_equal(left.knuckles, [85, 100])
+    assert left.confidence == pytest.approx(0.6) and not left.before and len(left.skin) > 100
+
+
+def test_and_before_the_belly_if_nobody_sees_them() -> None:
+    before = {"LeftWrist": (62, 88)}
+    left, right = unfound_hands(figure(before), figure(before).rgb, ON_GRID)
+    assert left.before and not right.before
+    sure = figure(before, sure=0.95)
+    assert [hand.arm for hand in unfound_hands(sure, sure.rgb, ON_GRID)] == [ARMS[1]]
+    joined = figure({"LeftWrist": (62, 88), "RightWrist": (57, 88)})
+    assert unfound_hands(joined, joined.rgb, ON_GRID) == (), "one may hide the other"
+
+
+def test_without_a_face_nothing_is_known_of_skin() -> None:
+    seen = figure({}, face=False)
+    assert [len(hand.skin) for hand in unfound_hands(seen, seen.rgb, ON_GRID)] == [0, 0]
 
 
 def noisy(colour: tuple[int, int, int], shape: tuple[int, ...]) -> np.ndarray:
@@ -69,7 +90,7 @@ def noisy(colour: tuple[int, int, int], shape: tuple[int, ...]) -> np.ndarray:
     return np.clip(np.array(colour) + noise, 0, 255)
 
 
-def standing(hand_shown: bool, arm_labelled_to: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, HandAtHip]:
+def standing(hand_shown: bool, arm_labelled_to: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, UnfoundHand]:
     """A picture of cloth with a sleeve before it as far as row 100, below which the template's hand is, from 104 to 130;
     labels in which the arm goes on to some row; that hand; and what is known of it."""
     rgb, labels, template = noisy(CLOTH, SHAPE), np.full(SHAPE, TORSO), np.zeros(SHAPE, np.bool_)
@@ -83,7 +104,7 @@ def standing(hand_shown: bool, arm_labelled_to: int) -> tuple[np.ndarray, np.nda
         rgb.astype(np.uint8),
         labels,
         template,
-        HandAtHip(LEFT, np.array([90.0, 100]), np.array([90.0, 115]), True, skin),
+        UnfoundHand(LEFT, np.array([90.0, 100]), np.array([90.0, 115]), 0.8, False, skin),
     )
 
 
@@ -108,15 +129,48 @@ def test_a_hand_whose_skin_is_seen_is_the_arms() -> None:
     assert not found.hidden.any()
 
 
-def test_without_colours_nothing_is_said() -> None:
-    rgb, labels, template, hand = standing(hand_shown=True, arm_labelled_to=100)
+def greyed(rgb: np.ndarray, hand: UnfoundHand) -> tuple[np.ndarray, UnfoundHand]:
     grey = np.repeat(rgb.mean(-1, keepdims=True), 3, -1).astype(np.uint8)
-    assert (
-        parted(
-            grey, labels, template, HandAtHip(LEFT, hand.wrist, hand.knuckles, True, hand.skin.mean() + 0 * hand.skin)
-        )
-        is None
-    )
+    return grey, replace(hand, skin=np.repeat(hand.skin.mean(-1, keepdims=True), 3, -1))
+
+
+def test_without_colours_a_hand_is_hidden_where_the_cloth_goes_on() -> None:
+    rgb, labels, template, hand = standing(hand_shown=False, arm_labelled_to=120)
+    grey, hand = greyed(rgb, hand)
+    found = parted(grey, labels, template, hand)
+    assert found is not None
+    assert (with_hand_parted(labels, found, LEFT)[106:] == LEG).all()
+    np.testing.assert_array_equal(found.hidden[106:], template[106:])
+    assert parted(grey, labels, template, replace(hand, confidence=0.95)) is None, "its fingers are seen"
+
+
+def test_without_colours_nothing_is_said_of_a_hand_that_stands_out() -> None:
+    rgb, labels, template, hand = standing(hand_shown=True, arm_labelled_to=100)
+    grey, hand = greyed(rgb, hand)
+    assert parted(grey, labels, template, hand) is None
+    assert parted(grey, labels, template, replace(hand, confidence=0.3)) is None
+
+
+def test_cloth_of_the_skins_hue_hides_a_hand_too() -> None:
+    """Beige trousers, and a sleeve of another colour."""
+    rgb, labels, template, hand = standing(hand_shown=False, arm_labelled_to=120)
+    rgb[(labels == LEG) | (labels == TORSO)] = noisy(SKIN, (int(((labels == LEG) | (labels == TORSO)).sum()),))
+    rgb[100:120, 80:100] = noisy(SKIN, (20, 20))
+    found = parted(rgb, labels, template, hand)
+    assert found is not None and found.hidden.any()
+    assert (with_hand_parted(labels, found, LEFT)[106:] == LEG).all()
+
+
+def test_in_the_pocket_of_a_jumper_a_hand_ends_at_its_cuff() -> None:
+    """Sleeve and pocket are one cloth."""
+    rgb, labels, template, hand = standing(hand_shown=False, arm_labelled_to=120)
+    rgb[:] = noisy(SLEEVE, SHAPE)
+    found = parted(rgb.astype(np.uint8), labels, template, replace(hand, before=True))
+    assert found is not None
+    after = with_hand_parted(labels, found, LEFT)
+    assert (after[112:] != LEFT).all() and (after[:100, 82:98] == LEFT).all()
+    shown = standing(hand_shown=True, arm_labelled_to=120)[0]
+    assert parted(shown, labels, template, replace(hand, before=True)) is None, "what is seen there is left as it is"
 
 
 def test_of_a_hand_beside_the_person_nothing_is_said() -> None:
@@ -132,6 +186,43 @@ def test_a_hidden_hand_comes_out_and_the_cloth_stays(
 ) -> None:
     woken = wake(media(f"fullbody/{name}"), {})
     assert set(np.unique(woken.labels.hidden)) == {-1, arm}
+    comes_out(woken, side)
+
+
+IN_TROUSERS: Turns = {
+    **{"LeftArm": (57, 13, -59), "LeftForeArm": (0, -70, -6), "LeftHand": (3, 23, -2)},
+    **{"RightArm": (57, -13, 59), "RightForeArm": (0, 70, 6), "RightHand": (3, -23, 2)},
+}
+IN_A_JUMPER: Turns = {
+    **{"LeftArm": (-33, 10, -56), "LeftForeArm": (0, 0, -96), "LeftHand": (9, 61, -13)},
+    **{"RightArm": (-33, -10, 56), "RightForeArm": (0, 0, 96), "RightHand": (9, -61, 13)},
+}
+BEIGE, BLUE = (205, 172, 142), (52, 66, 110)
+
+
+@pytest.mark.parametrize(
+    ("turns", "trousers", "grey"),
+    [(IN_TROUSERS, BEIGE, False), (IN_TROUSERS, BLUE, True), (IN_A_JUMPER, BLUE, False), (IN_A_JUMPER, BEIGE, True)],
+    ids=["trousers of the skin's colour", "no colours", "a jumper's pocket", "a jumper's, no colours"],
+)
+def test_both_hands_come_out_of_pockets(
+    turns: Turns, trousers: tuple[int, int, int], grey: bool, tmp_path: Path
+) -> None:
+    """The dressed template, its hands within the body."""
+    look = Look("hands in pockets", Phenotype(gender=0.5), turns, (120, 60, 60), trousers)
+    rgb = draw_into(dress(look), places(SIZE)["street"]).rgb
+    if grey:
+        rgb = np.repeat(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)[..., None], 3, 2)
+    photo = tmp_path / "photo.png"
+    cv2.imwrite(str(photo), rgb[..., ::-1])
+    woken = wake(photo, {})
+    assert set(np.unique(woken.labels.hidden)) == {-1, *ARMS}
+    for side in ("Left", "Right"):
+        comes_out(woken, side)
+
+
+def comes_out(woken: Woken, side: str) -> None:
+    """A hand that was hidden is joined to no cloth around it, comes out where the arm is raised, and leaves the cloth."""
     character = woken.character
     mesh, names = character.mesh, character.mesh.skeleton.names
     point = weld(mesh)
