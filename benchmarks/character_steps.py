@@ -15,6 +15,7 @@ from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fit_template, label, make_character
 from engine.character.template_fit import FittedBody
+from engine.character.unseen_limbs import with_limbs_hidden
 from engine.media.limits import Limits
 
 BY_HAND: Mapping[str, Mapping[str, tuple[float, float]]] = {
@@ -55,6 +56,7 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits(), lambda code, message: None)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)
     return Woken(figure, silhouette, fitted, labels, character)

@@ -43,6 +43,7 @@ from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fit_template, label, make_character
 from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import SideMaps
+from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.media.limits import Limits
 
@@ -130,6 +131,7 @@ def examine(known: KnownPicture, place: str) -> Result:
 def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Surfaces:
     """The character posed by its clip `pictured`, the mesh by warped depth, and the fitted template."""
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
     with depth_is_warped():

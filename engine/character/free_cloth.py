@@ -22,6 +22,9 @@ LOOSE = 0.5
 """From which share on cloth is no trousers' whose legs touch."""
 WAIST = 0.65
 """How far down the trunk cloth may begin to hang freely."""
+AS_ONE = 0.25
+"""Share of the legs' width in which one hides the other, from which on cloth is loose only if it is wider than the hips: trousers of
+legs that are seen from the side are wide for one shin."""
 HEM, LATELY = 0.85, 16
 """It ends where it is narrower than this share of what it was within so many rows."""
 EVEN, FADE = 0.012, 4.0
@@ -111,8 +114,8 @@ def free_cloth(
     trunk, left, right = (shown == PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
     if not (cloth.any() and trunk.any() and left.any() and right.any()):
         return None
-    both = (left.any(1) & right.any(1)) | (False if overlap is None else overlap.any(1))
-    rings = _rings(cloth, (trunk, left, right), trunk.any(1) | both, nearest, furthest)
+    overlap = np.zeros_like(cloth) if overlap is None else overlap
+    rings = _rings(cloth, (trunk, left, right), overlap, nearest, furthest)
     high = float(np.ptp(np.flatnonzero(cloth.any(1))))
     far = max(2, round(BENEATH * high))
     hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
@@ -150,23 +153,28 @@ def _hem(rings: Sequence[Ring], cloth: NDArray[np.bool_], template: NDArray[np.b
 def _rings(
     cloth: NDArray[np.bool_],
     template: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
-    within: NDArray[np.bool_],
+    overlap: NDArray[np.bool_],
     nearest: NDArray[np.floating],
     furthest: NDArray[np.floating],
 ) -> list[Ring]:
     """From the waist down, row by row as long as one piece goes round all that the `template` has there, its trunk and its left and
-    right leg (h, w) each: `within` the rows (h,) of the trunk and of both legs."""
+    right leg (h, w) each, which may `overlap` (h, w)."""
     trunk, left, right = template
+    both = np.asarray((left.any(1) & right.any(1)) | overlap.any(1))
+    as_one = overlap.sum(1) > AS_ONE * (left | right).sum(1)
     rings: list[Ring] = []
     rows = np.flatnonzero(trunk.any(1))
+    widest = 0
     for row in range(int(rows[0] + WAIST * (rows[-1] - rows[0])), len(cloth)):
-        if not within[row]:
+        if not (trunk[row].any() or both[row]):
             break
         there = np.flatnonzero((trunk | left | right)[row])
         piece = _piece(cloth[row], (there[0] + there[-1]) // 2)
         if piece is None:
             break
         width, least = piece[1] - piece[0] + 1, there[-1] - there[0] + 1
+        widest = max(widest, least)
+        least = widest if as_one[row] else least
         share = float(np.clip((width / least - CLOSE) / (FREE - CLOSE), 0, 1))
         if rings and share < LOOSE and width < HEM * max(ring.width for ring in rings[-LATELY:]):
             break

@@ -16,11 +16,12 @@ from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
-from engine.character.labels import ARMS, COLOURS, LEGS, NOWHERE, Colours, contrast
+from engine.character.labels import ARMS, COLOURS, LEAST, LEGS, NOWHERE, Colours, contrast
 from engine.character.occlusion import largest
 from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
+from engine.character.unseen_limbs import not_seen
 from engine.geometry.graph_cut import alpha_expansion
 from engine.imaging.mask_distance import grown
 
@@ -30,14 +31,13 @@ LEAN = 3.0
 """What a pixel so far away costs with the label that is not its own there, in units of equation 16."""
 THREAD = 3
 """Pixels up to which what seems to hang down beside a leg is the leg's edge."""
-LEAST = 50
-"""Pixels of a leg that is worth being a part of its own."""
 
 
 def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, rig: Rig) -> Labels:
     """Labels with the cloth that goes round both legs, and where it hangs, the legs that come out from under it: what goes round
     both is one piece with the trunk, and neither of them is apart there. `rgb` (h, w, 3): the picture on their grid."""
-    region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig)
+    unseen = [limb for limb in not_seen(labels) if limb in ARMS]
+    region, _ = find_regions(labels, [int(limb) for limb in labels.apart], template, rig, unseen)
     cloth = around_legs(region, labels, template, rig)
     if cloth is None or not cloth.hangs:
         return replace(labels, cloth=cloth)

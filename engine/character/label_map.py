@@ -109,7 +109,7 @@ def label_parts(
         rough = refined_labels(rgb, rough, around, shown)
         rough, plain = labelled_shoulders(rgb, rough, template, rig)
         if (leg := before(rough)) is not None:
-            rough = as_the_template(rough, projected, leg)
+            rough = as_the_template(rough, projected, leg, template.pixels_per_metre)
         rough = without_specks(rough, known, plain)
         for hand in unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))

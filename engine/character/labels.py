@@ -14,6 +14,10 @@ from engine.imaging.mask_distance import distance_to, grown
 
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
 LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
+OTHER_SIDE = {one: other for pair in (ARMS, LEGS) for one, other in (pair, pair[::-1])}
+"""The limb of the other side."""
+LEAST = 50
+"""Pixels of a limb that is worth being a part of its own."""
 
 ROUGH_HEIGHT = 160
 """Pixels of height at which labels are found first."""
@@ -123,7 +127,7 @@ def without_specks(
         known = np.bincount(pieces[(sure == part) & (pieces > 0)], minlength=count)
         small = areas < SPECK
         if part in ARMS:
-            other = (labels == ARMS[1 - ARMS.index(part)]).astype(np.uint8)
+            other = (labels == OTHER_SIDE[part]).astype(np.uint8)
             met = np.unique(pieces[(cv2.dilate(other, np.ones((5, 5), np.uint8)) > 0) | plain])
             least = areas[known.argmax()] if known.any() else ASIDE * areas[1:].max()
             small |= (areas < least) & ~np.isin(np.arange(count), met)

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.crossed_labels import Behind
 from engine.character.depth_order import (
@@ -26,33 +27,32 @@ from engine.character.depth_order import (
 from engine.character.drape import drape
 from engine.character.face_warp import Face, with_face
 from engine.character.label_map import Labels
-from engine.character.labels import ARMS, LEGS
+from engine.character.labels import LEAST, LEGS, OTHER_SIDE
 from engine.character.legs import cut_along, each_by_its_own
 from engine.character.legs_beneath import going_with, legs_beneath
 from engine.character.occlusion import largest
 from engine.character.part_surface import Surface, Warp, part_surface, warp_part
 from engine.character.posed_template import PosedTemplate
-from engine.character.regions import LimbRegion, Region, find_regions
+from engine.character.regions import Region, find_regions
 from engine.character.sheets import Layer
 from engine.character.skirt_weights import moved_by_both
-from engine.character.solid_limb import solid_arms, solid_limb
+from engine.character.solid_limb import SolidLimb, solid_arms, solid_limb
 from engine.character.template_maps import SideMaps, weights_at
-from engine.character.unseen_limbs import unseen_layer, unseen_limbs
+from engine.character.unseen_limbs import UnseenLimb, unseen_limbs
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
-LEAST = 50
-"""Pixels of a limb that is worth being a part of its own."""
 
 
 def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face | None = None) -> list[Layer]:
     """The body first, its head by its `face` if there is one; then legs that come out from under its cloth, and each limb that
-    is apart and large enough. `labels`: taken apart (`Labels.layered`)."""
+    is apart and large enough, and those that are not seen. `labels`: taken apart (`Labels.layered`)."""
     beneath = legs_beneath(labels, template, rig)
     legs = [leg.limb for leg in beneath]
     apart = [int(limb) for limb in labels.apart
              if limb not in legs and largest(labels.labels == limb).sum() >= LEAST]  # fmt: skip
-    region, limbs = find_regions(labels, apart, template, rig)
+    unseen = unseen_limbs(labels, template, rig)
+    region, limbs = find_regions(labels, apart, template, rig, [one.limb for one in unseen])
     cloth = labels.cloth
     parting = labels.parting & (not any(limb in LEGS for limb in apart))
     parting[: cloth.rings[-1].row + 1 if cloth else 0] = False
@@ -64,14 +64,15 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     solid = solid_arms(template, rig)
     for leg in beneath:
         own = labels.labels == leg.limb
-        under = overlap_beneath(going_with(_layer(leg, template, rig), body, own), body, own)
+        below = leg.mask & (cloth.legs >= 0) if cloth and cloth.legs is not None else own
+        under = overlap_beneath(going_with(_layer(leg, template, rig), body, below), body, own)
         layers.append(replace(under, limb=leg.limb))
     if cloth and cloth.before is not None:
         layers = _leg_behind(layers, cloth.before, labels)
     for one in limbs:
         own = labels.labels == one.limb
         if one.limb in solid and not (labels.hidden == one.limb).any():
-            limb = _solid_layer(one, template, rig, own)
+            limb = _solid_layer(solid_limb(one.triangles, one.mask, template, rig, own))
         else:
             limb = hand_beneath(_layer(one, template, rig), body, labels.hidden == one.limb)
         body = body_behind(body, limb, own)
@@ -83,7 +84,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         else:
             beneath_it = _solid_beneath(limb, body, own | ~one.joint)
         layers.append(replace(beneath_it, limb=one.limb))
-    layers += [unseen_layer(one, [body, *layers], labels, template, rig) for one in unseen_limbs(labels, template, rig)]
+    layers += [_unseen_layer(one, [body, *layers], labels, template, rig) for one in unseen]
     if labels.behind is not None:
         layers = _behind_the_other(layers, body, labels.behind, labels)
     return [body, *layers]
@@ -93,14 +94,11 @@ def _behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labe
     """The layers of limbs with the arm that goes on `behind` the other beneath its surface there."""
     found = list(layers)
     place = {layer.limb: k for k, layer in enumerate(found)}
-    other = next(arm for arm in ARMS if arm != behind.limb)
+    other = OTHER_SIDE[behind.limb]
     if {behind.limb, other} <= set(place):
         before = found[place[other]]
         hidden = behind.area & (labels.labels == other)
-        moved = limb_behind(found[place[behind.limb]], before, hidden)
-        if moved.solid is not None:
-            all_of_it = np.ones(len(moved.solid.vertices), np.bool_)
-            moved = replace(moved, solid=moved.solid.moved(moved.front.depth, moved.back.depth, all_of_it))
+        moved = _where_it_lies(limb_behind(found[place[behind.limb]], before, hidden))
         found[place[behind.limb]] = moved
         if before.solid is None:
             found[place[other]] = limb_around(before, moved, body, hidden)
@@ -130,17 +128,40 @@ def _layer(region: Region, template: PosedTemplate, rig: Rig, face: Face | None 
     return Layer(region.mask, front, back.result())
 
 
-def _solid_layer(one: LimbRegion, template: PosedTemplate, rig: Rig, own: NDArray[np.bool_]) -> Layer:
+def _solid_layer(limb: SolidLimb) -> Layer:
     """A limb that is the template's, and the pixels that it covers."""
-    limb = solid_limb(one.triangles, one.mask, template, rig, own)
-    unused = np.zeros((*own.shape, 0), np.float32)
+    unused = np.zeros((*limb.front.shape, 0), np.float32)
     return Layer(np.isfinite(limb.front), Surface(limb.front, unused), Surface(limb.back, unused), solid=limb)
+
+
+def _where_it_lies(layer: Layer) -> Layer:
+    """A layer of which all that is solid has come to where its depths are."""
+    if layer.solid is None:
+        return layer
+    everywhere = np.ones(len(layer.solid.vertices), np.bool_)
+    return replace(layer, solid=layer.solid.moved(layer.front.depth, layer.back.depth, everywhere))
+
+
+def _unseen_layer(one: UnseenLimb, layers: Sequence[Layer], labels: Labels, template: PosedTemplate, rig: Rig) -> Layer:
+    """A limb that is not seen, in the colours of the other side's, behind all that is seen before it: the body, first of the
+    `layers`, and limbs."""
+    other = OTHER_SIDE[one.limb]
+    own, chosen = labels.labels == other, (vertex_parts(rig)[template.triangles] == other).any(1)
+    whole = next((layer.mask for layer in layers if layer.limb == other and layer.solid is None), largest(own))
+    like = solid_limb(chosen, whole, template, rig, own | (labels.hidden == other))
+    limb = solid_limb(one.triangles, one.mask, template, rig, np.zeros_like(own))
+    layer = replace(_solid_layer(replace(limb, like=like)), limb=one.limb)
+    apart = [before.limb for before in layers[1:]]
+    for before in layers:
+        hides = labels.labels == before.limb if before.limb >= 0 else ~np.isin(labels.labels, apart)
+        layer = limb_behind(layer, before, hides)
+    return _where_it_lies(layer)
 
 
 def _solid_beneath(limb: Layer, body: Layer, own: NDArray[np.bool_]) -> Layer:
     """A solid limb where its layer has come, and of its pixels that are not its `own` (h, w) the upper arm's beneath the body's
     surface: nothing else of it overlaps with the body."""
-    assert limb.solid is not None
-    solid = limb.solid.moved(limb.front.depth, limb.back.depth, np.ones(len(limb.solid.vertices), np.bool_))
+    solid = _where_it_lies(limb).solid
+    assert solid is not None
     beneath = overlap_beneath(limb, body, own)
     return replace(beneath, solid=solid.moved(beneath.front.depth, beneath.back.depth, solid.upper))

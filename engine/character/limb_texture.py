@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.character.crossed_labels import Behind
 from engine.character.face_region import within_oval
 from engine.character.label_map import Labels
-from engine.character.labels import ARMS, LEGS
+from engine.character.labels import LEGS, OTHER_SIDE
 from engine.imaging.mask_distance import distance_inside, distance_to, grown
 from engine.imaging.nearest import continued_colours
 from engine.imaging.patch_fill import filled
@@ -113,7 +113,7 @@ def _like_the_other_sleeve(
 ) -> NDArray[np.uint8]:
     """The limbs as they are `made` (h, w, 3) with the sleeve of an arm of which hardly more than the hand is `seen` made of what the
     other one is, where none of the `limbs` (h, w) is seen."""
-    other = sum(ARMS) - arm
+    other = OTHER_SIDE[arm]
     shown = {one: (labels.labels == one) & sleeve for one, sleeve in sleeves.items()}
     if other not in sleeves or shown[arm].sum() > HARDLY * sleeves[arm].sum() or shown[other].sum() < shown[arm].sum():
         return made

@@ -19,6 +19,7 @@ from engine.character.options import CharacterOptions
 from engine.character.person import Person
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fewer_triangles, fill_background, fit_template, label, make_character
+from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.glb import QUALITY, write_glb
 from engine.export.still import write_still
@@ -205,6 +206,7 @@ def reconstruct(
         run.warn(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."
         )
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels)
     mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
     character = run.stage(
         "make_character",

@@ -18,7 +18,7 @@ from engine.body.rig import Rig
 from engine.character.figure import SIDES
 from engine.character.labels import ARMS, COLOURS, Colours, complete_labels
 from engine.character.template_maps import side_maps
-from engine.character.unfound_hands import SURE, UnfoundHand
+from engine.character.unfound_hands import SURE, UnfoundHand, unit
 from engine.imaging.mask_distance import distance_to, grown
 
 UNSEEN = 0.7
@@ -79,7 +79,7 @@ def parted(
     if not seen.any():
         return None
     away = np.stack([x, y], -1) - [x[template].mean(), y[template].mean()]
-    along = _unit(hand.knuckles - hand.wrist)
+    along = unit(hand.knuckles - hand.wrist)
     beyond = (np.stack([x, y], -1) - hand.wrist) @ along
     length = float(beyond[template].max())
     distance = np.linalg.norm(away, axis=-1)
@@ -126,10 +126,6 @@ def with_hand_parted(labels: NDArray[np.intp], found: PartedHand, arm: int) -> N
     """Labels (h, w) in which an arm has what is its own, and the trunk and the legs what is theirs."""
     beneath = complete_labels(labels >= 0, np.where(np.isin(labels, ARMS), -1, labels))
     return np.where(found.arm, arm, np.where(found.cloth, beneath, labels))
-
-
-def _unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    return vector / max(float(np.linalg.norm(vector)), 1e-6)
 
 
 def _alike(skin: NDArray[np.float64], cloth: NDArray[np.uint8]) -> bool:

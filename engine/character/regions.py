@@ -1,7 +1,7 @@
 """Which pixels are the body's, and which those of a limb that passes before it, also where one hides the other.
 
 The paper's occluded region construction (section 4.2.2). Around the joint limb and body both have what is there, of the
-template and of the picture: as the limb is lifted, neither shows a gap. Beyond the paper, so does a leg that crosses before
+template and of the picture: as the limb is lifted, neither shows a gap. Beyond the paper, so does a leg that passes before
 the other.
 """
 
@@ -21,7 +21,6 @@ from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed, largest
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
-from engine.character.unseen_limbs import unseen_limbs
 from engine.imaging.mask_distance import distance_to, grown
 
 SHOULDER, HIP = 0.105, 0.125
@@ -56,14 +55,13 @@ class LimbRegion(Region):
 
 
 def find_regions(
-    labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig
+    labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig, unseen: Sequence[int] = ()
 ) -> tuple[Region, list[LimbRegion]]:
     """The body's region and those of the limbs that are `apart` (indices of `PARTS`), in their order; the body ends where
-    legs come out from under its cloth."""
+    legs come out from under its cloth, and has nothing of limbs that are `unseen`."""
     part = vertex_parts(rig)[template.triangles]
     limbs = [_limb_region(labels, limb, apart, template, rig, part) for limb in apart]
-    elsewhere = [*apart, *(one.limb for one in unseen_limbs(labels, template, rig))]
-    own = np.logical_or.reduce([(~np.isin(part, elsewhere)).any(1), *(limb.overlap for limb in limbs)])
+    own = np.logical_or.reduce([(~np.isin(part, [*apart, *unseen])).any(1), *(limb.overlap for limb in limbs)])
     legs = None if labels.cloth is None else labels.cloth.legs
     if legs is not None:
         own &= ~_below(legs, template, part)
@@ -129,8 +127,8 @@ def _limb_region(
     overlap, joint = _around_joint(limb, template, rig, labels.labels.shape)
     mask, behind = limb_in_one_piece(labels, limb, apart, template, (part == limb).all(1), joint)
     if limb in LEGS:
-        trunk = template.covers(np.asarray((~np.isin(part, ARMS)).all(1)), mask.shape)
-        hand = np.isin(labels.labels, ARMS) & ~trunk
+        without_arms = template.covers(np.asarray((~np.isin(part, ARMS)).all(1)), mask.shape)
+        hand = np.isin(labels.labels, ARMS) & ~without_arms
         mask = largest(mask & ((_inner(labels) & ~hand) | (labels.labels == limb)))
     return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 

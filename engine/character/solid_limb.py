@@ -127,6 +127,8 @@ def places_on_the_picture(limbs: Sequence[SolidLimb]) -> list[NDArray[np.float64
                 source, flip, shown = other, -1.0, (other.hand if group is limb.hand else ~other.hand) & other.sure
             if not shown.any():
                 source, flip, shown = limb, 1.0, limb.sure
+            if not shown.any() and limb.like is not None:
+                source, flip, shown = limb.like, -1.0, limb.like.sure
             if shown.any() and wanted.any():
                 _, nearest = cKDTree(source.rest[shown] * [flip, 1, 1]).query(limb.rest[wanted])
                 places[wanted] = source.vertices[shown][nearest, :2]

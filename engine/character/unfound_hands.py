@@ -19,6 +19,8 @@ from engine.perception.body import LANDMARKS
 LOW, BESIDE, REACH = 0.7, 1.5, 0.5
 """Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
 how far from that joint, at most, in lengths of the trunk."""
+NARROWEST = 0.15
+"""The same of that joint from the middle, at least: seen from the side it is nowhere aside."""
 BEFORE, APART = 0.55, 0.35
 """Where one is before the belly, as in the pocket of a jumper: how far down the trunk, at least; and how far both wrists are from
 each other, at least: else one hand hides the other."""
@@ -55,7 +57,8 @@ def unfound_hands(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.fl
     found = []
     for arm, side, hand in zip(ARMS, SIDES, figure.hands, strict=True):
         wrist, hip = at(f"{side}Wrist"), at(f"{side}Hip")
-        aside = float((wrist - hips) @ (hip - hips)) > BESIDE * float(np.sum((hip - hips) ** 2))
+        half = float(np.linalg.norm(hip - hips))
+        aside = float((wrist - hips) @ unit(hip - hips)) > BESIDE * max(half, NARROWEST * trunk)
         low = float((wrist - shoulders) @ down) / trunk**2
         sure = float(min(figure.confidence[LANDMARKS.index(f"{side}{finger}")] for finger in ("Index", "Pinky")))
         beside, before = aside and low > LOW, apart and low > BEFORE and sure < SURE
@@ -74,3 +77,8 @@ def _skin(rgb: NDArray[np.uint8], face: NDArray[np.floating]) -> NDArray[np.floa
         return colours
     off = np.linalg.norm(colours - np.median(colours, axis=0), axis=1)
     return np.asarray(colours[off <= np.median(off)])
+
+
+def unit(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A vector of length 1 in the same direction."""
+    return vector / max(float(np.linalg.norm(vector)), 1e-6)

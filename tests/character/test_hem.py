@@ -19,6 +19,7 @@ from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import load_human
+from engine.character.unseen_limbs import not_seen
 from engine.geometry.welding import is_closed
 from tests.character.test_overlapping_legs import AT_THE_SHINS, SIZE, standing
 
@@ -178,17 +179,23 @@ def test_under_cloth_a_leg_goes_on_beside_the_other_and_not_over_it() -> None:
     assert width[0] < 0.75 * width[-1], "narrower at its end"
 
 
-def in_a_skirt(turns: dict[str, tuple[int, int, int]]) -> tuple[PosedTemplate, Labels, int]:
-    """The template so posed, in a green skirt to its knees: what it is, its labels and the hem's row."""
-    human, template = load_human(), standing(turns)
+def in_green(template: PosedTemplate) -> tuple[np.ndarray, np.ndarray, int]:
+    """The template in a green skirt to its knees: a picture, the person's outline and the hem's row."""
+    rig = load_human().rig
     mask = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
-    hips, knees = (int(template.joints[human.rig.index(name), 1]) for name in ("LeftUpLeg", "LeftLeg"))
+    hips, knees = (int(template.joints[rig.index(name), 1]) for name in ("LeftUpLeg", "LeftLeg"))
     y, x = np.mgrid[: SIZE[0], : SIZE[1]]
-    middle = float(template.joints[human.rig.index("Hips"), 0])
+    middle = float(template.joints[rig.index("Hips"), 0])
     skirted = (y >= hips - 30) & (y < knees + 5) & (abs(x - middle) < 34 + (y - hips) / 2.5)
     rgb = np.where(skirted[..., None], GREEN, np.where(mask[..., None], SKIN, GREY)).astype(np.uint8)
-    labels = with_cloth(label_parts(rgb, mask | skirted, template, human.rig), rgb, template, human.rig)
-    return template, labels, knees + 5
+    return rgb, mask | skirted, knees + 5
+
+
+def in_a_skirt(turns: dict[str, tuple[int, int, int]]) -> tuple[PosedTemplate, Labels, int]:
+    """The template so posed, in that skirt: what it is, its labels and the hem's row."""
+    template, rig = standing(turns), load_human().rig
+    rgb, mask, hem = in_green(template)
+    return template, with_cloth(label_parts(rgb, mask, template, rig), rgb, template, rig), hem
 
 
 @pytest.mark.parametrize(
@@ -211,8 +218,38 @@ def test_beneath_a_skirt_the_leg_behind_goes_on_where_the_other_hides_it(
     assert not (layers[-1].mask & own[0])[hem + 4 :].any(), "none of it is the skirt's"
     both = leg.mask & other.mask & (labels.layered.labels == before)
     assert (leg.front.depth < other.front.depth)[both].all()
+    part = vertex_parts(load_human().rig)
+    forth = template.vertices + np.outer(part == behind, [0, 0, 80])  # had the fit the legs the other way round
+    for wrong in build_layers(labels.layered, replace(template, vertices=forth), load_human().rig):
+        if wrong.limb == behind:
+            shown = wrong.mask & other.mask & (labels.layered.labels == before)
+            assert (wrong.front.depth < other.front.depth)[shown].all()
+    own_joints = [name.startswith("Left" if behind == LEFT else "Right") for name in load_human().rig.names]
+    weight = np.nanmean(np.where(leg.mask, leg.front.weights[..., own_joints].sum(-1), np.nan)[hem - 8 : hem + 8], 1)
+    assert abs(np.diff(weight)).max() < 0.1, "it goes over into the cloth evenly"
     rows = np.flatnonzero(leg.mask.any(1))
     assert rows[0] < hem - 10 and rows[-1] > SIZE[0] * 0.8, "from under it to the sole"
+
+
+def test_a_leg_that_is_not_labelled_is_under_the_skirt_and_not_made_up() -> None:
+    human, template = load_human(), standing({"Hips": (0, 90, 0)})
+    rgb, mask, hem = in_green(template)
+    found = label_parts(rgb, mask, template, human.rig).labels
+    given = np.where(found == LEFT, RIGHT, found).astype(np.int8)
+    labels = with_cloth(label_parts(rgb, mask, template, human.rig, given), rgb, template, human.rig)
+    assert labels.cloth is not None and labels.cloth.hangs and abs(labels.cloth.rings[-1].row - hem) < 12
+    assert LEFT not in not_seen(labels)
+
+
+@pytest.mark.parametrize("turn", [85, 90, 100])
+@pytest.mark.parametrize("wider", [5, 7])
+def test_trousers_from_the_side_are_no_skirt(turn: int, wider: int) -> None:
+    human, template = load_human(), standing({"Hips": (0, turn, 0)})
+    covered = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
+    mask = cv2.dilate(covered.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=wider) > 0
+    rgb = np.where(mask[..., None], GREEN, GREY).astype(np.uint8)
+    labels = with_cloth(label_parts(rgb, mask, template, human.rig), rgb, template, human.rig)
+    assert labels.cloth is None or not labels.cloth.hangs
 
 
 def test_a_skirt_goes_round_legs_that_stride_to_the_side() -> None:

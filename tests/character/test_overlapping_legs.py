@@ -22,21 +22,34 @@ from engine.geometry.welding import is_closed
 
 SIZE = (448, 260)
 LEFT, RIGHT = PARTS.index("left_leg"), PARTS.index("right_leg")
+LEFT_ARM, RIGHT_ARM = PARTS.index("left_arm"), PARTS.index("right_arm")
+METRE = 200.0
+"""Pixels."""
 ARMS_DOWN = {"LeftArm": (0, 0, -60), "RightArm": (0, 0, 60)}
 AT_THE_KNEES = {"LeftUpLeg": (-14, 0, -16), "LeftLeg": (14, 0, -4), "RightUpLeg": (2, 0, 10)}
 FROM_THE_SIDE = {"Hips": (0, 75, 0)}
 AT_THE_SHINS = {"RightUpLeg": (-9, 0, 13), "RightLeg": (4, 0, 0), "LeftUpLeg": (5, 0, -7), "LeftLeg": (6, 0, 0)}
 
 
-def standing(turns: dict[str, tuple[int, int, int]]) -> PosedTemplate:
+def fitted_as(turns: dict[str, tuple[int, int, int]]) -> FittedBody:
     human = load_human()
     rotations = np.broadcast_to(np.eye(3, dtype=np.float32), (len(human.rig.names), 3, 3)).copy()
     for joint, degrees in (ARMS_DOWN | turns).items():
         rotations[human.rig.index(joint)] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     place = np.array([0, 0.05, -3.0], np.float32)
     fit = Fit(np.zeros(COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
-    fitted = FittedBody(fit, 660.0, (SIZE[1] / 2, SIZE[0] / 2), np.zeros(len(rotations), np.bool_))
-    return pose_template(fitted, fitted.camera(), human)
+    return FittedBody(fit, 660.0, (SIZE[1] / 2, SIZE[0] / 2), np.zeros(len(rotations), np.bool_))
+
+
+def standing(turns: dict[str, tuple[int, int, int]]) -> PosedTemplate:
+    fitted = fitted_as(turns)
+    return pose_template(fitted, fitted.camera(), load_human())
+
+
+def without_arms(template: PosedTemplate) -> np.ndarray:
+    """The triangles (T,) of all else."""
+    part = vertex_parts(load_human().rig)[template.triangles]
+    return ~np.isin(part, (LEFT_ARM, RIGHT_ARM)).any(axis=1)
 
 
 def leg_of(template: PosedTemplate, leg: int) -> np.ndarray:
@@ -71,6 +84,10 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
     rows = np.arange(int(template.joints[human.rig.index("LeftLeg"), 1]), SIZE[0])
     hidden[: rows[0]] = False
     assert (body.mask & hidden).sum() > 0.95 * hidden.sum()
+    worn_on_it = cv2.dilate(own[0].mask.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(worn - 1, 0)) > 0
+    wider = worn_on_it & (found.labels == before)
+    wider[: rows[0]] = False
+    assert (body.mask & wider).sum() > 0.93 * wider.sum(), "as wide as what is worn on the other"
     shared = body.mask & leg.mask & hidden
     assert (body.front.depth > body.back.depth)[shared].all(), "it has a front and a back"
     assert np.mean((leg.front.depth > body.front.depth)[shared]) > 0.99, "behind the other"
@@ -92,7 +109,9 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
         assert surface.weights[hidden & body.mask][:, moving].sum(1).max() < 0.05, "the other leg does not move it"
 
 
-@pytest.mark.parametrize(("turn", "before"), [(0, None), (30, None), (75, RIGHT), (-75, LEFT), (105, RIGHT)])
+@pytest.mark.parametrize(
+    ("turn", "before"), [(0, None), (45, None), (55, RIGHT), (75, RIGHT), (-75, LEFT), (105, RIGHT)]
+)
 def test_the_nearer_leg_is_before_the_other_as_the_body_turns(turn: int, before: int | None) -> None:
     assert leg_before(np.full(SIZE, LEFT), standing({"Hips": (0, turn, 0)}), load_human().rig) == before
 
@@ -112,9 +131,33 @@ def test_trousers_of_the_leg_before_hide_as_much_as_they_stand_off() -> None:
     template[:, 20:30], template[:, 30:40] = LEFT, RIGHT
     labels = np.full((60, 60), -1)
     labels[:, 16:30], labels[:, 30:44] = LEFT, RIGHT
-    found = as_the_template(labels, template, LEFT)
+    found = as_the_template(labels, template, LEFT, METRE)
     assert (found[:, 16:34] == LEFT).all()
     assert (found[:, 34:44] == RIGHT).all()
     assert (found[labels < 0] == -1).all()
     bare = np.where(template >= 0, labels, -1)
-    np.testing.assert_array_equal(as_the_template(bare, template, LEFT)[:, 32:40], bare[:, 32:40])
+    np.testing.assert_array_equal(as_the_template(bare, template, LEFT, METRE)[:, 32:40], bare[:, 32:40])
+
+
+def test_where_nobody_sees_the_crossing_the_template_tells_which_leg_hides_the_other() -> None:
+    rig, template = load_human().rig, standing({"Hips": (0, 82, 0), "LeftUpLeg": (8, 0, 0), "LeftLeg": (-14, 0, 0)})
+    legs = np.full(SIZE, -1)
+    legs[int(template.joints[rig.index("LeftFoot"), 1]) :] = RIGHT
+    assert leg_before(legs, template, rig) == RIGHT
+
+
+def test_a_long_skirt_from_the_side_leaves_the_far_leg_below_it_its_own() -> None:
+    """What the leg before wears is looked for on its lower half, and is no more than trousers are."""
+    human, template = load_human(), standing(FROM_THE_SIDE)
+    mask = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
+    hips, knees = (int(template.joints[human.rig.index(name), 1]) for name in ("LeftUpLeg", "LeftLeg"))
+    hem, middle = knees + 45, float(template.joints[human.rig.index("Hips"), 0])
+    y, x = np.mgrid[: SIZE[0], : SIZE[1]]
+    skirt = (y >= hips - 30) & (y < hem) & (abs(x - middle) < 34 + (y - hips) / 1.6)
+    rgb = np.where(skirt[..., None], [40, 120, 60], np.where(mask[..., None], [225, 180, 150], [140, 140, 145]))
+    found = label_parts(rgb.astype(np.uint8), mask | skirt, template, human.rig).labels
+    part = vertex_parts(human.rig)[template.triangles]
+    far = template.shows((part == LEFT).all(1), SIZE)
+    far[: hem + 2] = False
+    assert far.sum() > 100
+    assert (found[far] == LEFT).mean() > 0.9

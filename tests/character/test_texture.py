@@ -251,7 +251,10 @@ def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> Non
     assert np.abs(made[62:120, 111:125].astype(int) - sleeve).max() < 12
     np.testing.assert_array_equal(made[133:147, 113:123], seen[133:147, 113:123])
     np.testing.assert_array_equal(made[65:145, 43:57], seen[65:145, 43:57])
-    half = {left: sleeves[left] | (found == left), right: sleeves[right]}
-    found[hidden] = left
-    kept = paint_limbs(seen, everything, limbs | reach, labels, limbs | reach, reach, half, None, 1.0)
-    np.testing.assert_array_equal(kept[65:125, 113:123], seen[65:125, 113:123], "what is seen stays as it is seen")
+    rest = np.zeros_like(reach)
+    rest[60:90, 110:126] = True
+    seen[90:130, 110:126], found[90:130, 110:126] = (40, 130, 60), left
+    most = limbs | (reach & ~rest)
+    kept = paint_limbs(seen, everything, most, labels, most, reach, sleeves, None, 1.0)
+    assert np.abs(kept[62:88, 111:125].astype(int) - (40, 130, 60)).max() < 12, "of what more is seen, like itself"
+    np.testing.assert_array_equal(kept[2:18, 2:18], seen[2:18, 2:18], "and what is far from limbs stays")
