@@ -57,7 +57,7 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
 
 
 def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig) -> FreeCloth | None:
-    """The cloth that goes round both legs, one that crosses before the other included."""
+    """The cloth that goes round both legs, one that passes before the other included."""
     part = vertex_parts(rig)[template.triangles]
     crossing = [int(limb) for limb in labels.apart if limb in LEGS]
     clothed = body.triangles | np.isin(part, crossing).any(1)

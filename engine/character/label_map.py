@@ -1,6 +1,6 @@
 """The body label map: what each pixel of the person shows, and what that says of limbs that pass before others.
 
-The paper's section 4.2.1. Beyond it, legs that cross, and hands in pockets.
+The paper's section 4.2.1. Beyond it, legs that hide one another, and hands in pockets.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from engine.render.attributes import interpolate
 @dataclass(frozen=True)
 class Labels:
     """`labels` (h, w) int8: indices of `engine.body.parts.PARTS`, -1 outside the person; `occlusion` (h, w): where
-    limbs pass before others; `apart`: those that do, a leg that crosses before the other first, then arms; `parting`
+    limbs pass before others; `apart`: those that do, a leg that passes before the other first, then arms; `parting`
     (h, w): where one leg touches the other and is not joined to it; `hidden` (h, w) int8: the arm whose hand is in a pocket
     there, or behind other cloth, -1 elsewhere; `behind`: of crossed arms the one that the other hides; `cloth`: what goes round
     both legs."""
@@ -109,7 +109,7 @@ def label_parts(
         rough = refined_labels(rgb, rough, around, shown)
         rough, plain = labelled_shoulders(rgb, rough, template, rig)
         if (leg := before(rough)) is not None:
-            rough = as_the_template(rough, projected, leg, template.pixels_per_metre)
+            rough = as_the_template(rough, projected, leg)
         rough = without_specks(rough, known, plain)
         for hand in unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))

@@ -21,8 +21,6 @@ CROSSING = 0.04
 """Metres around the place where legs cross within which is looked which of them is seen."""
 HIDDEN = 0.1
 """Share of a leg that the other one hides, from which on it has to be made where nobody sees it."""
-WIDEST = 0.05
-"""Metres by which trousers stand off, at most."""
 
 
 def leg_before(labels: NDArray[np.integer], template: PosedTemplate, rig: Rig) -> int | None:
@@ -74,24 +72,21 @@ def _hiding(template: PosedTemplate, rig: Rig, shape: tuple[int, ...]) -> int | 
     return None
 
 
-def standing_off(labels: NDArray[np.integer], leg: int, away: NDArray[np.floating], pixels_per_metre: float) -> float:
+def standing_off(labels: NDArray[np.integer], leg: int, away: NDArray[np.floating]) -> float:
     """Pixels by which what is worn on a leg stands off from it: how far `away` (h, w) from the template's its edge lies, where
     nothing else of the person is beside it, on its lower half: further up may be a skirt."""
     rows = np.flatnonzero((labels == leg).any(1))
     free = (labels == leg) & grown(labels < 0, 1)
     free[: int(rows.mean()) if len(rows) else 0] = False
-    off = float(np.median(away[free])) if free.any() else 0.0
-    return min(off, WIDEST * pixels_per_metre)
+    return float(np.median(away[free])) if free.any() else 0.0
 
 
-def as_the_template(
-    labels: NDArray[np.integer], template: NDArray[np.integer], before: int, pixels_per_metre: float
-) -> NDArray[np.intp]:
+def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], before: int) -> NDArray[np.intp]:
     """Labels (h, w) in which each leg is what is nearest to that leg of the projected `template` (h, w): where legs cross, one
     comes out behind the other in wedges, which even labels cut off. What the leg that is `before` wears hides as much of the
     other as it stands off elsewhere."""
     away = {leg: distance_to(template == leg) for leg in LEGS}
-    off = standing_off(labels, before, away[before], pixels_per_metre)
+    off = standing_off(labels, before, away[before])
     front = away[before] <= np.maximum(away[OTHER_SIDE[before]], off)
     return np.where(np.isin(labels, LEGS), np.where(front, before, OTHER_SIDE[before]), labels)
 
@@ -109,4 +104,4 @@ def hidden_leg(
     front, behind = (
         distance_to(template.covers((part == leg).all(1), labels.shape)) for leg in (before, OTHER_SIDE[before])
     )
-    return np.asarray(behind <= standing_off(labels, before, front, template.pixels_per_metre))
+    return np.asarray(behind <= standing_off(labels, before, front))

@@ -19,12 +19,11 @@ from engine.character.sheets import close
 from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import side_maps
 from engine.geometry.welding import is_closed
+from engine.imaging.mask_distance import distance_to
 
 SIZE = (448, 260)
 LEFT, RIGHT = PARTS.index("left_leg"), PARTS.index("right_leg")
 LEFT_ARM, RIGHT_ARM = PARTS.index("left_arm"), PARTS.index("right_arm")
-METRE = 200.0
-"""Pixels."""
 ARMS_DOWN = {"LeftArm": (0, 0, -60), "RightArm": (0, 0, 60)}
 AT_THE_KNEES = {"LeftUpLeg": (-14, 0, -16), "LeftLeg": (14, 0, -4), "RightUpLeg": (2, 0, 10)}
 FROM_THE_SIDE = {"Hips": (0, 75, 0)}
@@ -109,6 +108,20 @@ def test_the_leg_behind_goes_on_where_it_is_hidden(
         assert surface.weights[hidden & body.mask][:, moving].sum(1).max() < 0.05, "the other leg does not move it"
 
 
+def test_neither_leg_goes_on_behind_a_hand_that_hangs_beside_the_hip() -> None:
+    human, template = load_human(), standing(FROM_THE_SIDE)
+    covered = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
+    mask = cv2.dilate(covered.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
+    rgb = np.where(mask[..., None], [60, 60, 90], [200, 200, 200]).astype(np.uint8)
+    found = label_parts(rgb, mask, template, human.rig)
+    trunk = template.covers(without_arms(template), SIZE)
+    beyond = (found.labels == RIGHT_ARM) & (distance_to(trunk) > 4)
+    beyond[: int(template.joints[human.rig.index("LeftUpLeg"), 1]) - 15] = False
+    assert beyond.sum() > 200
+    for layer in build_layers(found, template, human.rig)[:2]:
+        assert not (layer.mask & beyond).any()
+
+
 @pytest.mark.parametrize(
     ("turn", "before"), [(0, None), (45, None), (55, RIGHT), (75, RIGHT), (-75, LEFT), (105, RIGHT)]
 )
@@ -131,12 +144,12 @@ def test_trousers_of_the_leg_before_hide_as_much_as_they_stand_off() -> None:
     template[:, 20:30], template[:, 30:40] = LEFT, RIGHT
     labels = np.full((60, 60), -1)
     labels[:, 16:30], labels[:, 30:44] = LEFT, RIGHT
-    found = as_the_template(labels, template, LEFT, METRE)
+    found = as_the_template(labels, template, LEFT)
     assert (found[:, 16:34] == LEFT).all()
     assert (found[:, 34:44] == RIGHT).all()
     assert (found[labels < 0] == -1).all()
     bare = np.where(template >= 0, labels, -1)
-    np.testing.assert_array_equal(as_the_template(bare, template, LEFT, METRE)[:, 32:40], bare[:, 32:40])
+    np.testing.assert_array_equal(as_the_template(bare, template, LEFT)[:, 32:40], bare[:, 32:40])
 
 
 def test_where_nobody_sees_the_crossing_the_template_tells_which_leg_hides_the_other() -> None:
@@ -147,7 +160,7 @@ def test_where_nobody_sees_the_crossing_the_template_tells_which_leg_hides_the_o
 
 
 def test_a_long_skirt_from_the_side_leaves_the_far_leg_below_it_its_own() -> None:
-    """What the leg before wears is looked for on its lower half, and is no more than trousers are."""
+    """What the leg before wears is looked for on its lower half: further up is a skirt."""
     human, template = load_human(), standing(FROM_THE_SIDE)
     mask = template.covers(np.ones(len(template.triangles), np.bool_), SIZE)
     hips, knees = (int(template.joints[human.rig.index(name), 1]) for name in ("LeftUpLeg", "LeftLeg"))

@@ -1,4 +1,4 @@
-"""Hands at the hips that were not found: whether they are hidden, what is theirs, and what happens as they come out."""
+"""Hands at the hips and before the belly that were not found: whether they are hidden, what is theirs, and what happens as they come out."""
 
 from __future__ import annotations
 
