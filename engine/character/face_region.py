@@ -11,6 +11,8 @@ from engine.imaging.mask_distance import distance_inside
 
 RIGHT_EDGE, NOSE_TIP, LEFT_EDGE = 234, 1, 454
 """Vertices of the face's mesh: before the ears, and at the tip of the nose."""
+PROFILE = 0.4
+"""How far one ear is beside the other in the picture, in lengths from the eyes to the mouth, below which a head is in profile."""
 BROW = 0.3
 """How far below the top of the head, hair included, a face begins, as a share of the head's height."""
 
@@ -47,6 +49,20 @@ def face_turn(figure: Figure) -> float:
         return 0.0
     left, nose, right = (float(figure.face[vertex, 0]) for vertex in (RIGHT_EDGE, NOSE_TIP, LEFT_EDGE))
     return float(np.clip((2 * nose - left - right) / max(right - left, 1e-6), -1, 1)) if right > left else 0.0
+
+
+def in_profile(figure: Figure) -> bool:
+    """Whether a head is seen from its side: its ears lie one behind the other, and half of its face is not to be seen."""
+    if not figure.spatial:
+        return False
+    ears, eyes, mouth = (
+        np.stack([figure.point(one) for one in pair])
+        for pair in (("LeftEar", "RightEar"), ("LeftEye", "RightEye"), ("MouthLeft", "MouthRight"))
+    )
+    up = eyes.mean(0) - mouth.mean(0)
+    length = max(float(np.linalg.norm(up)), 1e-6)
+    across = np.array([-up[1], up[0]]) / length
+    return bool(abs((ears[1] - ears[0]) @ across) < PROFILE * length)
 
 
 def face_within(head: NDArray[np.bool_]) -> NDArray[np.float32] | None:

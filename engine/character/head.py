@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.face_points import FLIP
+from engine.character.face_region import in_profile
 from engine.character.figure import Figure
 from engine.character.template_fit import FittedBody, load_human
 from engine.perception.landmarks import fiducials
@@ -24,8 +25,9 @@ TURN = 70.0
 
 
 def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
-    """The fit with its head turned as the figure's face is; as it was where there is no face, or none to be believed."""
-    if figure.face is None:
+    """The fit with its head turned as the figure's face is; as it was where there is no face, or none to be believed, as in
+    profile, where the network makes up the half that is not seen."""
+    if figure.face is None or in_profile(figure):
         return fitted
     fit, human = fitted.fit, load_human()
     rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)

@@ -15,7 +15,7 @@ from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.crossed_arms import without_hidden_hand
 from engine.character.crossed_labels import label_crossed
 from engine.character.doubts import doubt_labels, require_labels
-from engine.character.face_region import face_ellipse, face_turn, within_oval
+from engine.character.face_region import face_ellipse, face_turn, in_profile, within_oval
 from engine.character.face_warp import JAW, Face
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
@@ -129,7 +129,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
     human = load_human()
     posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
     face = None
-    if figure.face is not None:
+    if figure.face is not None and not in_profile(figure):
         seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
         on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
         laid = posed.vertices[human.face[JAW:], :2]
@@ -168,9 +168,9 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
-    alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, face_turn(figure)
+    alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, None if in_profile(figure) else face_turn(figure)
     tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned, along, sleeves)
-    if face is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
+    if face is not None and turned is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
     camera = silhouette.camera(fitted.camera())

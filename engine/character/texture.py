@@ -80,7 +80,7 @@ def paint_tiles(
     limbs_shown: NDArray[np.bool_],
     face: NDArray[np.float32] | None,
     back: BackTexture,
-    turned: float = 0.0,
+    turned: float | None = 0.0,
     along: NDArray[np.bool_] | None = None,
     sleeves: Mapping[int, NDArray[np.bool_]] | None = None,
 ) -> Tiles:
@@ -95,7 +95,7 @@ def paint_tiles(
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
-    turned : to which side the face looks, as `face_region.face_turn` says.
+    turned : to which side the face looks, as `face_region.face_turn` says; None in profile: then both sides of the head are alike.
     along : (h, w) what of the body goes with a limb, as at shoulders, and so is of its colours.
     sleeves : (h, w) what the surface of each arm that is apart covers above its hand, by its index.
     """
@@ -123,7 +123,7 @@ def paint_tiles(
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
     head = enlarged_mask(labels.labels == PARTS.index("head"), size) & own
     beside = body
-    if oval is not None and head.any():
+    if oval is not None and turned is not None and head.any():
         behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
     apart = paint_limbs(seen, own, around, labels, limbs, limbs_reach, sleeves or {}, oval, scale)
     hidden = None
