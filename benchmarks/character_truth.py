@@ -131,7 +131,7 @@ def examine(known: KnownPicture, place: str) -> Result:
 def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Surfaces:
     """The character posed by its clip `pictured`, the mesh by warped depth, and the fitted template."""
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
-    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels, lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
     with depth_is_warped():

@@ -6,7 +6,7 @@ is a guess of the network: it is one in which the limb is hidden.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import cv2
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.parts import vertex_parts
+from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.head import joint_axes
 from engine.character.label_map import Labels
@@ -54,9 +54,11 @@ def unseen_limbs(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Unse
     return found
 
 
-def with_limbs_hidden(fitted: FittedBody, camera: PictureCamera, labels: Labels) -> FittedBody:
+def with_limbs_hidden(
+    fitted: FittedBody, camera: PictureCamera, labels: Labels, warn: Callable[[str, str], None]
+) -> FittedBody:
     """The fit with limbs that are not seen turned, and stretched if need be, as little as it takes to hide them behind the person;
-    as it was where nothing does, as at the picture's edge. `camera`: the grid's."""
+    as it was where nothing does, as at the picture's edge. `camera`: the grid's. Warns of `limb_unseen`."""
     labels = labels.layered
     human, inner = load_human(), _inner(labels)
     part = vertex_parts(human.rig)
@@ -65,6 +67,8 @@ def with_limbs_hidden(fitted: FittedBody, camera: PictureCamera, labels: Labels)
             template = pose_template(turned, camera, human)
             if _is_within(template, (part[template.triangles] == limb).any(1), inner):
                 fitted = turned
+                name = PARTS[limb].replace("_", " ")
+                warn("limb_unseen", f"Nothing is seen of the {name}: it is made up, like the other one.")
                 break
     return fitted
 

@@ -132,12 +132,14 @@ def test_a_pose_that_would_show_the_arm_gives_way_to_one_that_hides_it(turns: di
     fitted = fitted_as({"Hips": (0, 90, 0)} | turns)
     camera = fitted.camera()
     assert unseen_limbs(labels, pose_template(fitted, camera, human), human.rig) == []
-    hidden = with_limbs_hidden(fitted, camera, labels)
+    told: list[str] = []
+    hidden = with_limbs_hidden(fitted, camera, labels, lambda code, message: told.append(code))
+    assert told == ["limb_unseen"]
     (arm,) = unseen_limbs(labels, pose_template(hidden, camera, human), human.rig)
     assert arm.limb == LEFT
     changed = ~np.isclose(hidden.fit.rotations, fitted.fit.rotations).all((1, 2))
     assert set(np.array(human.rig.names)[changed]) <= {"LeftArm", "LeftForeArm"}
-    again = with_limbs_hidden(hidden, camera, labels)
+    again = with_limbs_hidden(hidden, camera, labels, lambda code, message: None)
     np.testing.assert_array_equal(again.fit.rotations, hidden.fit.rotations)
 
 
