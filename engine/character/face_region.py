@@ -60,7 +60,9 @@ def in_profile(figure: Figure) -> bool:
         for pair in (("LeftEar", "RightEar"), ("LeftEye", "RightEye"), ("MouthLeft", "MouthRight"))
     )
     up = eyes.mean(0) - mouth.mean(0)
-    length = max(float(np.linalg.norm(up)), 1e-6)
+    length = float(np.linalg.norm(up))
+    if length < 1:
+        return False
     across = np.array([-up[1], up[0]]) / length
     return bool(abs((ears[1] - ears[0]) @ across) < PROFILE * length)
 
