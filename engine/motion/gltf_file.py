@@ -19,6 +19,17 @@ from engine.motion.source_motion import MAX_BYTES, MAX_NUMBERS
 MAX_JSON = 8 << 20
 """Bytes of a file's JSON beside the buffers in it."""
 
+MAX_NODES = 20_000
+"""Nodes of all that a file shows; its skeleton may have far fewer."""
+
+MAX_SKIN_JOINTS = 65_536
+"""Joints that all skins name, together: a character of a hundred parts names each of its joints a hundred times."""
+
+MAX_ANIMATIONS = 4096
+
+MAX_CHANNELS = 65_536
+"""Of all animations together."""
+
 MOST_READ = 4 * MAX_NUMBERS
 """Numbers that a file may have read in all: many accessors can point to the same bytes."""
 
@@ -40,6 +51,8 @@ def unreadable(why: str) -> InputError:
 
 class Part(dict[str, Any]):
     """An object of the file's JSON; what it does not have is None."""
+
+    __slots__ = ()
 
     def __getattr__(self, name: str) -> Any:
         return self.get(name)
@@ -66,6 +79,7 @@ class GltfFile:
             raise unreadable("its structure is broken") from error
         if not _well_formed(self.parts):
             raise unreadable("its structure is broken")
+        _require_few(self.parts)
         self._buffers: dict[int, bytes] = {}
         self._read = 0
 
@@ -131,6 +145,19 @@ def _well_formed(parts: Any) -> bool:
         and all(_list_of(int, skin.joints) for skin in parts.get("skins", []))
         and all(_is_animation(animation) for animation in parts.get("animations", []))
     )
+
+
+def _require_few(parts: Part) -> None:
+    """Looked at before anything is walked."""
+    animations, skins = parts.animations or [], parts.skins or []
+    if len(parts.nodes or []) > MAX_NODES:
+        raise InputError(
+            "motion_too_large", f"The glTF file has more than {MAX_NODES} nodes: export the skeleton alone."
+        )
+    if sum(len(skin.joints) for skin in skins) > MAX_SKIN_JOINTS:
+        raise InputError("motion_too_large", "The glTF file's skins have too many joints: export the skeleton alone.")
+    if len(animations) > MAX_ANIMATIONS or sum(len(a.channels) for a in animations) > MAX_CHANNELS:
+        raise InputError("motion_too_large", "The glTF file has too many animations: export the one that is meant.")
 
 
 def _is_animation(animation: Part) -> bool:

@@ -148,7 +148,8 @@ def _skeleton_nodes(parents: list[int], order: list[int], joints: set[int]) -> l
     for node in order:
         if parents[node] in below:
             below.add(node)
-    return [node for node in order if node in kept | below]
+    kept |= below
+    return [node for node in order if node in kept]
 
 
 def _at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[Array, Array, Array]:
@@ -188,13 +189,15 @@ def _bind_pose(
     """Turns and offsets in parents' axes of the pose in which the skin was bound; joints outside of it stay at rest."""
     world, places = place(parents, turns, offsets)
     bound = np.zeros(len(nodes), bool)
+    index = {node: joint for joint, node in enumerate(nodes)}
     for skin in file.parts.skins or []:
         if skin.inverseBindMatrices is None:
             continue
         matrices = file.numbers(skin.inverseBindMatrices).reshape(-1, 4, 4).swapaxes(1, 2)
-        for node, matrix in zip(skin.joints, matrices, strict=False):
-            joint = nodes.index(node)
-            if not bound[joint] and abs(np.linalg.det(matrix)) > 1e-12:
+        regular = np.abs(np.linalg.det(matrices)) > 1e-12
+        for node, matrix, invertible in zip(skin.joints, matrices, regular, strict=False):
+            joint = index[node]
+            if invertible and not bound[joint]:
                 bind = np.asarray(np.linalg.inv(matrix), np.float64)
                 world[joint], places[joint], bound[joint] = _turn_and_scale(bind[:3, :3])[0], bind[:3, 3], True
     if not bound.any():

@@ -97,8 +97,9 @@ def _pair(
     longest = max(float(reach[branch]) for branch in branches)
     if longest < 0.3 * float(reach.max()):
         return None  # fingers
+    limbs = {branch: _limb(children, reach, branch) for branch in branches}
     for a, b in combinations(branches, 2):
-        ways = _limb(children, reach, a), _limb(children, reach, b)
+        ways = limbs[a], limbs[b]
         if min(len(way) for way in ways) < 3 or abs(len(ways[0]) - len(ways[1])) > 1 or longest <= 0:
             continue
         unlike = sum(abs(lengths[i] - lengths[j]) for i, j in zip(*ways, strict=False)) / longest
