@@ -24,6 +24,7 @@ from rich.markup import escape
 from service.redis_server import socket_path
 from service.settings import MEGABYTE, ROOT, Settings
 from shell.settings import read_settings
+from worker.interpreter import module_command, module_environment
 
 SETUP = "run `make setup` in the checkout"
 NODE = "Node 20.19 or later, or 22.12 or later"
@@ -242,10 +243,10 @@ WALLS = {
 
 def _confinement(settings: Settings) -> Iterator[Finding]:
     tried = subprocess.run(  # noqa: S603  (our own program)
-        [sys.executable, "-m", "worker.confinement", settings.job_user],
+        module_command("worker.confinement", settings.job_user),
         capture_output=True,
         check=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        env=module_environment(),
     )
     for wall, stands in json.loads(tried.stdout).items():
         what, mend = WALLS[wall]

@@ -10,6 +10,7 @@ import sys
 import click
 
 import engine
+from worker.interpreter import leave_out_current_folder
 
 os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
 """Threads of linear algebra sleep between products. By default they spin for a tenth of a second, on a core that
@@ -124,6 +125,7 @@ def doctor() -> None:
 def run() -> None:
     """`main` as a process of its own, which ends when its work is done and all that was to be left in order is: Python
     would take apart every module and look for rubbish in what the numeric libraries hold, half a second for nothing."""
+    leave_out_current_folder()
     status: list[int] = []
     atexit.register(lambda: _leave(status))  # the first to be registered is the last to be called
     try:

@@ -25,6 +25,7 @@ from service.settings import Settings
 from shell.complaint import Complaint
 from shell.opening import open_context
 from shell.supervisor import Supervisor
+from worker.interpreter import module_command
 
 PATIENCE_SECONDS = 10.0
 HEAD_BYTES = 64 * 1024
@@ -61,7 +62,7 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     context = open_context(settings, "api")
     _require_a_key(context)
     if settings.worker:
-        supervisor.keep("worker", [sys.executable, "-m", "shell.main", "worker"], stop_seconds=10)
+        supervisor.keep("worker", module_command("shell.main", "worker"), stop_seconds=10)
     config = uvicorn.Config(
         make_app(context),
         loop="uvloop",

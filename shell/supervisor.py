@@ -6,10 +6,8 @@ if it is killed.
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -17,6 +15,7 @@ from dataclasses import dataclass, field
 
 import structlog
 
+from worker.interpreter import module_environment
 from worker.tether import tethered
 
 LOOK_SECONDS = 0.2
@@ -92,7 +91,7 @@ class Supervisor:
                 tethered(list(program.command), signal.SIGTERM),
                 pass_fds=self._inherited,
                 stdin=subprocess.DEVNULL,
-                env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+                env=module_environment(),
                 start_new_session=True,
             )
         elif moment - program.started > STEADY_SECONDS:

@@ -6,7 +6,6 @@ import json
 import os
 import selectors
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -21,6 +20,7 @@ import structlog
 from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
 from worker.confinement import Limits
+from worker.interpreter import module_command, module_environment
 from worker.niceness import give_way
 
 LONGEST_LINE = 1_000_000
@@ -42,16 +42,14 @@ class Child:
         read_end, write_end = os.pipe()
         try:
             self._process = subprocess.Popen(  # noqa: S603  (our own program)
-                [
-                    sys.executable,
-                    "-m",
+                module_command(
                     "worker.child",
                     str(os.getpid()),
                     str(write_end),
                     json.dumps(asdict(_limits(settings, user))),
                     ",".join(settings.worker_kinds),
                     *settings.kinds,
-                ],
+                ),
                 stdin=subprocess.PIPE,
                 stdout=self._log,
                 stderr=self._log,
@@ -265,7 +263,7 @@ def _environment(settings: Settings) -> dict[str, str]:
     kept = {name: value for name, value in os.environ.items() if _is_the_engines(name)}
     if settings.job_cores:
         kept |= dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NUM_THREADS"), str(settings.job_cores))
-    return kept | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    return module_environment(kept)
 
 
 def _is_the_engines(name: str) -> bool:

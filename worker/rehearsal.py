@@ -29,6 +29,7 @@ import structlog
 import engine
 from service.kinds.registry import load_kinds
 from service.settings import Settings
+from worker.interpreter import module_command, module_environment
 from worker.tether import tethered
 
 NAME = "rehearsed"
@@ -45,12 +46,13 @@ def rehearse(settings: Settings) -> None:
     """Have it done. Where it fails, jobs compile for themselves, each anew."""
     log = structlog.get_logger()
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
-    command = [sys.executable, "-m", "worker.rehearsal", *settings.kinds]
+    command = module_command("worker.rehearsal", *settings.kinds)
     done = subprocess.run(  # noqa: S603  (our own program)
         tethered(command),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
+        env=module_environment(),
         start_new_session=True,
     )
     if done.returncode != 0:

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +22,19 @@ ROOT = HERE.parent.parent
 class Running:
     """A service that runs."""
 
-    def __init__(self, data_dir: Path, path: Path = HERE, **settings: Any):
-        """`path` is where job kinds are imported from."""
+    def __init__(
+        self,
+        data_dir: Path,
+        path: Path = HERE,
+        command: Sequence[str] = (sys.executable, "-m", "shell.main"),
+        cwd: Path | None = None,
+        **settings: Any,
+    ):
+        """`path` is where job kinds are imported from; `command` is started in the folder `cwd`."""
         self.data_dir = data_dir
         self.path = path
+        self.command = command
+        self.cwd = cwd or data_dir.parent
         self.settings = settings
         self.output = data_dir.with_name(data_dir.name + ".log")
         self.start()
@@ -41,11 +50,11 @@ class Running:
         }
         with self.output.open("wb") as output:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "shell.main", "serve", "--port", "0"],
+                [*self.command, "serve", "--port", "0"],
                 env=environment,
                 stdout=output,
                 stderr=output,
-                cwd=self.output.parent,
+                cwd=self.cwd,
             )
         self.client = httpx.Client(base_url=self._address(), timeout=60)
         eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
