@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures docs licences clean
+.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures samples docs licences clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
@@ -62,6 +62,9 @@ picture: setup  ## the README's picture
 
 pictures: setup  ## the pictures of docs/method.md
 	@$(BIN)/python -m scripts.method_pictures
+
+samples: tools  ## the pictures and clips of the start pages, in web/public/samples/
+	@$(BIN)/python -m scripts.samples
 
 licences:  ## docs/packages.md, from the installed packages
 	@$(BIN)/python -m scripts.licences

@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { later } from './components/later';
+import { noCharacter, noPortrait, useDraft } from './drafts';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
 import { SignInPage } from './pages/signin';
@@ -58,9 +59,11 @@ function Navigation({ page }: { page: Route['page'] }) {
 }
 
 function Page({ route }: { route: Route }) {
+  const portrait = useDraft(noPortrait);
+  const character = useDraft(noCharacter);
   switch (route.page) {
     case 'character':
-      return <CharacterStudio />;
+      return <CharacterStudio draft={character} />;
     case 'job':
       return <JobPage key={route.id} id={route.id} />;
     case 'history':
@@ -72,7 +75,7 @@ function Page({ route }: { route: Route }) {
     case 'webhooks':
       return <WebhooksPage />;
     default:
-      return <StudioPage />;
+      return <StudioPage draft={portrait} />;
   }
 }
 

@@ -12,10 +12,12 @@ interface Props {
   sending: ReturnType<typeof useSending>;
   /** What is still to be chosen; empty where nothing is. */
   missing: string;
+  /** What the order will be called, once all is chosen. */
+  chosen: { picture: string; performance: string } | null;
   label: string;
 }
 
-export function Launch({ sending, missing, label }: Props) {
+export function Launch({ sending, missing, chosen, label }: Props) {
   const { waiting } = sending;
   const left = waiting && namesOf(waiting);
   return (
@@ -43,13 +45,15 @@ export function Launch({ sending, missing, label }: Props) {
       {sending.step ? (
         <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
       ) : (
-        <button type="submit" class="button primary large" disabled={missing !== ''} aria-describedby="missing">
-          {label}
-        </button>
+        <div class="go">
+          <p id="missing" class="hint" aria-live="polite">
+            {missing || (chosen && words.chosen(chosen.picture, chosen.performance))}
+          </p>
+          <button type="submit" class="button primary large" disabled={missing !== ''} aria-describedby="missing">
+            {label}
+          </button>
+        </div>
       )}
-      <p id="missing" class="hint" aria-live="polite">
-        {missing}
-      </p>
     </div>
   );
 }

@@ -1,8 +1,8 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import type { CharacterOptions, MotionJoints } from '../api';
-import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from '../character/choices';
+import { CharacterFields, type Choices, KeepField, optionsOf, VideoFields } from '../character/choices';
 import { Motions } from '../character/motions';
 import { Capture } from '../components/capture';
 import { useDropsAnywhere } from '../components/drops';
@@ -10,9 +10,11 @@ import { Dropzone } from '../components/dropzone';
 import { Launch } from '../components/launch';
 import { Making } from '../components/making';
 import { Recent } from '../components/recent';
+import { Samples } from '../components/samples';
+import type { CharacterDraft, Draft } from '../drafts';
 import { isMotion, isPicture, pictureTypes } from '../media';
-import { USUAL_MOTION } from '../names';
-import { characterOrder, type Motion } from '../order';
+import { characterOrder, type Motion, namesOf } from '../order';
+import { figureSamples } from '../samples';
 import { useSending } from '../sending';
 import { strings } from '../strings';
 
@@ -24,18 +26,12 @@ const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
   ...(clip !== null && { motion_clip: clip }),
 });
 
-export default function CharacterStudio() {
-  const [photo, setPhoto] = useState<File | null>(null);
-  const [motion, setMotion] = useState<Motion>({ by: 'name', name: USUAL_MOTION });
-  const [joints, setJoints] = useState<MotionJoints>({});
-  const [clip, setClip] = useState<string | null>(null);
-  const [choices, setChoices] = useState<Choices>(usual);
+export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft> }) {
+  const [{ photo, motion, joints, clip, choices }, alter] = draft;
+  const setPhoto = (photo: File): void => alter({ photo });
   const sending = useSending();
-  const move = (next: Motion): void => {
-    setMotion(next);
-    setJoints({}); // another motion has other joints, and other animations
-    setClip(null);
-  };
+  // another motion has other joints, and other animations
+  const move = (motion: Motion): void => alter({ motion, joints: {}, clip: null });
   useDropsAnywhere((file) => {
     if (isPicture(file)) setPhoto(file);
     else if (isMotion(file)) move({ by: 'file', file });
@@ -44,23 +40,27 @@ export default function CharacterStudio() {
     document.title = `${strings.make.character} · ${strings.name}`;
   }, []);
 
+  const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
   const start = (event: Event): void => {
     event.preventDefault();
-    if (photo) sending.begin(characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }));
+    if (order) sending.begin(order());
   };
-  const change = (part: Partial<Choices>): void => setChoices((known) => ({ ...known, ...part }));
+  const change = (part: Partial<Choices>): void => alter({ choices: { ...choices, ...part } });
   return (
     <>
       <form class="studio" onSubmit={start}>
         <header>
-          <Making kind="character" />
-          <h1>{words.title}</h1>
-          <p>{words.lead}</p>
+          <div>
+            <Making kind="character" />
+            <h1>{words.title}</h1>
+            <p>{words.lead}</p>
+          </div>
         </header>
         <div class="beside">
           <section class="panel" aria-labelledby="photo-title">
             <h2 id="photo-title">{words.photo}</h2>
             <p class="hint">{words.photoHint}</p>
+            {figureSamples.length > 0 && <Samples names={figureSamples} chosen={photo} onChoose={setPhoto} />}
             <Dropzone
               media="image"
               file={photo}
@@ -84,9 +84,9 @@ export default function CharacterStudio() {
             chosen={motion}
             onChoose={move}
             joints={joints}
-            onJoints={setJoints}
+            onJoints={(joints) => alter({ joints })}
             clip={clip}
-            onClip={setClip}
+            onClip={(clip) => alter({ clip })}
           />
           <details class="choices">
             <summary>{strings.studio.options}</summary>
@@ -97,7 +97,7 @@ export default function CharacterStudio() {
             </div>
           </details>
         </section>
-        <Launch sending={sending} missing={photo ? '' : words.needPhoto} label={words.start} />
+        <Launch sending={sending} missing={photo ? '' : words.needPhoto} chosen={order && namesOf(order())} label={words.start} />
       </form>
       <Recent />
     </>

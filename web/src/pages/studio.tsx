@@ -3,17 +3,21 @@
 import { useEffect, useState } from 'preact/hooks';
 import { listDrivers } from '../api';
 import { Capture } from '../components/capture';
-import { FoldedChoices, optionsOf, usual } from '../components/choices';
+import { FoldedChoices, optionsOf } from '../components/choices';
 import { useDropsAnywhere } from '../components/drops';
+import { Demo } from '../components/demo';
 import { Dropzone } from '../components/dropzone';
 import { Launch } from '../components/launch';
 import { Making } from '../components/making';
 import { type Performance, Performances } from '../components/performances';
 import { Recent } from '../components/recent';
+import { Samples } from '../components/samples';
 import { Trouble } from '../components/trouble';
+import type { Draft, PortraitDraft } from '../drafts';
 import { useLoaded } from '../loading';
 import { isPicture, isVideo, pictureTypes } from '../media';
-import { portraitOrder } from '../order';
+import { namesOf, portraitOrder } from '../order';
+import { portraitSamples } from '../samples';
 import { useSending } from '../sending';
 import { strings } from '../strings';
 
@@ -22,12 +26,17 @@ const words = strings.studio;
 /** How often drivers that are being searched for moments are looked at. */
 const LOOK_MS = 2000;
 
-export function StudioPage() {
-  const [portrait, setPortrait] = useState<File | null>(null);
-  const [performance, setPerformance] = useState<Performance | null>(null);
-  const [choices, setChoices] = useState(usual);
+/** What is acted out where nothing else is chosen: the mood of the clip above. */
+const USUAL = 'happy';
+
+export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
+  const [{ portrait, performance: chosen, choices }, change] = draft;
+  const setPortrait = (portrait: File): void => change({ portrait });
+  const setPerformance = (performance: Performance): void => change({ performance });
   const [keeping, setKeeping] = useState(false);
   const drivers = useLoaded(listDrivers, 'drivers');
+  const usual = drivers.value?.find(({ name }) => name === USUAL);
+  const performance: Performance | null = chosen ?? (usual ? { by: 'name', name: usual.name } : null);
   const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
   useEffect(() => {
     if (!searching) return;
@@ -46,23 +55,35 @@ export function StudioPage() {
   const hasSound = performance?.by === 'file';
   const needed = !portrait ? words.needPortrait : !performance ? words.needPerformance : '';
   const missing = keeping ? words.keepingFirst : needed;
+  const order =
+    portrait && performance ? () => portraitOrder(portrait, performance, optionsOf(choices, hasSound)) : null;
   const start = (event: Event): void => {
     event.preventDefault();
-    if (portrait && performance && !keeping) sending.begin(portraitOrder(portrait, performance, optionsOf(choices, hasSound)));
+    if (order && !keeping) sending.begin(order());
   };
 
   return (
     <>
       <form class="studio" onSubmit={start}>
         <header>
-          <Making kind="portrait" />
-          <h1>{words.title}</h1>
-          <p>{words.lead}</p>
+          <div>
+            <Making kind="portrait" />
+            <h1>{words.title}</h1>
+            <p>{words.lead}</p>
+          </div>
+          <Demo
+            still="/samples/grace-hopper-still.jpg"
+            moving="/samples/grace-hopper-happy.mp4"
+            alt={strings.demo.portrait}
+            width={400}
+            height={480}
+          />
         </header>
         <div class="beside">
           <section class="panel" aria-labelledby="portrait-title">
             <h2 id="portrait-title">{words.portrait}</h2>
             <p class="hint">{words.portraitHint}</p>
+            <Samples names={portraitSamples} chosen={portrait} onChoose={setPortrait} />
             <Dropzone
               media="image"
               file={portrait}
@@ -97,9 +118,9 @@ export function StudioPage() {
             onKeeping={setKeeping}
             onKept={drivers.reload}
           />
-          <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={setChoices} />
+          <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
         </section>
-        <Launch sending={sending} missing={missing} label={words.start} />
+        <Launch sending={sending} missing={missing} chosen={order && namesOf(order())} label={words.start} />
       </form>
       <Recent />
     </>

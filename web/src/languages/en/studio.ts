@@ -1,8 +1,26 @@
 /** English: the start page of portraits, and the camera. */
 
 import type { Part } from '../../api';
+import type { SampleName } from '../../samples';
 
 export const studio = {
+  samples: {
+    label: 'Try one of these',
+    names: {
+      'grace-hopper': 'Grace Hopper, photographed by the US Navy',
+      'eileen-collins': 'Eileen Collins, photographed by NASA',
+    } satisfies Record<SampleName, string>,
+    failed: 'The picture could not be fetched. Please try again.',
+  },
+
+  demo: {
+    before: 'The picture',
+    after: 'The result',
+    portrait: 'The portrait smiling',
+    play: 'Play',
+    pause: 'Pause',
+  },
+
   studio: {
     title: 'Bring a portrait to life',
     lead: 'Choose a picture of a face and a performance. The picture acts it out, on this machine alone.',
@@ -56,6 +74,7 @@ export const studio = {
     loop: 'Repeats without a jump',
     sound: 'Keep the sound of the video',
     start: 'Bring it to life',
+    chosen: (picture: string, performance: string) => `${picture} · ${performance}`,
     needPortrait: 'First choose a portrait.',
     needPerformance: 'Now choose a performance.',
     uploading: (part: string, percent: string) => `Sending ${part}: ${percent}`,

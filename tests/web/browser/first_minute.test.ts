@@ -1,0 +1,107 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { complaints, launch, open, played, portrait } from './page';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const start = (page: Page) => page.getByRole('button', { name: 'Bring it to life' });
+const hopper = (page: Page) => page.getByRole('button', { name: /^Grace Hopper/ });
+const sizes = [
+  { width: 1440, height: 900 },
+  { width: 390, height: 844 },
+];
+
+describe('whoever comes for the first time', () => {
+  it.each(sizes)('sees samples and the button without scrolling at $width by $height, and needs two clicks', async (viewport) => {
+    const page = await open(browser, '', { viewport });
+    await page.evaluate(() => {
+      const counted = window as unknown as { clicks: number };
+      counted.clicks = 0;
+      addEventListener('click', (event) => event.detail > 0 && counted.clicks++, true);
+    });
+    await page.getByRole('radio', { name: 'Happy', exact: true, checked: true }).waitFor({ state: 'attached' });
+    for (const one of [hopper(page), start(page)]) expect(await inSight(one)).toBe(true);
+    await hopper(page).click();
+    await page.getByLabel('Portrait: grace-hopper.jpg. Choose another').waitFor({ state: 'attached' });
+    expect(await page.evaluate(() => scrollY)).toBe(0);
+    await start(page).click();
+    await played(page);
+    const clicks = await page.evaluate(() => (window as unknown as { clicks: number }).clicks);
+    console.info(`from the start page to the first result at ${viewport.width} by ${viewport.height}: ${clicks} clicks`);
+    expect(clicks).toBe(2);
+  });
+
+  it('sees a portrait move, and can stop it', async () => {
+    const page = await open(browser);
+    await moving(page);
+    await page.getByRole('button', { name: 'Pause' }).click();
+    await page.waitForFunction(() => document.querySelector('video')?.paused);
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.waitForFunction(() => !document.querySelector('video')?.paused);
+  });
+
+  it('sees it stand still where motion is unwelcome, until it is asked for', async () => {
+    const page = await open(browser, '', { reducedMotion: 'reduce' });
+    await page.getByRole('radio', { name: 'Happy', exact: true }).waitFor({ state: 'attached' });
+    await page.waitForFunction(() => (document.querySelector('video')?.readyState ?? 0) > 1);
+    expect(await page.evaluate(() => document.querySelector('video')?.paused)).toBe(true);
+    await page.getByRole('button', { name: 'Play' }).click();
+    await moving(page);
+  });
+
+  it('finds nothing jump when a picture is chosen', async () => {
+    const page = await open(browser);
+    await page.getByRole('radio', { name: 'Happy', exact: true }).waitFor({ state: 'attached' });
+    const places = () => page.locator('.studio h2').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().top));
+    const height = () => page.locator('.studio').evaluate((form) => form.getBoundingClientRect().height);
+    const before = [...(await places()), await height()];
+    await hopper(page).click();
+    await page.getByLabel('Portrait: grace-hopper.jpg. Choose another').waitFor({ state: 'attached' });
+    expect([...(await places()), await height()]).toEqual(before);
+  });
+});
+
+describe('what was chosen', () => {
+  it('is still chosen after a look at the other pages', async () => {
+    const page = await open(browser);
+    await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+    await page.locator('form').getByText('Surprise', { exact: true }).click();
+    await page.getByRole('link', { name: 'Character' }).click();
+    await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+    await page.getByRole('link', { name: 'Keys' }).click();
+    await page.getByRole('link', { name: 'Galatea' }).click();
+    await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
+    expect(await page.getByRole('radio', { name: 'Surprise' }).isChecked()).toBe(true);
+    await page.getByRole('link', { name: 'Character' }).click();
+    await page.getByLabel('Picture: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
+  });
+});
+
+it('hands out the samples to programs, too', async () => {
+  const answer = await fetch(`${inject('address')}/samples/grace-hopper.jpg`);
+  expect(answer.headers.get('content-type')).toBe('image/jpeg');
+  const body = new FormData();
+  body.append('file', new File([await answer.blob()], 'grace-hopper.jpg'));
+  expect((await fetch(`${inject('address')}/v1/files`, { method: 'POST', body })).status).toBe(201);
+});
+
+const inSight = (what: ReturnType<Page['locator']>): Promise<boolean> =>
+  what.evaluate((element) => {
+    const { top, bottom, left, right } = element.getBoundingClientRect();
+    const seen = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+    return top >= 0 && left >= 0 && bottom <= innerHeight && right <= innerWidth && element.contains(seen);
+  });
+
+const moving = (page: Page) =>
+  page.waitForFunction(() => {
+    const video = document.querySelector('video');
+    return video && !video.paused && video.currentTime > 0.2;
+  });

@@ -1,0 +1,21 @@
+/** Pictures to begin with, for who has none at hand: the service hands them out, under addresses that programs may use too. */
+
+export const portraitSamples = ['grace-hopper', 'eileen-collins'] as const;
+export const figureSamples = [] as const;
+
+export type SampleName = (typeof portraitSamples)[number] | (typeof figureSamples)[number];
+
+export const sampleUrl = (name: SampleName): string => `/samples/${name}.jpg`;
+/** A square for choosing. */
+export const smallUrl = (name: SampleName): string => `/samples/${name}-small.jpg`;
+
+const fileName = (name: SampleName): string => `${name}.jpg`;
+
+/** A sample as a file of the visitor's own would be. */
+export async function sampleFile(name: SampleName): Promise<File> {
+  const answer = await fetch(sampleUrl(name));
+  if (!answer.ok) throw new Error(`${answer.status}`);
+  return new File([await answer.blob()], fileName(name), { type: 'image/jpeg' });
+}
+
+export const isSample = (file: File | null, name: SampleName): boolean => file?.name === fileName(name);
