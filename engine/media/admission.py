@@ -6,7 +6,7 @@ from pathlib import Path
 
 from engine.errors import InputError
 from engine.media.demux import Header, without_picture
-from engine.media.limits import Limits
+from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import VIDEO_TYPES, is_still_webp, sniff
 
 
@@ -41,12 +41,23 @@ def check_claims(header: Header, limits: Limits) -> None:
 
 
 def check_video(width: int, height: int, fps: float, seconds: float, frames: int, limits: Limits) -> None:
-    """Raise `InputError` where a video is beyond the limits: `video_too_large`, `video_too_long`, `video_pixel_rate`,
-    `video_too_many_frames`."""
+    """Raise `InputError` where a video is beyond the limits: `video_too_large`, `video_too_small`, `video_too_long`,
+    `video_pixel_rate`, `video_too_many_frames`."""
     if width * height > limits.video_megapixels * 1e6:
         raise InputError(
             "video_too_large",
             f"The video is {width} x {height}: scale it to at most {limits.video_megapixels:g} megapixels a frame.",
+        )
+    if max(width, height) > LONGEST_SIDE:
+        raise InputError(
+            "video_too_large",
+            f"The video is {width} x {height}: cut or scale it to at most {LONGEST_SIDE} pixels a side.",
+        )
+    if 0 < min(width, height) < SHORTEST_SIDE:  # 0 is not known yet
+        raise InputError(
+            "video_too_small",
+            f"The video is {width} x {height}, too small to show anybody: each side must have at least {SHORTEST_SIDE} "
+            "pixels.",
         )
     if seconds > limits.video_seconds:
         raise InputError(

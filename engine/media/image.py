@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
-from engine.media.limits import Limits
+from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
 _FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
@@ -34,8 +34,8 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     EXIF orientation is applied, colour profiles are converted, 16-bit, grey, palette and CMYK pictures become RGB.
     The colours of wholly transparent pixels are whatever the file says.
 
-    Raises `InputError`: `file_empty`, `file_too_large`, `not_an_image`, `image_too_large` (known from the header,
-    before decoding), `image_truncated`, `image_unreadable`.
+    Raises `InputError`: `file_empty`, `file_too_large`, `not_an_image`, `image_too_large` and `image_too_small` (known
+    from the header, before decoding), `image_truncated`, `image_unreadable`.
     """
     limits = limits or Limits()
     media_type = _admit(path, limits)
@@ -106,6 +106,17 @@ def _check_size(size: tuple[int, int], limits: Limits) -> None:
     width, height = size
     if width * height > limits.image_megapixels * 1e6:
         raise _too_large(f" ({width} x {height} pixels)", limits)
+    if max(size) > LONGEST_SIDE:
+        raise InputError(
+            "image_too_large",
+            f"The picture is too long ({width} x {height} pixels): cut or scale it to at most {LONGEST_SIDE} pixels a side.",
+        )
+    if min(size) < SHORTEST_SIDE:
+        raise InputError(
+            "image_too_small",
+            f"The picture is too small ({width} x {height} pixels) to show anybody: each side must have at least "
+            f"{SHORTEST_SIDE} pixels.",
+        )
 
 
 def _too_large(size: str, limits: Limits) -> InputError:

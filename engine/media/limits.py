@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+LONGEST_SIDE = 16_384
+"""Pixels of a side of whatever is looked at. Detectors and warps keep coordinates in 16 bits: from 32,767 on they end the
+whole process; half of it leaves room for what they put around a picture."""
+SHORTEST_SIDE = 16
+"""Pixels of a side: in less there is no face, and nobody whole."""
+
 
 @dataclass(frozen=True)
 class Limits:

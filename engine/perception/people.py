@@ -32,6 +32,8 @@ SAME = 0.15
 """How far from one another two bodies' points are at least, in the median, as a share of their size."""
 WIDE = 1.4
 """Width over height from which a picture is wide."""
+LEAST_SQUARE = 64
+"""Pixels of a side: in less, no character can be made of anybody, and a strip would be looked at in a thousand squares."""
 COVERED = 0.5
 """Share of a further body's points that may lie on one found before."""
 CLOSER = 0.35
@@ -139,7 +141,7 @@ def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
     """Squares that cover a wide picture, one overlapping the next by half: the network makes every picture a small square,
     in which the people of a wide one are tiny."""
     height, width = shape[:2]
-    if width < WIDE * height:
+    if width < WIDE * height or height < LEAST_SQUARE:
         return []
     count = int(np.ceil(2 * (width - height) / height)) + 1
     return [(left, 0, height, height) for left in np.linspace(0, width - height, count)]

@@ -158,6 +158,15 @@ def test_other_limits(tmp_path: Path) -> None:
     assert refusal(path, Limits(video_bytes=1000)) == "file_too_large"
 
 
+@pytest.mark.parametrize(
+    ("size", "code"), [((1, 1), "video_too_small"), ((400, 15), "video_too_small"), ((16_385, 16), "video_too_large")]
+)
+def test_sides_in_which_nobody_is_seen_and_those_that_detectors_cannot_take(
+    tmp_path: Path, size: tuple[int, int], code: str
+) -> None:
+    assert refusal(write_clip(tmp_path / "clip.mkv", [flat(*size)] * 2, codec="ffv1")) == code
+
+
 def test_absurd_dimensions_in_the_header(tmp_path: Path) -> None:
     path = count_up(tmp_path / "clip.mp4", 10)
     content = bytearray(path.read_bytes())

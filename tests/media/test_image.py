@@ -18,6 +18,8 @@ from PIL import Image, ImageCms
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
+from engine.perception.faces import find_faces
+from engine.perception.people import find_people
 
 PIXELS = quadrants(64, 48)
 
@@ -244,6 +246,28 @@ def test_the_limit_on_pixels_counts_for_all(tmp_path: Path, format: str) -> None
         image.save(path, format=format)
     assert read_image(path, Limits(image_megapixels=0.0121)).rgb.shape == (100, 120, 3)
     assert refusal(path, Limits(image_megapixels=0.0119)) == "image_too_large"
+
+
+@pytest.mark.parametrize("size", [(1, 39_000), (39_000, 1), (20, 16_385)])
+def test_a_long_picture_of_few_pixels_is_refused(tmp_path: Path, size: tuple[int, int]) -> None:
+    """Within 40 megapixels, and yet detectors and warps abort the process from 32,767 pixels a side on."""
+    Image.new("RGB", size).save(tmp_path / "a.png")
+    error = refused(tmp_path / "a.png")
+    assert error.code == "image_too_large" and f"{size[0]} x {size[1]}" in error.detail and "16384" in error.detail
+
+
+@pytest.mark.parametrize("size", [(1, 1), (15, 400), (400, 15)])
+def test_a_picture_in_which_nobody_can_be_seen_is_refused(tmp_path: Path, size: tuple[int, int]) -> None:
+    Image.new("RGB", size).save(tmp_path / "a.png")
+    assert refusal(tmp_path / "a.png") == "image_too_small"
+
+
+def test_the_longest_sides_that_are_taken_are_looked_at(tmp_path: Path) -> None:
+    """No detector breaks down on them, neither for faces nor for bodies."""
+    for turn in (1, -1):
+        Image.new("RGB", (16_384, 16)[::turn], (90, 120, 60)).save(tmp_path / "a.png")
+        rgb = read_image(tmp_path / "a.png").rgb
+        assert find_faces(rgb) == [] and find_people(rgb) == []
 
 
 @pytest.mark.parametrize("format", ["png", "jpeg", "webp", "heic", "avif"])
