@@ -103,6 +103,7 @@ class Client:
         priority: Literal["high", "normal", "low"] = "normal",
         webhook_url: str | None = None,
         webhook_events: Sequence[str] | None = None,
+        title: str | None = None,
     ) -> Job:
         """Submit a job.
 
@@ -118,10 +119,11 @@ class Client:
             again after a broken line is safe.
         priority : waiting jobs of a kind are taken in this order; "high" takes a key with the scope `admin`.
         webhook_url, webhook_events : an address that is told of this job, and of what; of its end alone by default.
+        title : what the work is called.
 
         Raises `ApiError`; a job that fails is told by `Job.wait`.
         """
-        body = {
+        body: dict[str, Any] = {
             "kind": kind,
             "inputs": {name: self._source(value) for name, value in inputs.items()},
             "options": dict(options or {}),
@@ -130,6 +132,8 @@ class Client:
             "webhook_url": webhook_url,
             "webhook_events": None if webhook_events is None else list(webhook_events),
         }
+        if title is not None:
+            body["title"] = title
         return self._submit("create_job", {}, body, wait, idempotency_key)
 
     def revise(
@@ -162,17 +166,25 @@ class Client:
         kind: Iterable[str] = (),
         created_after: datetime | None = None,
         created_before: datetime | None = None,
+        q: str = "",
     ) -> Iterator[Job]:
-        """Jobs, newest first, page by page as they are asked for."""
+        """Jobs, newest first, page by page as they are asked for; `q` are words of title, kind, and the names of files,
+        drivers and motions."""
         asked: dict[str, Any] = {"status": [str(one) for one in status], "kind": list(kind), "limit": 100}
         for name, moment in (("created_after", created_after), ("created_before", created_before)):
             if moment is not None:
                 asked[name] = moment.astimezone().isoformat()
+        if q:
+            asked["q"] = q
         return map(self._job, self._pages("list_jobs", asked))
 
     def follow(self, job_id: str, after: int = 0) -> Iterator[Event]:
         """What happens to a job, as it happens; a broken line is taken up again. Ends with the job."""
         return follow(self._transport, job_id, after)
+
+    def rename(self, job_id: str, title: str | None) -> Job:
+        """Give the work that a job is a version of a title, or take it away."""
+        return self._job(self._call("change_job", json={"title": title}, job_id=job_id))
 
     def cancel(self, job_id: str) -> Job:
         """Cancel a job. Raises `Conflict` if it has ended otherwise."""
@@ -244,6 +256,10 @@ class Client:
         answer = send_file(self._transport, "create_driver", Path(path), progress, {"name": name})
         return Driver.model_validate(answer.json())
 
+    def rename_driver(self, name: str, new: str) -> Driver:
+        """Give one of one's own drivers another name. Raises `Conflict` where there is one of that name."""
+        return Driver.model_validate(self._call("rename_driver", json={"name": new}, name=name))
+
     def delete_driver(self, name: str) -> None:
         """Erase one of one's own drivers."""
         self._transport.call("delete_driver", path={"name": name})
@@ -270,6 +286,10 @@ class Client:
     def check_motion(self, name: str) -> Motion:
         """Check one of one's own motions again."""
         return Motion.model_validate(self._call("check_motion", name=name))
+
+    def rename_motion(self, name: str, new: str) -> Motion:
+        """Give one of one's own motions another name. Raises `Conflict` where there is one of that name."""
+        return Motion.model_validate(self._call("rename_motion", json={"name": new}, name=name))
 
     def delete_motion(self, name: str) -> None:
         """Erase one of one's own motions."""

@@ -24,6 +24,7 @@ class Job(Model):
 
     id: str
     kind: str
+    title: str | None = None
     status: Status
     progress: Progress
     inputs: dict[str, str | list[str]]

@@ -1,4 +1,4 @@
-"""GET, POST and DELETE /drivers: the built-in performances and the user's own driving videos."""
+"""GET, POST, PATCH and DELETE /drivers: the built-in performances and the user's own driving videos."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
 from service.kept import endpoints as kept
 from service.kept import service as keeping
-from service.kept.request import body
+from service.kept.request import KeptChange, body
 from service.kept.shelves import DRIVERS
 from service.problems import responses
 
@@ -52,6 +52,12 @@ def get_driver(name: str, caller: Reader, context: InContext) -> DriverOut:
 def search_driver(name: str, caller: Submitter, context: InContext) -> DriverOut:
     """Search one of the user's own drivers for moments again. A new driver is searched by itself."""
     return kept.look_again(DRIVERS, service.one_driver, name, caller, context)
+
+
+@router.patch("/{name}", operation_id="rename_driver", responses=responses(404, 409, 422))
+def rename_driver(name: str, asked: KeptChange, caller: Submitter, context: InContext) -> DriverOut:
+    """Give one of the user's own drivers another name. Jobs that use it stay as they are."""
+    return kept.rename(DRIVERS, service.one_driver, name, asked.name, caller, context)
 
 
 @router.delete("/{name}", status_code=204, operation_id="delete_driver", responses=responses(404, 409))

@@ -1,8 +1,9 @@
-"""POST /jobs, GET /jobs, GET /jobs/{id}, POST /jobs/{id}/cancel, DELETE /jobs/{id}."""
+"""POST /jobs, GET /jobs, GET, PATCH and DELETE /jobs/{id}, POST /jobs/{id}/cancel, /jobs/{id}/revisions."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import anyio
@@ -16,25 +17,27 @@ from service.context import Context, InContext
 from service.disk import require_space
 from service.ids import LIKE_AN_ID, is_id
 from service.jobs import repository, service
-from service.jobs.models import Job, Status
+from service.jobs.models import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
-from service.jobs.schemas import JobOut, JobPage, JobTree
+from service.jobs.schemas import JobChange, JobOut, JobPage, JobTree
+from service.jobs.search import words
 from service.problems import Problem, responses
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 
 WAIT_POLL_SECONDS = 0.2
+TITLE = {"type": "string", "minLength": 1, "maxLength": TITLE_CHARACTERS, "pattern": TITLE_PATTERN}
 
 IdempotencyKeyHeader = Annotated[str | None, Header(min_length=1, max_length=255)]
 PreferHeader = Annotated[str | None, Header(description="`wait=SECONDS` holds the answer until the job ends.")]
 
 
-def body(model: str, named: str, **properties: Any) -> dict[str, Any]:
+def body(model: str, named: str, required: Sequence[str] = (), **properties: Any) -> dict[str, Any]:
     """What the OpenAPI document tells of a body: JSON, or a form of which every other part belongs to `named`."""
     parts = (named, *JSON_PARTS)
     form = {
         "type": "object",
-        "required": list(properties),
+        "required": list(required),
         "properties": {
             **properties,
             "priority": {"type": "string", "enum": ["high", "normal", "low"]},
@@ -59,7 +62,7 @@ def body(model: str, named: str, **properties: Any) -> dict[str, Any]:
     "",
     status_code=202,
     operation_id="create_job",
-    openapi_extra=body("JobIn", "inputs", kind={"type": "string"}),
+    openapi_extra=body("JobIn", "inputs", ["kind"], kind={"type": "string"}, title=TITLE),
     responses=responses(409, 413, 415, 422, 507),
 )
 async def create_job(
@@ -114,6 +117,9 @@ def list_jobs(
     kind: Annotated[list[str], Query(description="One or several.")] = [],  # noqa: B006
     created_after: Moment | None = None,
     created_before: Moment | None = None,
+    q: Annotated[
+        str, Query(max_length=200, description="Words of title, kind, and names of files, drivers and motions.")
+    ] = "",
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
     cursor: Annotated[str | None, Query(json_schema_extra=LIKE_AN_ID)] = None,
 ) -> JobPage:
@@ -121,7 +127,9 @@ def list_jobs(
     if cursor is not None and not is_id(cursor):
         raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
     with context.database.read() as session:
-        jobs = repository.page(session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before)
+        jobs = repository.page(
+            session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before, words(q)
+        )
         items = service.views(context, session, caller.owner, jobs[:limit])
     next_cursor = items[-1].id if len(jobs) > limit else None
     if next_cursor is not None:
@@ -133,6 +141,13 @@ def list_jobs(
 @router.get("/{job_id}", operation_id="get_job", responses=responses(404))
 def get_job(job_id: str, caller: Reader, context: InContext) -> JobOut:
     """A job."""
+    return service.shown(context, caller.owner, job_id)
+
+
+@router.patch("/{job_id}", operation_id="change_job", responses=responses(404, 422))
+def change_job(job_id: str, asked: JobChange, caller: Submitter, context: InContext) -> JobOut:
+    """Give the work that a job is a version of a title, or take it away: all versions have the same."""
+    service.retitle(context, caller.owner, job_id, asked.title)
     return service.shown(context, caller.owner, job_id)
 
 

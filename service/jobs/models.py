@@ -6,11 +6,14 @@ from datetime import datetime
 from enum import IntEnum, StrEnum
 from typing import Any
 
-from sqlalchemy import JSON, ForeignKey, Index, SmallInteger, String
+from sqlalchemy import JSON, ForeignKey, Index, SmallInteger, String, Text
 from sqlalchemy.orm import Mapped, mapped_column
 
 from service.database import Base, UTCDateTime
 from service.traces.tracer import TRACEPARENT_CHARACTERS
+
+TITLE_CHARACTERS = 200
+TITLE_PATTERN = r"^[^\x00-\x1f\x7f]*$"
 
 
 class Status(StrEnum):
@@ -56,6 +59,10 @@ class Job(Base):
     """The job that this one corrects; it may have been erased since."""
     tree: Mapped[str] = mapped_column(String(36), default=lambda context: context.get_current_parameters()["id"])
     """The job that was revised first, or this one: a tree shares its stored stages."""
+    title: Mapped[str | None] = mapped_column(String(TITLE_CHARACTERS))
+    """What the client calls the work; all jobs of a tree have the same."""
+    search: Mapped[str] = mapped_column(Text, default="")
+    """By what words it is found (`service.jobs.search`): a line for the title, and one for each name."""
     inputs: Mapped[dict[str, Any]] = mapped_column(JSON)
     """As the client gave them: file ids and names of drivers."""
     sources: Mapped[dict[str, Any]] = mapped_column(JSON)

@@ -33,8 +33,10 @@ def page(
     kinds: Sequence[str] = (),
     created_after: datetime | None = None,
     created_before: datetime | None = None,
+    words: Sequence[str] = (),
 ) -> Sequence[Job]:
-    """An owner's jobs, newest first. Ids grow with time, so that one of them marks a place in the list."""
+    """An owner's jobs, newest first; with `words`, those that are found by every one. Ids grow with time, so that one
+    of them marks a place in the list."""
     query = select(Job).where(Job.owner == owner).order_by(Job.id.desc()).limit(limit)
     if before_id is not None:
         query = query.where(Job.id < before_id)
@@ -46,6 +48,8 @@ def page(
         query = query.where(Job.created_at > created_after)
     if created_before is not None:
         query = query.where(Job.created_at < created_before)
+    for word in words:
+        query = query.where(Job.search.contains(word, autoescape=True))
     return session.scalars(query).all()
 
 
@@ -57,6 +61,11 @@ def files_of(session: Session, job_id: str) -> Sequence[str]:
 def tree(session: Session, root: str) -> Sequence[Job]:
     """A job and its revisions, oldest first."""
     return session.scalars(select(Job).where(Job.tree == root).order_by(Job.id)).all()
+
+
+def hold_tree(session: Session, root: str) -> None:
+    """Let nobody change, erase or revise a job or its revisions until this transaction ends."""
+    session.execute(select(Job.id).where(Job.tree == root).order_by(Job.id).with_for_update())
 
 
 def erase(session: Session, job_id: str) -> None:

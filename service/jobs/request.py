@@ -21,7 +21,7 @@ from service.jobs.service import revise, submit
 from service.problems import Problem, invalid
 
 JSON_PARTS = ("options", "metadata", "webhook_events")
-TEXT_PARTS = ("kind", "webhook_url", "priority")
+TEXT_PARTS = ("kind", "webhook_url", "priority", "title")
 
 Asked = TypeVar("Asked", JobIn, RevisionIn)
 Accept = Callable[[Asked, Mapping[str, Sequence[File]]], tuple[Job, bool]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
-from typing import Any, Literal, cast
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, Field, JsonValue
 
@@ -13,10 +13,11 @@ from service.artifacts.models import Artifact
 from service.artifacts.schemas import ArtifactOut
 from service.asked import ASKED
 from service.clock import now
-from service.jobs.models import Job, Priority, Status
+from service.jobs.models import TITLE_CHARACTERS, TITLE_PATTERN, Job, Priority, Status
 from service.webhooks.schemas import Events, Url
 
 PriorityName = Literal["high", "normal", "low"]
+Title = Annotated[str, Field(min_length=1, max_length=TITLE_CHARACTERS, pattern=TITLE_PATTERN)]
 
 
 class JobIn(BaseModel):
@@ -35,6 +36,17 @@ class JobIn(BaseModel):
     metadata: dict[str, JsonValue] = Field({}, max_length=100)
     priority: PriorityName = "normal"
     """Waiting jobs of a kind are taken in this order; among equals, each key has its turn."""
+    title: Title | None = None
+    """What the work is called."""
+
+
+class JobChange(BaseModel):
+    """What is to be different about a job."""
+
+    model_config = ASKED
+
+    title: Title | None
+    """What the work is called, in all its versions; null takes the title away."""
 
 
 class RevisionIn(BaseModel):
@@ -82,6 +94,8 @@ class JobOut(BaseModel):
 
     id: str
     kind: str
+    title: str | None
+    """What the work is called: the same in all jobs of a `tree`."""
     status: Status
     priority: PriorityName
     progress: Progress
@@ -96,13 +110,15 @@ class JobOut(BaseModel):
     revision_of: str | None
     """The job that this one revises."""
     tree: str
-    """The job that was revised first, or this one."""
+    """The work that this job is a version of: the id of the job that was revised first, or of this one. It stays when
+    that job is erased."""
 
     @classmethod
     def of(cls, job: Job, artifacts: Sequence[Artifact], signer: Signer | None = None) -> JobOut:
         return cls(
             id=job.id,
             kind=job.kind,
+            title=job.title,
             status=Status(job.status),
             priority=cast(PriorityName, Priority(job.priority).name.lower()),
             progress=_progress(job),

@@ -24,7 +24,7 @@ from service.files import repository as files
 from service.files.models import File
 from service.files.service import forget
 from service.ids import new_id
-from service.jobs import leases, repository, stages
+from service.jobs import leases, repository, search, stages
 from service.jobs.inputs import Value, named, resolve, split_corrections
 from service.jobs.models import IdempotencyKey, Job, JobFile, Priority, Status
 from service.jobs.portions import choose_portions
@@ -60,8 +60,8 @@ def submit(
         _be_told(job, asked.webhook_url, asked.webhook_events)
         job.priority = _priority(asked.priority)
         resolved = resolve(session, owner, kind, trimmed, meant, context.settings.allowed_networks)
-        job.inputs, job.sources = _shown(kind, given), resolved.sources
-        _insert(session, job, resolved.file_ids)
+        job.inputs, job.sources, job.title = _shown(kind, given), resolved.sources, asked.title
+        _insert(session, job, kind, resolved.file_ids)
         return job
 
     return _accept(context, owner, key, document, make)
@@ -101,10 +101,10 @@ def revise(
         job = _new_job(owner, kind, options, parent.notes if asked.metadata is None else asked.metadata)
         _be_told(job, asked.webhook_url or parent.webhook_url, asked.webhook_events or parent.webhook_events)
         job.priority = _priority(asked.priority) if asked.priority is not None else parent.priority
-        job.revision_of, job.tree = parent.id, parent.tree
+        job.revision_of, job.tree, job.title = parent.id, parent.tree, parent.title
         resolved = resolve(session, owner, kind, options, given, context.settings.allowed_networks, parent.sources)
         job.inputs, job.sources = _shown(kind, {**parent.inputs, **given}), resolved.sources
-        _insert(session, job, resolved.file_ids)
+        _insert(session, job, kind, resolved.file_ids)
         return job
 
     return _accept(context, owner, key, document, make)
@@ -135,6 +135,15 @@ def _accept(
     structlog.get_logger().info("job_accepted", job=job.id, kind=job.kind)
     context.queue.send(job.id, job.kind)
     return job, False
+
+
+def retitle(context: Context, owner: str, job_id: str, title: str | None) -> None:
+    """Give the work that a job is a version of another title, or none. Raises a 404 problem."""
+    with context.database.write() as session:
+        root = found(session, owner, job_id).tree
+        repository.hold_tree(session, root)  # from now on nobody makes a revision, which would take the old title
+        for job in repository.tree(session, root):
+            search.retitle(job, title)
 
 
 def cancel(context: Context, owner: str, job_id: str) -> None:
@@ -211,7 +220,7 @@ def _priority(name: str) -> int:
 def _document(asked: JobIn | RevisionIn) -> dict[str, Any]:
     """What a request asks for, by which it is known again. What was never said is left out, so that a request that
     came before an upgrade is the same after it."""
-    return asked.model_dump(mode="json", exclude=set() if "priority" in asked.model_fields_set else {"priority"})
+    return asked.model_dump(mode="json", exclude={"priority", "title"} - asked.model_fields_set)
 
 
 def _missing() -> Problem:
@@ -274,7 +283,8 @@ def _new_job(owner: str, kind: Kind, options: dict[str, object], metadata: dict[
     )
 
 
-def _insert(session: Session, job: Job, file_ids: Iterable[str]) -> None:
+def _insert(session: Session, job: Job, kind: Kind, file_ids: Iterable[str]) -> None:
+    search.describe(session, job, kind)
     session.add(job)
     session.flush()
     session.add_all(JobFile(job_id=job.id, file_id=file_id) for file_id in file_ids)

@@ -30,6 +30,12 @@ async def create(
     return await run_sync(show, context, caller.owner, name)
 
 
+def rename(shelf: Shelf, show: Show[Out], name: str, new: str, caller: Caller, context: Context) -> Out:
+    """Give something another name. Raises `Problem`."""
+    service.rename(context, shelf, caller.owner, name, new)
+    return show(context, caller.owner, new)
+
+
 def look_again(shelf: Shelf, show: Show[Out], name: str, caller: Caller, context: Context) -> Out:
     """Look into a kept file anew. Raises `Problem`."""
     require_space(context.settings)

@@ -33,6 +33,13 @@ def set_look_job(session: Session, shelf: Shelf, owner: str, name: str, job_id: 
     return bool(changed.rowcount)  # type: ignore[attr-defined]
 
 
+def rename(session: Session, shelf: Shelf, owner: str, name: str, new: str) -> bool:
+    """Give something another name. Returns whether it is there; raises IntegrityError where that name is taken."""
+    table = shelf.table
+    changed = session.execute(update(table).where(table.owner == owner, table.name == name).values({table.name: new}))
+    return bool(changed.rowcount)  # type: ignore[attr-defined]
+
+
 def erase(session: Session, shelf: Shelf, owner: str, name: str) -> None:
     session.execute(delete(shelf.table).where(shelf.table.owner == owner, shelf.table.name == name))
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from anyio.to_thread import run_sync
 from fastapi import Request
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, Field, ValidationError
+from pydantic.config import JsonDict
 
 from service.asked import ASKED, JSON_TYPES, read_json
 from service.auth.caller import Caller
@@ -19,6 +20,9 @@ from service.kept import service
 from service.kept.shelves import Shelf
 from service.problems import Problem, invalid
 
+NAME: JsonDict = {"minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.pattern}$"}
+"""What the OpenAPI document tells of a name; `require_free_name` checks it, so that the error has its code."""
+
 
 class KeptIn(BaseModel):
     """What is to be kept."""
@@ -29,12 +33,20 @@ class KeptIn(BaseModel):
     file: str
 
 
+class KeptChange(BaseModel):
+    """What is to be different about something that is kept."""
+
+    model_config = ASKED
+
+    name: Annotated[str, Field(json_schema_extra=NAME)]
+    """Its new name."""
+
+
 def body(media_types: str) -> dict[str, Any]:
     """What the OpenAPI document tells of such a body; `media_types` as they stand in an `Accept`."""
-    name = {"type": "string", "minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.pattern}$"}
 
     def schema(file: dict[str, Any]) -> dict[str, Any]:
-        properties = {"name": name, "file": {"type": "string", **file}}
+        properties = {"name": {"type": "string", **NAME}, "file": {"type": "string", **file}}
         return {"type": "object", "required": ["name", "file"], "properties": properties, "additionalProperties": False}
 
     form = {"schema": schema({"format": "binary"}), "encoding": {"file": {"contentType": media_types}}}

@@ -83,6 +83,21 @@ def look_again(context: Context, shelf: Shelf, owner: str, name: str) -> None:
         looks.forget(context, owner, one.look_job)
 
 
+def rename(context: Context, shelf: Shelf, owner: str, name: str, new: str) -> None:
+    """Give what an owner keeps another name. Jobs go by its file, and what was found in it by the job that looked:
+    none of that changes. Raises `Problem`."""
+    kept(context, shelf, owner, name)
+    if new == name:
+        return
+    require_free_name(context, shelf, owner, new)
+    try:
+        with context.database.write() as session:
+            if not repository.rename(session, shelf, owner, name, new):
+                raise _not_kept(shelf, name)
+    except IntegrityError as error:
+        raise _taken(shelf, new) from error
+
+
 def delete(context: Context, shelf: Shelf, owner: str, name: str) -> None:
     """Erase what an owner keeps under a name, with all that was found in it. Raises `Problem`."""
     with context.database.write() as session:
@@ -100,7 +115,7 @@ def missing(shelf: Shelf) -> Problem:
 
 def _not_kept(shelf: Shelf, name: str) -> Problem:
     if name in shelf.built_in:
-        detail = f"Nothing of what is built in can be deleted or looked into: “{name}” is."
+        detail = f"Nothing of what is built in can be renamed, deleted or looked into: “{name}” is."
         return Problem(409, f"{shelf.noun}_built_in", detail)
     return missing(shelf)
 

@@ -1,4 +1,4 @@
-"""GET, POST and DELETE /motions: the built-in motions and the user's own BVH and glTF files."""
+"""GET, POST, PATCH and DELETE /motions: the built-in motions and the user's own BVH and glTF files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from service.auth.caller import Reader, Submitter
 from service.context import InContext
 from service.kept import endpoints as kept
 from service.kept import service as keeping
-from service.kept.request import body
+from service.kept.request import KeptChange, body
 from service.kept.shelves import MOTIONS
 from service.motions import service
 from service.motions.schemas import MotionList, MotionOut
@@ -52,6 +52,12 @@ def get_motion(name: str, caller: Reader, context: InContext) -> MotionOut:
 def check_motion(name: str, caller: Submitter, context: InContext) -> MotionOut:
     """Check one of the user's own motions again. A new motion is checked by itself."""
     return kept.look_again(MOTIONS, service.one_motion, name, caller, context)
+
+
+@router.patch("/{name}", operation_id="rename_motion", responses=responses(404, 409, 422))
+def rename_motion(name: str, asked: KeptChange, caller: Submitter, context: InContext) -> MotionOut:
+    """Give one of the user's own motions another name. Jobs that use it stay as they are."""
+    return kept.rename(MOTIONS, service.one_motion, name, asked.name, caller, context)
 
 
 @router.delete("/{name}", status_code=204, operation_id="delete_motion", responses=responses(404, 409))

@@ -118,7 +118,10 @@ def test_jobs_are_listed_revised_canceled_and_erased(galatea: Client, picture: P
     assert [job.id for job in second.revisions()] == [first.id, second.id]
     listed = [job.id for job in galatea.jobs(status=[Status.SUCCEEDED], kind=["tiny"], created_after=first.created_at)]
     assert second.id in listed and first.id not in listed
-    long = galatea.submit("tiny", {"image": picture}, {"seconds": 30})
+    assert galatea.rename(second.id, "Aunt Mary").title == first.refresh().title == "Aunt Mary"
+    assert [job.id for job in galatea.jobs(q="aunt")] == [second.id, first.id]
+    long = galatea.submit("tiny", {"image": picture}, {"seconds": 30}, title="A long one")
+    assert long.title == "A long one"
     assert long.cancel().status is Status.CANCELED
     with pytest.raises(JobFailed, match="canceled"):
         long.wait()
@@ -148,7 +151,8 @@ def test_motions(galatea: Client, tmp_path: Path) -> None:
     assert galatea.download_motion(made, tmp_path / "again.bvh").read_bytes() == file.read_bytes()
     again = galatea.create_motion("other", galatea.upload(file).id)
     assert (again.name, again.content_type) == ("other", "text/x-bvh")
-    for name in ("mine", "other"):
+    assert galatea.rename_motion("other", "another").name == "another"
+    for name in ("mine", "another"):
         galatea.delete_motion(name)
     assert {motion.source for motion in galatea.motions()} == {"built-in"}
     walk = galatea.motion("walk")
@@ -176,7 +180,8 @@ def test_kinds_drivers_links_and_keys(galatea: Client, running: Running, picture
     video.write_bytes(b"\x00\x00\x00\x18ftypisom\x00\x00\x02\x00isomiso2" + bytes(5000))
     galatea.create_driver("mine", video)
     assert {"happy", "mine"} <= {driver.name for driver in galatea.drivers()}
-    galatea.delete_driver("mine")
+    assert galatea.rename_driver("mine", "yours").name == "yours"
+    galatea.delete_driver("yours")
     assert "mine" not in {driver.name for driver in galatea.drivers()}
     job = galatea.submit("tiny", {"image": picture}).wait()
     link = job.link(expires_in_hours=1)

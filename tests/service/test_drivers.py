@@ -34,6 +34,44 @@ def test_a_driver_is_kept_named_and_erased(running: Running, picture: bytes, vid
     assert running.client.delete("/v1/drivers/my-wink").json()["code"] == "driver_not_found"
 
 
+def test_a_driver_takes_another_name(running: Running, picture: bytes, video: bytes) -> None:
+    for name in ("first", "other"):
+        running.client.post("/v1/drivers", data={"name": name}, files={"file": ("w.mp4", video)}).raise_for_status()
+    file = running.client.post("/v1/files", files={"file": picture}).json()["id"]
+    asked = {"kind": "tiny", "inputs": {"image": file, "driver": "first"}}
+    job = running.until(running.client.post("/v1/jobs", json=asked).json()["id"], "succeeded")
+
+    def rename(name: str, new: object) -> tuple[int, str | None]:
+        answer = running.client.patch(f"/v1/drivers/{name}", json={"name": new})
+        return answer.status_code, answer.json().get("code")
+
+    assert rename("first", "other") == (409, "name_taken")
+    assert rename("first", "happy") == (409, "name_taken")
+    assert rename("first", "auto") == (409, "name_taken")
+    assert rename("first", "Not a name") == (422, "invalid_name")
+    assert rename("first", None) == (422, "invalid_request")
+    assert rename("happy", "glad") == (409, "driver_built_in")
+    assert rename("nobody", "somebody") == (404, "driver_not_found")
+    assert rename("first", "first") == (200, None)
+    renamed = running.client.patch("/v1/drivers/first", json={"name": "second"}).raise_for_status().json()
+    assert (renamed["name"], renamed["url"]) == ("second", "/v1/drivers/second/video")
+    assert running.client.get(renamed["url"]).content == video
+    assert running.client.get("/v1/drivers/first").json()["code"] == "driver_not_found"
+    assert renamed == running.client.get("/v1/drivers/second").json()
+
+    assert running.job(job["id"]) == job, "a job shows the name that it was given"
+    revised = running.client.post(
+        f"/v1/jobs/{job['id']}/revisions", json={"corrections": {"level": 2}}, headers={"Prefer": "wait=60"}
+    )
+    assert revised.json()["status"] == "succeeded", "and can be revised"
+    asked["inputs"]["driver"] = "first"
+    assert running.client.post("/v1/jobs", json=asked).json()["code"] == "unknown_driver"
+    asked["inputs"]["driver"] = "second"
+    assert running.client.post("/v1/jobs", json=asked).status_code == 202
+    for name in ("second", "other"):
+        running.client.delete(f"/v1/drivers/{name}").raise_for_status()
+
+
 @pytest.mark.parametrize(
     "name", ["", "UPPER", "a/b", "..", "a" * 64, "ü", "-a", "00000000-0000-7000-8000-000000000000"]
 )

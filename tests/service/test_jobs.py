@@ -31,7 +31,7 @@ def test_a_job_runs_and_its_document_is_as_agreed(running: Running, picture: byt
     job = running.until(submitted["id"], "succeeded")
     assert set(job) == {
         *("id", "kind", "status", "progress", "inputs", "options", "artifacts", "error", "metadata"),
-        *("created_at", "started_at", "finished_at", "revision_of", "tree", "priority"),
+        *("created_at", "started_at", "finished_at", "revision_of", "tree", "priority", "title"),
     }
     assert job["progress"] == {"stage": None, "fraction": 1.0, "message": "", "eta_seconds": None}
     assert job["options"] == {"seconds": 0.5}

@@ -103,6 +103,14 @@ def test_each_step_up_and_down_keeps_what_was_there(database: Database) -> None:
     assert set(metadata.tables) == {"alembic_version"}
 
 
+def test_jobs_of_before_are_found_by_words(database: Database) -> None:
+    database.migrate(REVISIONS[0])
+    fill(database)
+    database.migrate("0012")
+    with connect(database) as connection:
+        assert connection.execute(text("SELECT title, search FROM jobs")).all() == [(None, "\nportrait\n\u00e4.png")]
+
+
 def test_the_migrations_make_the_tables_that_the_code_describes(database: Database) -> None:
     database.upgrade()
     with connect(database) as connection:

@@ -112,6 +112,21 @@ def test_what_cannot_be_named(
     assert answer.json()["errors"][0]["pointer"] == "/inputs/driver"
 
 
+def test_what_was_found_goes_with_a_driver_to_its_new_name(
+    searching: Running, mine: dict[str, Any], picture: bytes
+) -> None:
+    renamed = searching.client.patch("/v1/drivers/me", json={"name": "myself"}).raise_for_status().json()
+    assert [one["name"] for one in renamed["moments"]] == [one["name"] for one in mine["moments"]]
+    assert (renamed["moments_status"], renamed["moments_job"]) == ("ready", mine["moments_job"])
+    assert searching.client.get(renamed["moments"][0]["poster"]).status_code == 200
+    file = searching.client.post("/v1/files", files={"file": picture}).json()["id"]
+    asked = {"kind": "portrait", "inputs": {"image": file, "driver": "myself/anger"}}
+    job = searching.client.post("/v1/jobs", json=asked).raise_for_status().json()
+    assert job["options"]["trim"][0] == next(one["start"] for one in mine["moments"] if one["name"] == "anger")
+    searching.client.delete(f"/v1/jobs/{job['id']}").raise_for_status()
+    assert searching.client.patch("/v1/drivers/myself", json={"name": "me"}).json() == mine
+
+
 def test_a_job_of_a_portion_is_the_same_when_it_is_sent_again_after_the_driver_was_erased(
     searching: Running, clip: tuple[bytes, list[Stretch]], picture: bytes
 ) -> None:

@@ -131,6 +131,16 @@ def test_an_uploaded_file_can_be_kept_by_its_id(service: Running, picture: bytes
     assert service.client.get(f"/v1/files/{file}").status_code == 404
 
 
+def test_a_motion_takes_another_name(service: Running, mine: dict[str, Any]) -> None:
+    renamed = service.client.patch("/v1/motions/swing", json={"name": "sway"}).raise_for_status().json()
+    assert renamed == {**mine, "name": "sway", "url": "/v1/motions/sway/file"}
+    assert service.client.get(renamed["url"]).content == bvh()
+    assert told(service.client.patch("/v1/motions/sway", json={"name": "walk"})) == (409, "name_taken")
+    assert told(service.client.patch("/v1/motions/walk", json={"name": "sway"})) == (409, "motion_built_in")
+    assert told(service.client.patch("/v1/motions/swing", json={"name": "swing"})) == (404, "motion_not_found")
+    assert service.client.patch("/v1/motions/sway", json={"name": "swing"}).json() == mine
+
+
 def test_a_motion_is_a_motion(service: Running, picture: bytes) -> None:
     answer = service.client.post("/v1/motions", data={"name": "still"}, files={"file": ("w.png", picture)})
     assert told(answer) == (415, "input_wrong_media")

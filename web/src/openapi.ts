@@ -188,7 +188,11 @@ export interface paths {
         delete: operations["delete_job"];
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Change Job
+         * @description Give the work that a job is a version of a title, or take it away: all versions have the same.
+         */
+        patch: operations["change_job"];
         trace?: never;
     };
     "/v1/jobs/{job_id}/cancel": {
@@ -336,7 +340,11 @@ export interface paths {
         delete: operations["delete_driver"];
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Rename Driver
+         * @description Give one of the user's own drivers another name. Jobs that use it stay as they are.
+         */
+        patch: operations["rename_driver"];
         trace?: never;
     };
     "/v1/drivers/{name}/moments": {
@@ -464,7 +472,11 @@ export interface paths {
         delete: operations["delete_motion"];
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Rename Motion
+         * @description Give one of the user's own motions another name. Jobs that use it stay as they are.
+         */
+        patch: operations["rename_motion"];
         trace?: never;
     };
     "/v1/motions/{name}/check": {
@@ -1047,6 +1059,10 @@ export interface components {
             spared_by: string | null;
             corrects: boolean;
         };
+        /** @description What is to be different about a job. */
+        JobChange: {
+            title: string | null;
+        };
         /** @description Why a job failed. */
         JobError: {
             code: string;
@@ -1062,6 +1078,7 @@ export interface components {
         JobOut: {
             id: string;
             kind: string;
+            title: string | null;
             status: components["schemas"]["Status"];
             /** @enum {string} */
             priority: "high" | "normal" | "low";
@@ -1096,6 +1113,10 @@ export interface components {
             items: components["schemas"]["JobOut"][];
         };
         JsonValue: unknown;
+        /** @description What is to be different about something that is kept. */
+        KeptChange: {
+            name: string;
+        };
         /** @description A key to be made. Limits that are left out are those of the service's settings. */
         KeyIn: {
             name: string;
@@ -1545,6 +1566,8 @@ export interface components {
              * @enum {string}
              */
             priority?: "high" | "normal" | "low";
+            /** @default null */
+            title?: string | null;
         };
         /** @description A stroke of a round brush over the label map, in pixels of the picture. */
         LabelStroke: {
@@ -2900,6 +2923,8 @@ export interface operations {
                 kind?: string[];
                 created_after?: string;
                 created_before?: string;
+                /** @description Words of title, kind, and names of files, drivers and motions. */
+                q?: string;
                 limit?: number;
                 cursor?: string;
             };
@@ -2986,6 +3011,7 @@ export interface operations {
                 "application/json": components["schemas"]["JobIn"];
                 "multipart/form-data": {
                     kind: string;
+                    title?: string;
                     /** @enum {string} */
                     priority?: "high" | "normal" | "low";
                     inputs?: Record<string, never>;
@@ -3435,6 +3461,93 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    /** @description How to authenticate. */
+                    "WWW-Authenticate": string;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    /** @description Seconds. */
+                    "Retry-After": number;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+        };
+    };
+    change_job: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                job_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["JobChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobOut"];
+                };
             };
             /** @description Unauthorized */
             401: {
@@ -4321,6 +4434,104 @@ export interface operations {
             };
         };
     };
+    rename_driver: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeptChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DriverOut"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    /** @description How to authenticate. */
+                    "WWW-Authenticate": string;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    /** @description Seconds. */
+                    "Retry-After": number;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+        };
+    };
     search_driver: {
         parameters: {
             query?: never;
@@ -5033,6 +5244,104 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    /** @description How to authenticate. */
+                    "WWW-Authenticate": string;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    /** @description Seconds. */
+                    "Retry-After": number;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+        };
+    };
+    rename_motion: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeptChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MotionOut"];
+                };
             };
             /** @description Unauthorized */
             401: {
