@@ -5,6 +5,7 @@ export function aJob(differs: Partial<Job> = {}): Job {
   return {
     id: '0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f',
     kind: 'portrait',
+    title: null,
     status: 'running',
     priority: 'normal',
     progress: { stage: null, fraction: 0, message: '', eta_seconds: null },
