@@ -56,14 +56,14 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
       await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
-      await page.getByText('Change something and make it again').click();
-      await page.getByRole('button', { name: 'Paint who is cut out' }).waitFor();
+      await page.getByText('Edit and make again').click();
+      await page.getByRole('button', { name: 'Paint the mask' }).waitFor();
     },
   },
   'its joints': {
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
-      await page.getByText('Change something and make it again').click({ timeout: LONG });
+      await page.getByText('Edit and make again').click({ timeout: LONG });
       await page.getByRole('button', { name: 'Move the joints' }).click();
       await page.getByLabel('Hands, feet and face').check();
     },
@@ -71,8 +71,8 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'its parts, painted': {
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
-      await page.getByText('Change something and make it again').click({ timeout: LONG });
-      await page.getByRole('button', { name: 'Paint the parts of the body' }).click();
+      await page.getByText('Edit and make again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Paint the body parts' }).click();
       await page.getByRole('radio', { name: 'Torso' }).check();
       await page.getByRole('dialog').getByRole('application').click();
     },
@@ -86,17 +86,17 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
     show: async (page) => {
       await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
       await page.getByText('Share', { exact: true }).click();
-      await page.getByRole('button', { name: 'Make a link' }).click();
-      await page.getByRole('button', { name: 'Take back' }).first().waitFor();
+      await page.getByRole('button', { name: 'Create link' }).click();
+      await page.getByRole('button', { name: 'Revoke' }).first().waitFor();
       await page.getByText('All files', { exact: true }).click();
-      await page.getByText('Change something and make it again').click();
+      await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Move the landmarks' }).waitFor();
     },
   },
   'the landmarks': {
     hash: () => `#/jobs/${done}`,
     show: async (page) => {
-      await page.getByText('Change something and make it again').click({ timeout: LONG });
+      await page.getByText('Edit and make again').click({ timeout: LONG });
       await page.getByRole('button', { name: 'Move the landmarks' }).click();
       await page.getByLabel('Single points').check();
     },
@@ -109,16 +109,16 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'the keys': {
     hash: () => '#/keys',
     show: async (page) => {
-      await page.getByLabel('For', { exact: true }).fill('axe');
-      await page.getByRole('button', { name: 'Make the key' }).click();
+      await page.getByLabel('Name', { exact: true }).fill('axe');
+      await page.getByRole('button', { name: 'Create key' }).click();
       await page.getByText('Copy it now').waitFor();
     },
   },
   'the webhooks': {
     hash: () => '#/webhooks',
     show: async (page) => {
-      await page.getByLabel('Address', { exact: true }).fill('http://127.0.0.1:9/axe');
-      await page.getByRole('button', { name: 'Add the address' }).click();
+      await page.getByLabel('URL', { exact: true }).fill('http://127.0.0.1:9/axe');
+      await page.getByRole('button', { name: 'Add endpoint' }).click();
       await page.getByRole('button', { name: 'Send a test' }).first().click();
       await page.locator('.rows details summary').first().click();
       await page.getByRole('button', { name: 'Send again' }).waitFor();
@@ -134,7 +134,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'a link that opens nothing': {
     hash: () => '#/shared/nothing',
     show: async (page) => {
-      await page.getByRole('heading', { name: 'There is nothing at this link' }).waitFor();
+      await page.getByRole('heading', { name: 'This link does not work' }).waitFor();
       complaints.length = 0; // the browser reports the 404 itself
     },
   },

@@ -50,7 +50,7 @@ describe('the camera', () => {
     await page.getByRole('button', { name: 'Take a picture' }).click();
     await page.getByRole('button', { name: 'Take the picture' }).click();
     await page.getByRole('img', { name: 'The picture that was taken' }).waitFor();
-    await page.getByRole('button', { name: 'Once more' }).click();
+    await page.getByRole('button', { name: 'Take again' }).click();
     await page.getByRole('button', { name: 'Take the picture' }).click();
     await page.getByRole('button', { name: 'Use this picture' }).click();
     await page.getByLabel('Portrait: My picture.jpg. Choose another').waitFor();

@@ -63,15 +63,15 @@ afterEach(async () => {
   expect(complaints).toEqual([]);
 });
 
-const start = (page: Page) => page.getByRole('button', { name: 'Have them walk out' });
+const start = (page: Page) => page.getByRole('button', { name: 'Create character' });
 const stage = (page: Page) => page.getByRole('dialog').getByRole('application');
-const use = (page: Page) => page.getByRole('button', { name: 'Use these' });
+const use = (page: Page) => page.getByRole('button', { name: 'Apply' });
 const skeleton = async (id: string): Promise<Joints> =>
   (await ask<{ joints: Joints }>(`/v1/jobs/${id}/artifacts/skeleton.json`)).joints;
 
 async function cancel(page: Page): Promise<void> {
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByText('This job was stopped before it was done').waitFor();
+  await page.getByText('This job was canceled before it was done').waitFor();
 }
 
 /** The page of the finished character, with its corrections open. */
@@ -108,7 +108,7 @@ describe('ordering a character', () => {
     const page = await open(browser);
     const making = page.getByRole('navigation', { name: 'What to make' });
     await making.getByRole('link', { name: 'Character' }).click();
-    await page.getByRole('heading', { name: 'Have somebody walk out of a picture' }).waitFor();
+    await page.getByRole('heading', { name: 'Let a person walk out of their picture' }).waitFor();
     expect(new URL(page.url()).hash).toBe('#/character');
     expect(await page.getByRole('radio').count()).toBe(8);
     expect(await start(page).isDisabled()).toBe(true);
@@ -122,7 +122,7 @@ describe('ordering a character', () => {
     await page.getByText('Dance', { exact: true }).click();
     await page.getByText('Options').click();
     await page.getByLabel('Head').check();
-    await page.getByLabel('Camera').selectOption('Goes around');
+    await page.getByLabel('Camera').selectOption('Orbit');
     await page.getByLabel('Length of the video').fill('2');
     await page.getByLabel('picture under lamps').check();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
@@ -145,8 +145,8 @@ describe('ordering a character', () => {
     await page.getByText('Options').click();
     await page.getByLabel('Length of the video').fill('1');
     const choices = [
-      ...[['Size', 'Within 512 by 512 pixels'], ['Frames a second', '24'], ['Kind of video', 'WebM']],
-      ...[['Triangles, at most', '10,000'], ['Copies with fewer triangles', '1']],
+      ...[['Size', 'Up to 512 × 512 pixels'], ['Frames per second', '24'], ['File format', 'WebM']],
+      ...[['Maximum triangles', '10,000'], ['Levels of detail (LOD)', '1']],
     ] as const;
     for (const [label, choice] of choices) await page.getByLabel(label).selectOption({ label: choice });
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
@@ -163,9 +163,9 @@ describe('ordering a character', () => {
     for (const [label, choice] of choices) {
       expect(await page.getByLabel(label).locator('option:checked').textContent()).toBe(choice);
     }
-    await page.getByLabel('Frames a second').selectOption('50');
-    await page.getByLabel('Kind of video').selectOption('MP4');
-    await page.getByLabel('Copies with fewer triangles').selectOption('None');
+    await page.getByLabel('Frames per second').selectOption('50');
+    await page.getByLabel('File format').selectOption('MP4');
+    await page.getByLabel('Levels of detail (LOD)').selectOption('None');
     const again = await revised(page);
     expect(again.postDataJSON()).toEqual({ corrections: {}, options: { fps: 50, format: null, levels: null } });
     await accepted(again);
@@ -195,7 +195,7 @@ describe('ordering a character', () => {
   it('refuses what is no motion, and finds the place of one that is dropped anywhere', async () => {
     const page = await open(browser, '#/character');
     await page.getByLabel(/Drop a BVH/).setInputFiles({ name: 'a.fbx', mimeType: '', buffer: Buffer.from('x') });
-    await page.getByText('That is no motion.').waitFor();
+    await page.getByText('This is not a motion file.').waitFor();
     await page.evaluate(() => {
       const data = new DataTransfer();
       data.items.add(new File(['x'], 'cartwheel.bvh'));
@@ -216,12 +216,12 @@ describe('ordering a character', () => {
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByLabel(/Drop a BVH/).setInputFiles(motion);
     await start(page).click();
-    await page.getByText(/Sending the motion: [1-9]\d?%/).waitFor();
+    await page.getByText(/Uploading the motion: [1-9]\d?%/).waitFor();
     await page.goto(`${inject('address')}/#/`);
     await page.reload();
-    await page.getByText(/“Somebody” with “Long walk” was not wholly sent/).waitFor();
+    await page.getByText(/The upload of “Somebody” \(Long walk\) was interrupted/).waitFor();
     await slow(-1);
-    await page.getByRole('button', { name: 'Go on sending' }).click();
+    await page.getByRole('button', { name: 'Resume upload' }).click();
     await page.getByRole('heading', { name: 'Somebody' }).waitFor();
     await page.getByText('does “Long walk”').waitFor();
     const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
@@ -251,10 +251,10 @@ describe('a finished character', () => {
     }
     expect(await page.getByRole('link', { name: 'VRM' }).count()).toBe(0); // it was not asked for
     await page.getByText('Share', { exact: true }).click();
-    await page.getByRole('button', { name: 'Make a link' }).click();
+    await page.getByRole('button', { name: 'Create link' }).click();
     const link = await page.getByRole('textbox', { name: 'Link' }).inputValue();
     await page.goto(link);
-    await page.getByRole('heading', { name: 'Somebody walked out of a picture' }).waitFor();
+    await page.getByRole('heading', { name: 'A person who walked out of their picture' }).waitFor();
   });
 
   it('is found among the recent ones and in the history', async () => {
@@ -270,8 +270,8 @@ describe('a finished character', () => {
     await page.getByText('Options').click();
     expect(await overflow()).toBeLessThanOrEqual(0);
     await page.goto(`${inject('address')}/#/jobs/${done}`);
-    await page.getByText('Change something and make it again').click();
-    await page.getByRole('button', { name: 'Paint who is cut out' }).waitFor();
+    await page.getByText('Edit and make again').click();
+    await page.getByRole('button', { name: 'Paint the mask' }).waitFor();
     expect(await overflow()).toBeLessThanOrEqual(0);
   });
 });
@@ -323,9 +323,9 @@ describe('corrections of a character', () => {
     await page.getByRole('navigation', { name: 'Versions' }).getByRole('link', { name: '1' }).waitFor();
 
     // what was placed stays when something else is placed, and can be taken back
-    await page.getByText('Change something and make it again').click();
+    await page.getByText('Edit and make again').click();
     await page.getByText('7 joints are placed by hand.').waitFor();
-    await page.getByRole('button', { name: 'Find them anew' }).click();
+    await page.getByRole('button', { name: 'Detect again' }).click();
     await page.route('**/revisions', (route) => route.abort());
     expect((await revision(page)).corrections).toEqual({ joints: null });
     await page.getByRole('alert').waitFor();
@@ -334,26 +334,26 @@ describe('corrections of a character', () => {
 
   it('send what is painted, framed and chosen, and nothing else', async () => {
     const page = await corrections();
-    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await page.getByRole('button', { name: 'Paint the mask' }).click();
     await stage(page).waitFor();
     await drag(page, [300, 100], [320, 140], [350, 150]);
-    await page.getByRole('radio', { name: 'What is not' }).check();
-    await page.getByLabel('Width of the brush').focus();
+    await page.getByRole('radio', { name: 'Remove' }).check();
+    await page.getByLabel('Brush size').focus();
     for (let press = 0; press < 3; press++) await page.keyboard.press('PageDown');
     await drag(page, [100, 500], [140, 500]);
     await drag(page, [200, 500], [240, 520]);
     await page.keyboard.press('Control+z'); // the focus is on the stage again
     await use(page).click();
-    await page.getByText('The outline is painted over.').waitFor();
+    await page.getByText('The mask was edited.').waitFor();
 
-    await page.getByRole('button', { name: 'Paint the parts of the body' }).click();
+    await page.getByRole('button', { name: 'Paint the body parts' }).click();
     await page.getByRole('radio', { name: 'Torso' }).check();
     await stage(page).focus();
     for (const key of ['ArrowUp', ' ', 'Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowUp', ' ', 'ArrowUp']) await page.keyboard.press(key);
     await use(page).click();
-    await page.getByLabel('The back').selectOption('Painted to match');
+    await page.getByLabel('Back of the character').selectOption('Inpainted');
     await page.getByLabel('Left arm').check();
-    await page.getByLabel('Camera').selectOption('Sways a little');
+    await page.getByLabel('Camera').selectOption('Slight sway');
 
     const request = await revised(page);
     const sent = request.postDataJSON();
@@ -373,7 +373,7 @@ describe('corrections of a character', () => {
 
   it('are made by a finger, too; two bring the picture nearer and paint nothing', async () => {
     const page = await corrections(done, { hasTouch: true, viewport: { width: 390, height: 800 } });
-    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await page.getByRole('button', { name: 'Paint the mask' }).click();
     await stage(page).waitFor();
     const hand = await page.context().newCDPSession(page);
     const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: [number, number][]) =>
@@ -405,14 +405,14 @@ describe('corrections of a character', () => {
     const other = page.getByRole('button', { name: 'Person 2 of 2' });
     await other.click();
     expect(await other.getAttribute('aria-pressed')).toBe('true');
-    expect(await page.getByRole('button', { name: 'Paint who is cut out' }).count()).toBe(0); // that is another's outline
+    expect(await page.getByRole('button', { name: 'Paint the mask' }).count()).toBe(0); // that is another's outline
     const request = await revised(page);
     // what was put right of the one is not the other's
     expect(request.postDataJSON()).toEqual({ corrections: { person_index: 1, joints: null }, options: {} });
     await accepted(request);
 
     const everybody = await corrections(id);
-    await everybody.getByRole('button', { name: 'All of them' }).click();
+    await everybody.getByRole('button', { name: 'Everyone' }).click();
     expect(await everybody.getByRole('button', { name: /joints/ }).count()).toBe(0); // joints are somebody's
     const together = await revised(everybody);
     expect(together.postDataJSON().corrections).toEqual({ person_index: 'all', joints: null });
@@ -421,24 +421,24 @@ describe('corrections of a character', () => {
     const boxed = await corrections(id);
     const chosen = boxed.getByRole('button', { name: /^Person/, pressed: true });
     await boxed.getByRole('button', { name: 'Person 2 of 2' }).click();
-    await boxed.getByRole('button', { name: 'Frame the person' }).click();
+    await boxed.getByRole('button', { name: 'Select the person' }).click();
     await use(boxed).click();
-    await boxed.getByText('The person is framed by hand.').waitFor();
+    await boxed.getByText('The person was selected by hand.').waitFor();
     expect(await chosen.count()).toBe(0);
-    await boxed.getByRole('button', { name: 'Look everywhere' }).click();
+    await boxed.getByRole('button', { name: 'Search the whole picture' }).click();
     expect(await chosen.getAttribute('aria-label')).toBe('Person 2 of 2');
   });
 
   it('frame the person', async () => {
     const page = await corrections();
-    await page.getByRole('button', { name: 'Frame the person' }).click();
+    await page.getByRole('button', { name: 'Select the person' }).click();
     await stage(page).waitFor();
     await drag(page, [4, 4], [100, 80], [400, 560]);
     await stage(page).focus();
     await page.keyboard.press('Shift+ArrowRight');
     await page.keyboard.press('Control+z');
     await use(page).click();
-    await page.getByText('The person is framed by hand.').waitFor();
+    await page.getByText('The person was selected by hand.').waitFor();
     const request = await revised(page);
     const { corrections: sent } = request.postDataJSON();
     expect(Object.keys(sent)).toEqual(['person_box']);
@@ -450,8 +450,8 @@ describe('corrections of a character', () => {
     const id = await orderCharacter(faceless, { seconds: 1 });
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
-    await page.getByText('Put it right and make it again').waitFor();
-    await page.getByRole('img', { name: 'The picture, as it was sent' }).last().waitFor();
+    await page.getByText('Correct and try again').waitFor();
+    await page.getByRole('img', { name: 'The uploaded picture' }).last().waitFor();
     await page.getByRole('button', { name: 'Place the joints by hand' }).click();
     await stage(page).focus();
     for (const key of ['ArrowDown', 'ArrowUp']) await page.keyboard.press(key);

@@ -38,7 +38,7 @@ afterEach(async () => {
   expect(complaints).toEqual([]);
 });
 
-const file = (page: Page, of: 'Who is cut out' | 'The parts of the body') => page.getByLabel(`${of}, from a file`);
+const file = (page: Page, of: 'Mask' | 'Body parts') => page.getByLabel(`${of} from a file`);
 
 async function corrections(id = done): Promise<Page> {
   const page = await open(browser, `#/jobs/${id}`);
@@ -49,26 +49,26 @@ async function corrections(id = done): Promise<Page> {
 describe('a mask from a file', () => {
   it('has to be as large as the picture, and to be a picture', async () => {
     const page = await corrections();
-    await file(page, 'Who is cut out').setInputFiles(small);
+    await file(page, 'Mask').setInputFiles(small);
     await page.getByRole('alert').getByText('“small.png” has 200 × 300 pixels.').waitFor();
     await page.getByText('as large as the picture: 450 × 600.').waitFor();
-    await file(page, 'Who is cut out').setInputFiles({ name: 'a.png', mimeType: 'image/png', buffer: Buffer.from('x') });
+    await file(page, 'Mask').setInputFiles({ name: 'a.png', mimeType: 'image/png', buffer: Buffer.from('x') });
     await page.getByRole('alert').getByText('cannot read “a.png”').waitFor();
     expect(await again(page).isDisabled()).toBe(true);
   });
 
   it('is sent with what is painted over it, stays in what comes of it, and can be taken back', async () => {
     const page = await corrections();
-    await file(page, 'Who is cut out').setInputFiles(mask);
+    await file(page, 'Mask').setInputFiles(mask);
     await page.getByText('“mask.png” stands in place of what was found.').waitFor();
-    await file(page, 'The parts of the body').setInputFiles(mask);
-    const forget = page.getByRole('button', { name: 'Forget the file' });
+    await file(page, 'Body parts').setInputFiles(mask);
+    const forget = page.getByRole('button', { name: 'Remove the file' });
     await expect.poll(() => forget.count()).toBe(2);
     await forget.last().click();
-    await page.getByRole('button', { name: 'Paint who is cut out' }).click();
+    await page.getByRole('button', { name: 'Paint the mask' }).click();
     await page.getByRole('dialog').getByRole('application').focus();
     for (const key of [' ', 'Shift+ArrowUp', ' ']) await page.keyboard.press(key);
-    await page.getByRole('button', { name: 'Use these' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     const request = await revised(page);
     const { corrections: sent, options } = request.postDataJSON();
     expect([Object.keys(sent).sort(), options]).toEqual([['mask', 'mask_strokes'], {}]);
@@ -78,7 +78,7 @@ describe('a mask from a file', () => {
     await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
     await openCorrections(page);
     await page.getByText('A file of yours stands in place of what was found.').waitFor();
-    await page.getByRole('button', { name: 'Forget the file' }).click();
+    await page.getByRole('button', { name: 'Remove the file' }).click();
     const back = await revised(page);
     expect(back.postDataJSON().corrections).toEqual({ mask: null, mask_strokes: null });
     await accepted(back);
@@ -93,7 +93,7 @@ describe('a mask from a file', () => {
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByText('The mask is not as large as the picture', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('make it as large as the picture, 450 x 600').waitFor();
-    await file(page, 'Who is cut out').setInputFiles(mask);
+    await file(page, 'Mask').setInputFiles(mask);
     await page.getByText('“mask.png” stands in place of what was found.').waitFor();
     const request = await revised(page);
     expect(Object.keys(request.postDataJSON().corrections)).toEqual(['mask']);

@@ -12,7 +12,7 @@ export const isRevision = (request: Request): boolean =>
 /** Opens the corrections of a character on its page, once it is made. */
 export async function openCorrections(page: Page): Promise<void> {
   await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
-  await page.getByText('Change something and make it again').click();
+  await page.getByText('Edit and make again').click();
 }
 
 /** The request that a click on “Make it again” sends. */

@@ -59,7 +59,7 @@ afterEach(async () => {
   expect(complaints).toEqual([]);
 });
 
-const table = (page: Page) => page.getByText('What is in the motion');
+const table = (page: Page) => page.getByText('Joints of the motion');
 const mover = (page: Page, joint: string) => page.getByRole('combobox', { name: joint, exact: true });
 const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'Nothing moves these yet' });
 
@@ -102,11 +102,11 @@ describe('the joints of a motion', () => {
     await page.getByText('2 changed').waitFor();
     const [request] = await Promise.all([
       page.waitForRequest(isOrder),
-      page.getByRole('button', { name: 'Have them walk out' }).click(),
+      page.getByRole('button', { name: 'Create character' }).click(),
     ]);
     expect(request.postDataJSON().options).toEqual({ motion_joints: { LeftArm: 'LeftForeArm', Neck: null } });
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await page.getByText('This job was stopped before it was done').waitFor();
+    await page.getByText('This job was canceled before it was done').waitFor();
   });
 
   it('are shown in the corrections, and of another motion as that has them', async () => {
@@ -134,21 +134,21 @@ describe('the joints of a motion', () => {
     await table(page).click();
     const animation = page.getByRole('combobox', { name: 'Animation', exact: true });
     await animation.waitFor({ timeout: LONG });
-    expect(await animation.locator('option').allInnerTexts()).toEqual(['The first that moves', 'Idle', 'Run', 'TPose', 'Walk']);
+    expect(await animation.locator('option').allInnerTexts()).toEqual(['First animated one', 'Idle', 'Run', 'TPose', 'Walk']);
     await animation.selectOption('Run');
     const [request] = await Promise.all([
       page.waitForRequest(isOrder),
-      page.getByRole('button', { name: 'Have them walk out' }).click(),
+      page.getByRole('button', { name: 'Create character' }).click(),
     ]);
     expect(request.postDataJSON().options).toEqual({ motion_clip: 'Run' });
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await page.getByText('This job was stopped before it was done').waitFor();
+    await page.getByText('This job was canceled before it was done').waitFor();
   });
 
   it('are asked for where a motion was nobody’s', async () => {
     const id = await moving(whip);
     const page = await open(browser, `#/jobs/${id}`);
-    await page.getByText('The motion is not that of a person', { exact: true }).waitFor({ timeout: LONG });
+    await page.getByText('The motion is not of a person', { exact: true }).waitFor({ timeout: LONG });
     await wanting(page).filter({ hasText: 'Left thigh' }).waitFor();
     expect(await mover(page, 'Hips').inputValue()).toBe('Hips');
     await mover(page, 'Left thigh').selectOption('Tail');

@@ -44,7 +44,7 @@ afterEach(async () => {
 });
 
 const stage = (page: Page) => page.getByRole('application');
-const again = (page: Page) => page.getByText('Change something and make it again');
+const again = (page: Page) => page.getByText('Edit and make again');
 const landmarks = (id: string): Promise<Landmarks> => ask(`/v1/jobs/${id}/artifacts/landmarks.json`);
 const xs = (points: Points): number[] => points.map(([x]) => x);
 
@@ -76,7 +76,7 @@ describe('corrections by hand', () => {
   it('use a part of the performance, whose calm frame is then found by itself, and make another kind of video', async () => {
     const page = await open(browser, `#/jobs/${done}`);
     await again(page).click({ timeout: LONG });
-    await page.getByLabel('Repeats without a jump').check();
+    await page.getByLabel('Seamless loop').check();
     await page.getByLabel('Turn the head in 3D').uncheck();
     const calm = page.getByRole('slider', { name: 'Calm frame' });
     await calm.fill('3');
@@ -88,9 +88,9 @@ describe('corrections by hand', () => {
     expect(await to.evaluate((input: HTMLInputElement) => input.validity.valueMissing)).toBe(true);
     await to.fill('1.25');
     await page.keyboard.press('Tab');
-    await page.getByLabel('Frames a second').selectOption('25');
-    await page.getByLabel('Kind of video').selectOption('WebM');
-    expect(await page.getByLabel('Whose performance').count()).toBe(0); // it shows one face alone
+    await page.getByLabel('Frames per second').selectOption('25');
+    await page.getByLabel('File format').selectOption('WebM');
+    expect(await page.getByLabel('Face in the video').count()).toBe(0); // it shows one face alone
     const request = await revised(page);
     const { options } = request.postDataJSON();
     expect(Object.fromEntries(Object.entries(options).filter(([, value]) => value !== null))).toEqual({
@@ -102,8 +102,8 @@ describe('corrections by hand', () => {
   it('name another face of the performance, where it has not so many', async () => {
     const id = await order(portrait, 'idle', { driver_face_index: 1 });
     const page = await open(browser, `#/jobs/${id}`);
-    await page.getByText('The performance has not so many faces').waitFor({ timeout: LONG });
-    await page.getByLabel('Whose performance').selectOption('That of the largest face');
+    await page.getByText('There are fewer faces in the performance').waitFor({ timeout: LONG });
+    await page.getByLabel('Face in the video').selectOption('The largest face');
     const request = await revised(page);
     expect(request.postDataJSON().options.driver_face_index).toBe(null);
     await accepted(request);
@@ -126,13 +126,13 @@ describe('corrections by hand', () => {
 
     await page.getByLabel('Moves').selectOption('Left eye');
     await page.getByLabel('Single points').check();
-    await page.getByLabel('Neighbours follow').uncheck();
+    await page.getByLabel('Move neighbours too').uncheck();
     await stage(page).focus();
     await page.keyboard.press('PageDown');
     await page.getByText('Left eye, point 2 of 6').waitFor({ state: 'attached' });
     for (const key of ['Shift+ArrowUp', 'ArrowLeft', 'Control+z']) await page.keyboard.press(key);
-    await page.getByRole('button', { name: 'Use these' }).click();
-    await page.getByText('The landmarks are placed by hand.').waitFor();
+    await page.getByRole('button', { name: 'Apply' }).click();
+    await page.getByText('The landmarks were placed by hand.').waitFor();
 
     await page.getByRole('button', { name: 'Make it again' }).click();
     await page.waitForURL((url) => !url.hash.endsWith(done));
@@ -156,7 +156,7 @@ describe('corrections by hand', () => {
     await page.getByRole('button', { name: 'Place the face by hand' }).click({ timeout: LONG });
     await stage(page).focus();
     for (const key of ['+', '+', 'ArrowUp', ']', '[']) await page.keyboard.press(key);
-    await page.getByRole('button', { name: 'Use these' }).click();
+    await page.getByRole('button', { name: 'Apply' }).click();
     await page.getByRole('button', { name: 'Make it again' }).click();
     await page.waitForURL((url) => !url.hash.endsWith(id));
     await played(page);

@@ -38,16 +38,16 @@ const service = (path: string, token?: string): Promise<Response> =>
 describe('keys', () => {
   it('are made, shown once, used by a program, and revoked after a question', async () => {
     const page = await open(browser, '#/keys');
-    await page.getByLabel('For', { exact: true }).fill('Picture shop');
-    await page.getByLabel('manage').uncheck();
-    await page.getByRole('button', { name: 'Make the key' }).click();
+    await page.getByLabel('Name', { exact: true }).fill('Picture shop');
+    await page.getByLabel('admin').uncheck();
+    await page.getByRole('button', { name: 'Create key' }).click();
     const token = await page.getByLabel('Key', { exact: true }).inputValue();
     expect(await (await service('/v1/key', token)).json()).toMatchObject({ name: 'Picture shop', scopes: ['read', 'submit'] });
     await page.reload();
     await page.getByText('Picture shop', { exact: true }).waitFor();
     expect(await page.getByText(token).count()).toBe(0);
     await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
-    await page.getByRole('button', { name: 'Keep it' }).click();
+    await page.getByRole('button', { name: 'Cancel' }).click();
     await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
     await page.getByRole('button', { name: 'Revoke it' }).click();
     await page.getByText('Revoked').waitFor();
@@ -59,8 +59,8 @@ describe('webhooks', () => {
   it('are added, tested, looked into, and what did not come through is sent again', async () => {
     const url = `http://127.0.0.1:${(receiver.address() as AddressInfo).port}/galatea`;
     const page = await open(browser, '#/webhooks');
-    await page.getByLabel('Address', { exact: true }).fill(url);
-    await page.getByRole('button', { name: 'Add the address' }).click();
+    await page.getByLabel('URL', { exact: true }).fill(url);
+    await page.getByRole('button', { name: 'Add endpoint' }).click();
     const secret = await page.getByLabel(`Signing secret for ${url}`).inputValue();
     const added = page.locator('li.endpoint').filter({ hasText: url }); // others may be there from before
     await added.getByRole('button', { name: 'Send a test' }).click();
@@ -80,15 +80,15 @@ describe('webhooks', () => {
     expect(tests().at(-1)!.headers['webhook-id']).toBe(headers['webhook-id']);
 
     await added.getByRole('button', { name: 'Signing secret', exact: true }).click();
-    await added.getByRole('button', { name: 'Replace the secret' }).click();
-    await added.getByText('The secret before it signs as well until').waitFor();
+    await added.getByRole('button', { name: 'Rotate secret' }).click();
+    await added.getByText('The previous secret stays valid until').waitFor();
     expect((await added.getByRole('textbox', { name: 'Signing secret', exact: true }).inputValue()) === secret).toBe(false);
   });
 
   it('refuse addresses of the network, in plain words', async () => {
     const page = await open(browser, '#/webhooks');
-    await page.getByLabel('Address', { exact: true }).fill('http://10.1.2.3/hook');
-    await page.getByRole('button', { name: 'Add the address' }).click();
+    await page.getByLabel('URL', { exact: true }).fill('http://10.1.2.3/hook');
+    await page.getByRole('button', { name: 'Add endpoint' }).click();
     await page.getByRole('alert').waitFor();
     complaints.length = 0; // the browser reports the refusal itself
   });
@@ -99,20 +99,20 @@ describe('a link', () => {
     const id = await order(portrait, 'happy');
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByText('Share', { exact: true }).click({ timeout: LONG });
-    await page.getByLabel('Good for').selectOption('a day');
-    await page.getByRole('button', { name: 'Make a link' }).click();
+    await page.getByLabel('Expires after').selectOption('1 day');
+    await page.getByRole('button', { name: 'Create link' }).click();
     const link = await page.getByLabel('Link', { exact: true }).inputValue();
     const other = await browser.newPage();
     await other.goto(link);
-    await other.getByRole('heading', { name: 'A portrait came to life' }).waitFor();
+    await other.getByRole('heading', { name: 'A portrait brought to life' }).waitFor();
     const shown = other.getByLabel('The portrait, acting out');
     await expect.poll(() => shown.evaluate((video: HTMLVideoElement) => video.readyState)).toBeGreaterThan(0);
     await shown.click();
     await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
     expect(await other.getByRole('navigation').count()).toBe(0);
-    await page.getByRole('button', { name: 'Take back' }).click();
-    await page.getByRole('button', { name: 'Take back' }).waitFor({ state: 'detached' });
+    await page.getByRole('button', { name: 'Revoke' }).click();
+    await page.getByRole('button', { name: 'Revoke' }).waitFor({ state: 'detached' });
     await other.reload();
-    await other.getByRole('heading', { name: 'There is nothing at this link' }).waitFor();
+    await other.getByRole('heading', { name: 'This link does not work' }).waitFor();
   });
 });

@@ -48,7 +48,7 @@ describe('a job that succeeds', () => {
     await page.getByText('All files').click();
     const [archive] = await Promise.all([
       page.waitForEvent('download'),
-      page.getByRole('link', { name: 'Everything as one zip' }).click(),
+      page.getByRole('link', { name: 'Download all as ZIP' }).click(),
     ]);
     expect(archive.suggestedFilename()).toBe(`portrait-${done}.zip`);
     const report = await page.getByRole('link', { name: 'report.json' }).getAttribute('href');
@@ -75,10 +75,10 @@ describe('a job that succeeds', () => {
 
   it('is made again with something changed, and the two lead to each other', async () => {
     const page = await open(browser, `#/jobs/${done}`);
-    await page.getByText('Change something and make it again').click();
+    await page.getByText('Edit and make again').click();
     await page.getByLabel('Strength').fill('0.5');
     await page.getByLabel('Head', { exact: true }).uncheck();
-    await page.getByLabel('Calm frame of the performance').fill('3');
+    await page.getByLabel('Neutral frame of the performance').fill('3');
     await page.getByRole('button', { name: 'Make it again' }).click();
     await page.waitForURL((url) => !url.hash.endsWith(done));
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
@@ -112,23 +112,23 @@ describe('a job that does not', () => {
   it('is canceled at a click', async () => {
     const page = await openRunning(browser);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await page.getByText('This job was stopped before it was done').waitFor({ timeout: 10_000 });
+    await page.getByText('This job was canceled before it was done').waitFor({ timeout: 10_000 });
   });
 
   it('is deleted only after a question', async () => {
     const id = await order(faceless, 'idle');
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByRole('button', { name: 'Delete' }).click({ timeout: LONG });
-    await page.getByRole('button', { name: 'Keep it' }).click();
+    await page.getByRole('button', { name: 'Cancel' }).click();
     await page.getByRole('button', { name: 'Delete' }).click();
-    await page.getByRole('button', { name: 'Delete for good' }).click();
+    await page.getByRole('button', { name: 'Delete permanently' }).click();
     await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
     expect((await fetch(`${inject('address')}/v1/jobs/${id}`)).status).toBe(404);
   });
 
   it('is missed in plain words', async () => {
     const page = await open(browser, '#/jobs/0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f');
-    await page.getByRole('heading', { name: 'There is no such job' }).waitFor();
+    await page.getByRole('heading', { name: 'Job not found' }).waitFor();
     complaints.length = 0; // the browser reports the 404 itself
   });
 });
@@ -139,7 +139,7 @@ describe('a broken line', () => {
     await page.getByRole('button', { name: 'Cancel' }).waitFor();
     await page.context().setOffline(true);
     await page.evaluate(() => dispatchEvent(new Event('offline')));
-    await page.getByText('The line to the service is interrupted').waitFor({ timeout: 60_000 });
+    await page.getByText('Connection lost').waitFor({ timeout: 60_000 });
     await page.context().setOffline(false);
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     complaints.length = 0; // the browser reports the failed requests itself

@@ -27,7 +27,7 @@ it('comes without a performance, and shows what is asked for', async () => {
 it('is a card among the performances', async () => {
   const page = await open(browser);
   await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
-  await page.locator('form').getByText('On demand', { exact: true }).click();
+  await page.locator('form').getByText('Interactive', { exact: true }).click();
   const ordered = page.waitForRequest((request) => request.url().endsWith('/v1/jobs') && request.method() === 'POST');
   await page.getByRole('button', { name: 'Bring it to life' }).click();
   const body = (await ordered).postDataJSON() as { inputs: object; options: object };
@@ -41,5 +41,5 @@ it('says so where it cannot be played', async () => {
   const page = await open(browser);
   await page.route('**/reactive-portrait.js', (route) => route.abort());
   await page.evaluate((job) => (location.hash = `#/jobs/${job}`), job);
-  await page.getByText('Not all of the portrait could be loaded. Load the page again.').waitFor({ timeout: LONG });
+  await page.getByText('The portrait could not be loaded completely. Reload the page.').waitFor({ timeout: LONG });
 });

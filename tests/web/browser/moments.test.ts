@@ -18,7 +18,7 @@ it('keeps a video, finds the emotions in it, and has one of them acted out', { t
   const page = await open(browser);
   await page.getByLabel(/Drop a picture|Portrait:/).setInputFiles(portrait);
   await page.getByLabel(/Drop a video|Video:/).setInputFiles(video);
-  await page.getByRole('button', { name: 'Keep it and find the emotions in it' }).click();
+  await page.getByRole('button', { name: 'Save it and find the emotions in it' }).click();
   const whole = page.getByRole('radio', { name: 'Surprise 2', exact: true }); // “surprise” is a built-in one's name
   await whole.waitFor();
   expect(await whole.isChecked()).toBe(true);

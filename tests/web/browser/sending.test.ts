@@ -35,21 +35,21 @@ describe('sending a video', () => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
     const page = await chosen(video);
     await start(page).click();
-    await page.getByText(/Sending the video: [2-9]\d%/).waitFor();
-    await page.getByRole('button', { name: 'Pause' }).click();
-    await page.getByText(/Paused in the video/).waitFor();
+    await page.getByText(/Uploading the video: [2-9]\d%/).waitFor();
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+    await page.getByText(/Paused while uploading the video/).waitFor();
     const halted = await share(page);
     await page.waitForTimeout(1500);
     expect(await share(page)).toBe(halted);
-    await page.getByRole('button', { name: 'Go on' }).click();
+    await page.getByRole('button', { name: 'Resume', exact: true }).click();
     await expect.poll(() => share(page), { timeout: 60_000 }).toBeGreaterThan(halted + 0.05);
 
     const asked: string[] = [];
     page.on('request', (request) => asked.push(`${request.method()} ${new URL(request.url()).pathname.split('/')[2]}`));
     await page.reload();
-    await page.getByText(/“Grace hopper” with “Man grimace d0” was not wholly sent/).waitFor();
-    await page.getByRole('button', { name: 'Go on sending' }).click();
-    await page.getByText(/Sending the video: [3-9]\d%/).waitFor();
+    await page.getByText(/The upload of “Grace hopper” \(Man grimace d0\) was interrupted/).waitFor();
+    await page.getByRole('button', { name: 'Resume upload' }).click();
+    await page.getByText(/Uploading the video: [3-9]\d%/).waitFor();
     await slow(page, -1);
     await page.getByRole('heading', { name: 'Grace hopper' }).waitFor({ timeout: 60_000 });
     expect(asked).toContain('HEAD uploads');
@@ -58,7 +58,7 @@ describe('sending a video', () => {
     const { size } = await ask<{ size: number }>(`/v1/files/${job.inputs.driver}`);
     expect(size).toBeGreaterThan(100_000);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await page.getByText('This job was stopped before it was done').waitFor();
+    await page.getByText('This job was canceled before it was done').waitFor();
     await page.goto(page.url().replace(/#.*/, ''));
     await start(page).waitFor();
     expect(await page.getByText('was not wholly sent').count()).toBe(0);
@@ -67,15 +67,15 @@ describe('sending a video', () => {
   it('to be kept as a driver halts and goes on, too', async ({ skip }) => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
     const page = await chosen(video);
-    await page.getByRole('button', { name: 'Keep it and find the emotions in it' }).click();
-    await page.getByText(/Sending the video: [1-9]\d?%/).waitFor();
+    await page.getByRole('button', { name: 'Save it and find the emotions in it' }).click();
+    await page.getByText(/Uploading the video: [1-9]\d?%/).waitFor();
     expect(await start(page).isDisabled()).toBe(true); // two at once would take the upload from one another
-    await page.getByRole('button', { name: 'Pause' }).click();
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
     const halted = await share(page);
     await page.waitForTimeout(1500);
     expect(await share(page)).toBe(halted);
     await slow(page, -1);
-    await page.getByRole('button', { name: 'Go on' }).click();
+    await page.getByRole('button', { name: 'Resume', exact: true }).click();
     const kept = page.getByRole('radio', { name: /^Man grimace d0/ });
     await kept.waitFor();
     expect(await kept.isChecked()).toBe(true);
@@ -86,7 +86,7 @@ describe('sending a video', () => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
     const page = await chosen(video);
     await start(page).click();
-    await page.getByText(/Sending the video: [1-9]\d?%/).waitFor();
+    await page.getByText(/Uploading the video: [1-9]\d?%/).waitFor();
     const gone = page.waitForRequest((request) => request.method() === 'DELETE' && request.url().includes('/v1/uploads/'));
     await page.getByRole('button', { name: 'Stop' }).click();
     await gone;

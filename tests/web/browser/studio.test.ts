@@ -21,7 +21,7 @@ describe('choosing', () => {
     const { items } = (await (await fetch(`${inject('address')}/v1/drivers`)).json()) as { items: { name: string }[] };
     expect(items.map((driver) => driver.name)).toEqual(expect.arrayContaining(['idle', 'happy', 'surprise']));
     const page = await open(browser);
-    for (const name of ['What fits best', 'Idle', 'Happy', 'Everyday']) {
+    for (const name of ['Best match', 'Idle', 'Happy', 'Normal']) {
       await page.getByRole('radio', { name, exact: true }).waitFor();
     }
   });
@@ -38,7 +38,7 @@ describe('choosing', () => {
   it('says what is missing until nothing is', async () => {
     const page = await open(browser);
     expect(await start(page).isDisabled()).toBe(true);
-    await page.getByText('First choose a portrait.').waitFor();
+    await page.getByText('Choose a portrait to begin.').waitFor();
     await portraitInput(page).setInputFiles(portrait);
     await page.getByText('Grace hopper · Happy').waitFor(); // a mood is chosen beforehand
     await performance(page, 'Fear').click();
@@ -103,7 +103,7 @@ describe('choosing', () => {
     const page = await open(browser);
     await portraitInput(page).setInputFiles(portrait);
     await portraitInput(page).setInputFiles({ name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('hi') });
-    await page.getByText('That is not a picture.').waitFor();
+    await page.getByText('This is not a picture.').waitFor();
     await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
   });
 
@@ -117,7 +117,7 @@ describe('choosing', () => {
     });
     await page.getByLabel('Portrait: someone.png. Choose another').waitFor({ state: 'attached' });
     await page.getByLabel('Video: smile.mp4. Choose another').waitFor({ state: 'attached' });
-    expect(await page.getByText('No preview in this browser').count()).toBeGreaterThan(0);
+    expect(await page.getByText('This browser cannot show a preview').count()).toBeGreaterThan(0);
     complaints.length = 0; // the browser says itself that these are no media
   });
 

@@ -43,7 +43,7 @@ describe('looking around', () => {
     await still(page);
     expect(await differing(page, begin, await shot(page)), 'going back is coming back').toBe(0);
 
-    await page.getByRole('combobox', { name: 'Clip' }).selectOption('step_out');
+    await page.getByRole('combobox', { name: 'Motion' }).selectOption('step_out');
     const tall = () => page.evaluate(() => window.joint('LeftFoot')[1] - window.joint('Head')[1]);
     await still(page);
     const before = await tall();

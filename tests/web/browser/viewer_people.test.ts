@@ -13,8 +13,8 @@ describe('two people', () => {
   it('stand as they do in the picture, and begin each clip there', async () => {
     const page = await open();
     await ready(page);
-    expect(await pressed(page)).toEqual(['Everybody']);
-    await page.getByRole('combobox', { name: 'Clip' }).selectOption('pictured');
+    expect(await pressed(page)).toEqual(['Everyone']);
+    await page.getByRole('combobox', { name: 'Motion' }).selectOption('pictured');
     await still(page);
     const [first, second] = await hips(page);
     expect(second![0] - first![0], 'metres to the right').toBeGreaterThan(1);
@@ -25,7 +25,7 @@ describe('two people', () => {
     expect(further).toBeGreaterThan(1.1);
     expect(further).toBeLessThan(1.4);
     for (const clip of ['walk', 'idle']) {
-      await page.getByRole('combobox', { name: 'Clip' }).selectOption(clip);
+      await page.getByRole('combobox', { name: 'Motion' }).selectOption(clip);
       await still(page);
       for (const [index, [x, , z]] of (await hips(page)).entries()) {
         const [wasX, , wasZ] = [first!, second!][index]!;
@@ -42,7 +42,7 @@ describe('two people', () => {
     await still(page);
     expect([(await hips(page)).length, await pressed(page)]).toEqual([1, ['Person 2']]);
     expect(await differing(page, together, await shot(page))).toBeGreaterThan(1000);
-    await mode(page, 'Everybody').click();
+    await mode(page, 'Everyone').click();
     await still(page);
     expect(await differing(page, together, await shot(page))).toBe(0);
   });
@@ -59,7 +59,7 @@ describe('two people', () => {
     await page.keyboard.press('ArrowRight');
     await mode(page, 'Person 2').click(); // the same pose on somebody else
     await still(page);
-    await page.getByRole('button', { name: 'Make it so' }).click();
+    await page.getByRole('button', { name: 'Apply pose' }).click();
     expect(await page.evaluate(() => window.poses)).toEqual([{ Head: [0, 1, 0] }]);
   });
 

@@ -11,7 +11,7 @@ describe('a pose by hand', () => {
     await ready(page);
     await mode(page, 'Change the pose').click();
     await still(page);
-    const make = page.getByRole('button', { name: 'Make it so' });
+    const make = page.getByRole('button', { name: 'Apply pose' });
     expect(await make.isDisabled()).toBe(true);
     const [x, y] = await page.evaluate(() => window.joint('LeftHand'));
     const [toX, toY] = [x + 12, y - 70];
@@ -55,14 +55,14 @@ describe('a pose by hand', () => {
     await page.getByRole('combobox', { name: 'Bone' }).selectOption('Head');
     await page.getByRole('slider', { name: 'Twist' }).focus();
     for (let press = 0; press < 3; press++) await page.keyboard.press('ArrowRight');
-    await page.getByRole('button', { name: 'Make it so' }).click();
+    await page.getByRole('button', { name: 'Apply pose' }).click();
     expect(await page.evaluate(() => window.poses)).toEqual([{ Head: [0, 3, 0] }]);
     await page.locator('.viewer-stage').focus();
     await page.keyboard.press('Control+z');
-    await page.getByRole('button', { name: 'Make it so' }).click();
+    await page.getByRole('button', { name: 'Apply pose' }).click();
     expect(await page.evaluate(() => window.poses[1])).toEqual({ Head: [0, 2, 0] });
-    await page.getByRole('button', { name: 'As pictured' }).click();
-    expect(await page.getByRole('button', { name: 'Make it so' }).isDisabled()).toBe(true);
+    await page.getByRole('button', { name: 'Pose from the picture' }).click();
+    expect(await page.getByRole('button', { name: 'Apply pose' }).isDisabled()).toBe(true);
   });
 
   it('turns the mesh half transparent while it is edited, and solid again', async () => {

@@ -15,7 +15,7 @@ describe('who is posed by hand', () => {
     const [pictured, made] = await page.evaluate(() => Promise.all([window.begins('pictured'), window.begins('step_out')]));
     expect(pictured[1] - made[1], 'metres that the hips go down').toBeGreaterThan(0.2);
     expect(Math.abs((await height()) - made[1]), 'metres beside the engine').toBeLessThan(0.002);
-    await page.getByRole('button', { name: 'As pictured' }).click();
+    await page.getByRole('button', { name: 'Pose from the picture' }).click();
     await still(page);
     expect(Math.abs((await height()) - pictured[1])).toBeLessThan(1e-5);
   });

@@ -56,6 +56,6 @@ describe('the picture on the wall', () => {
     await page.getByRole('button', { name: 'Back into the picture' }).click();
     await still(page);
     expect(await differing(page, aside, await shot(page)), 'as before').toBe(0);
-    expect(await page.getByRole('button', { name: 'Enter with a headset' }).count(), 'no headset, no button').toBe(0);
+    expect(await page.getByRole('button', { name: 'View in VR headset' }).count(), 'no headset, no button').toBe(0);
   });
 });

@@ -17,22 +17,22 @@ const english = {
   recent: {
     title: 'Recent',
     empty: 'What you make will appear here.',
-    all: 'Everything that was made',
+    all: 'Show all',
   },
 
   navigation: { label: 'Pages', history: 'History', keys: 'Keys', webhooks: 'Webhooks' },
 
   history: {
-    title: 'Everything that was made',
+    title: 'History',
     filter: 'Show',
     all: 'All',
-    none: 'There is nothing of this kind.',
+    none: 'Nothing here yet.',
     more: 'Show more',
   },
 
   retry: 'Try again',
   close: 'Close',
-  keep: 'Keep it',
+  keep: 'Cancel',
   copy: 'Copy',
   copied: 'Copied',
   reveal: 'Show',
