@@ -22,7 +22,7 @@ from engine.character.stages import build_mesh, fewer_triangles, fill_background
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.glb import QUALITY, write_glb
-from engine.export.still import write_still
+from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
 from engine.export.vrm import VrmMeta, write_vrm
@@ -73,8 +73,8 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     figure = figures[0]
     if len(figures) > 1:
         run.plan(STAGES, dict.fromkeys(EACH, len(figures)))
-    write_still(out / "preview.jpg", figure.rgb, run.mark_synthetic)
-    run.publish(out / "preview.jpg")
+    for early in write_first_impression(out, figure.rgb, figure.alpha, run.mark_synthetic):
+        run.publish(early)
     figures, silhouettes = cut_all_out(figures, mask, options, run)
     figure = figures[0]
     background = run.beside("fill_background", fill_background, figure, silhouettes)

@@ -55,6 +55,14 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     return Picture(rgb, alpha, media_type)
 
 
+def over_white(rgb: np.ndarray, alpha: np.ndarray | None) -> np.ndarray:
+    """`rgb` uint8 (H, W, 3) as it is seen on white paper; `alpha` float32 (H, W) [0, 1], None where all is opaque."""
+    if alpha is None:
+        return rgb
+    share = alpha[..., None]
+    return (rgb * share + np.float32(255) * (1 - share) + np.float32(0.5)).astype(np.uint8)
+
+
 def write_image(path: Path, rgb: np.ndarray, alpha: np.ndarray | None = None, quality: int = 90) -> None:
     """Write `rgb` uint8 (H, W, 3), with `alpha` float32 (H, W) [0, 1] where given, in the format of the name's ending.
 

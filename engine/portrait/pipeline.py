@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.still import write_still
+from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.kind import Candidates, Given
 from engine.perception.landmarks import fiducials
@@ -109,10 +109,10 @@ class PreparedTarget:
 
 
 def prepare_target(looking: Beside[TargetFace], out: Path, run: Run) -> PreparedTarget:
-    """Everything that depends on the picture alone; leaves `preview.jpg`."""
+    """Everything that depends on the picture alone; leaves `preview.jpg` and `thumbnail.jpg`."""
     face = looking()
-    write_still(out / "preview.jpg", face.rgb, run.mark_synthetic)
-    run.publish(out / "preview.jpg")
+    for early in write_first_impression(out, face.rgb, face.alpha, run.mark_synthetic):
+        run.publish(early)
     model = matting_model(os.environ)
     details = run.beside("detail_region", detail_region, face.rgb, face.mesh)
     layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)

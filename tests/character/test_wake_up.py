@@ -30,7 +30,7 @@ from glb_reader import Glb, validate
 
 ARTIFACTS = {
     *("animation.mp4", "background.png", "character.glb", "character.usdz", "labels.png", "mask.png", "poster.jpg"),
-    *("posed.png", "preview.jpg", "report.json", "skeleton.json"),
+    *("posed.png", "preview.jpg", "report.json", "skeleton.json", "thumbnail.jpg"),
 }
 
 

@@ -29,7 +29,7 @@ def test_it_has_the_target_s_size_and_a_frame_for_each_of_the_driver_s(opens, wo
 
 def test_artifacts_are_those_of_the_contract(opens, woman: Path) -> None:
     names = {p.name for p in opens.out.iterdir()}
-    assert names == {"animation.mp4", "preview.jpg", "poster.jpg", "landmarks.json", "report.json"}
+    assert names == {"animation.mp4", "preview.jpg", "thumbnail.jpg", "poster.jpg", "landmarks.json", "report.json"}
     report = json.loads((opens.out / "report.json").read_text())
     assert report["kind"] == "portrait"
     assert set(report["stages"]) >= {"find_face", "separate_layers", "track_driver", "animate"}
@@ -38,6 +38,8 @@ def test_artifacts_are_those_of_the_contract(opens, woman: Path) -> None:
     assert report["quality"]["driver_face_share"] == 1.0
     for name in ("preview.jpg", "poster.jpg"):
         assert read_image(opens.out / name).rgb.shape == (300, 300, 3)
+    preview, thumbnail = (read_image(opens.out / name).rgb for name in ("preview.jpg", "thumbnail.jpg"))
+    assert np.abs(thumbnail.astype(int) - preview).mean() < 6 and (opens.out / "thumbnail.jpg").stat().st_size < 12_000
 
 
 def test_the_driver_s_neutral_frame_shows_the_target(opens, woman: Path) -> None:

@@ -162,7 +162,7 @@ def test_a_portrait_acts_what_a_video_does(tmp_path: Path, environment: dict[str
         *("portrait", picture, "--driver", driver, "-o", tmp_path / "out", "--options", options),
     )
     assert ended.returncode == 0, ended.stderr
-    names = ["animation.mp4", "landmarks.json", "poster.jpg", "preview.jpg", "report.json"]
+    names = ["animation.mp4", "landmarks.json", "poster.jpg", "preview.jpg", "report.json", "thumbnail.jpg"]
     assert ended.stdout.split() == [str(tmp_path / "out" / name) for name in names]
     (warning,) = ended.stderr.splitlines()
     assert warning.startswith("target_not_neutral: ")

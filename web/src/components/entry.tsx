@@ -1,4 +1,4 @@
-/** A job among others: its poster, its name, and where it stands. */
+/** A job among others: a small picture of it, its name, and where it stands. */
 
 import type { Job } from '../api';
 import { ago, percent } from '../format';
@@ -8,7 +8,8 @@ import { strings } from '../strings';
 import { Picture } from './picture';
 
 export function Entry({ job }: { job: Job }) {
-  const picture = job.artifacts['poster.jpg'] ?? job.artifacts['preview.jpg'];
+  // Jobs of earlier versions have no thumbnail.
+  const picture = ['thumbnail.jpg', 'poster.jpg', 'preview.jpg'].map((name) => job.artifacts[name]).find(Boolean);
   const performance = performanceName(job);
   const status = job.status === 'running' ? percent(job.progress.fraction ?? 0) : strings.status[job.status];
   return (
