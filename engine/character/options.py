@@ -15,8 +15,9 @@ Angle = Annotated[float, Field(ge=-180, le=180)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 Part = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg"]
+JointName = Annotated[str, Field(max_length=40)]
 MotionJoints = Annotated[
-    dict[Annotated[str, Field(max_length=40)], Annotated[str, Field(max_length=200)] | None],
+    dict[JointName, Annotated[str, Field(max_length=200)] | None],
     Field(
         max_length=100,
         description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
@@ -34,7 +35,9 @@ BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_
 
 Place = tuple[Coordinate, Coordinate]
 Radius = Annotated[float, Field(gt=0, le=2048)]
-Path = Annotated[tuple[Place, ...], Field(min_length=1, max_length=5000)]
+Path = Annotated[tuple[Place, ...], Field(fail_fast=True, min_length=1, max_length=5000)]
+MOST_POINTS = 50_000
+"""Of all strokes together: drawing takes about 0.3 ms for each where the brush is as large as the picture."""
 
 
 class MaskStroke(BaseModel):
@@ -65,7 +68,9 @@ class CharacterOptions(BaseModel):
     motion: Motion = Field("walk", description="The clip into which the person steps, where no file is given.")
     motion_joints: MotionJoints = {}
     motion_clip: MotionClip = None
-    keep: tuple[BodyPart, ...] = Field((), description="Parts of the body that stay as pictured.")
+    keep: Annotated[tuple[BodyPart, ...], Field(fail_fast=True, max_length=20)] = Field(
+        (), description="Parts of the body that stay as pictured."
+    )
     seconds: Annotated[float, Field(ge=1, le=30)] = Field(4.0, description="Length of the video, at most.")
     size: tuple[Side, Side] | None = Field(
         None,
@@ -93,12 +98,14 @@ class CharacterOptions(BaseModel):
     partial: bool = Field(
         False, description="Accept a person who is cut off or hidden below the chest, and animate what is there."
     )
-    pose: dict[str, tuple[Angle, Angle, Angle]] = Field(
+    pose: dict[JointName, tuple[Angle, Angle, Angle]] = Field(
         {},
+        max_length=100,
         description="Joints turned on from the pictured pose, by their names in the character's skeleton: degrees about x, y and z of the T-pose. The person starts from there, and posed.png shows it.",
     )
-    joints: dict[str, tuple[Coordinate, Coordinate]] = Field(
+    joints: dict[JointName, Place] = Field(
         {},
+        max_length=100,
         description="Joints placed by hand, by their names in skeleton.json: [x, y] in pixels of the picture.",
     )
     person_box: tuple[Coordinate, Coordinate, Extent, Extent] | None = Field(
@@ -110,16 +117,25 @@ class CharacterOptions(BaseModel):
         None,
         description="Which of the people in the picture, the largest first (the report lists them), or “all”: each becomes a character, and all walk out together. Default: the largest, unless there is a crowd.",
     )
-    mask_strokes: Annotated[tuple[MaskStroke, ...], Field(max_length=500)] = Field(
+    mask_strokes: Annotated[tuple[MaskStroke, ...], Field(fail_fast=True, max_length=500)] = Field(
         (), description="Strokes over the mask, in their order."
     )
-    label_strokes: Annotated[tuple[LabelStroke, ...], Field(max_length=500)] = Field(
+    label_strokes: Annotated[tuple[LabelStroke, ...], Field(fail_fast=True, max_length=500)] = Field(
         (), description="Strokes over the label map, in their order."
     )
     back_texture: Literal["mirror", "inpaint"] = Field(
         "mirror",
         description="The back: a mirrored copy of the front, or filled by what the sides of each part of the body show.",
     )
+
+    @model_validator(mode="after")
+    def _strokes_that_can_be_drawn(self) -> Self:
+        strokes: tuple[MaskStroke | LabelStroke, ...] = (*self.mask_strokes, *self.label_strokes)
+        if sum(len(stroke.path) for stroke in strokes) > MOST_POINTS:
+            raise ValueError(
+                f"the strokes have more than {MOST_POINTS} points together: leave out those that lie close"
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_to_correct(self) -> Self:

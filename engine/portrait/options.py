@@ -12,6 +12,10 @@ Part = Literal["eyes", "mouth", "brows", "head"]
 PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
+Seconds = Annotated[float, Field(ge=0, le=86_400)]
+Face = Annotated[int, Field(ge=0, le=99)]
+Landmarks = Annotated[tuple[tuple[Coordinate, Coordinate], ...], Field(fail_fast=True, min_length=68, max_length=68)]
+States = Annotated[tuple[Annotated[str, Field(max_length=100)], ...], Field(fail_fast=True, max_length=100)]
 
 
 def _named(follow: object) -> object:
@@ -35,22 +39,22 @@ class PortraitOptions(BaseModel):
     format: Literal["mp4", "webm", "webp", "png"] = Field(
         "mp4", description="Container of the animation; png is a zip of numbered pictures."
     )
-    neutral_frame: Annotated[int, Field(ge=0)] | None = Field(
+    neutral_frame: Annotated[int, Field(ge=0, le=10_000_000)] | None = Field(
         None,
         description="Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.",
     )
-    face_index: Annotated[int, Field(ge=0)] = Field(
+    face_index: Face = Field(
         0,
         description="Which face of the target, counted from the largest; with a crop by numbers, of those in the crop.",
     )
-    driver_face_index: Annotated[int, Field(ge=0)] = Field(
+    driver_face_index: Face = Field(
         0,
         description="Which face of the driver, counted from the largest in the first frame that shows any. Not for `auto`, which compares the largest ones.",
     )
     strength: Annotated[float, Field(ge=0, le=2)] = Field(
         1.0, description="How strongly the motion is carried over; 1 is as the driver does it."
     )
-    follow: Annotated[tuple[Part, ...], BeforeValidator(_named)] = Field(
+    follow: Annotated[tuple[Part, ...], Field(fail_fast=True, max_length=20), BeforeValidator(_named)] = Field(
         PARTS, description='Which parts follow the driver; `["all"]` stands for every one.'
     )
     head_3d: bool = Field(
@@ -61,7 +65,7 @@ class PortraitOptions(BaseModel):
         examples=["bust", (10, 20, 300, 400)],
         description="Part of the target to animate: around the face, head and shoulders, or [x, y, width, height] in pixels. Faces are looked for within such a crop, however small they are in the whole.",
     )
-    trim: tuple[Annotated[float, Field(ge=0)], Annotated[float, Field(ge=0)]] | None = Field(
+    trim: tuple[Seconds, Seconds] | None = Field(
         None,
         examples=[(0.5, 2.0)],
         description="Start and end of the part of the driver to use, in seconds; the end comes after the start.",
@@ -70,14 +74,12 @@ class PortraitOptions(BaseModel):
         False, description="Ease the end back into the beginning, so that the result repeats without a jump."
     )
     sound: bool = Field(False, description="Keep the driver's sound.")
-    landmarks: tuple[tuple[Coordinate, Coordinate], ...] | None = Field(
+    landmarks: Landmarks | None = Field(
         None,
-        min_length=68,
-        max_length=68,
         description="Placed landmarks of the target, 68 points [x, y] in pixels of the picture, where no face is detected or detection is off. They say whose face it is: `face_index` does not count beside them.",
     )
 
-    reactive: bool | tuple[str, ...] = Field(
+    reactive: bool | States = Field(
         False,
         description="Make a reactive profile, which plays emotions on demand: true, or the built-in performances that are to be its states. A driver is not needed then; one that is given becomes a state of its own.",
     )
@@ -85,8 +87,9 @@ class PortraitOptions(BaseModel):
     @field_validator("reactive")
     @classmethod
     def _known_states(cls, reactive: bool | tuple[str, ...]) -> bool | tuple[str, ...]:
-        if isinstance(reactive, tuple) and (unknown := [name for name in reactive if name not in names()]):
-            raise ValueError(f"there is no performance {unknown[0][:80]}: choose of {', '.join(names())}")
+        known = names()
+        if isinstance(reactive, tuple) and (unknown := [name for name in reactive if name not in known]):
+            raise ValueError(f"there is no performance {unknown[0][:80]}: choose of {', '.join(known)}")
         if reactive == ():
             raise ValueError("the list of states is empty: name some, or say true")
         return reactive
