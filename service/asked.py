@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable, Coroutine
 from typing import Any
 
+from anyio.to_thread import run_sync
 from fastapi import Request
+from fastapi.routing import APIRoute
 from pydantic import BeforeValidator, ConfigDict
+from starlette.responses import Response
 
-from service.files.intake import FIELD_BYTES
-from service.problems import Problem
+from service import bodies
+from service.documents import parse_json
 
 ASKED = ConfigDict(extra="forbid", strict=True)
 """No names but the model's own, and every value of the type that the OpenAPI document says: `true` is no number."""
@@ -29,21 +32,28 @@ JSON_TYPES = ("", "application/json")
 
 async def read_json(request: Request) -> Any:
     """What a JSON body holds. Raises a 413 or a 422 problem."""
-    body = b""
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > FIELD_BYTES:
-            raise Problem(413, "request_too_large", f"The JSON body may have {FIELD_BYTES} bytes at most.")
-    return parse_json(body, "The body")
+    return await run_sync(parse_json, await bodies.read(request), "The body")
 
 
-def parse_json(text: str | bytes, what: str) -> Any:
-    """What a JSON text holds. Raises a 422 problem."""
-    try:
-        return json.loads(text, parse_constant=_no_number)
-    except (ValueError, RecursionError):
-        raise Problem(422, "invalid_json", f"{what} is not valid JSON.") from None
+class _AskedRequest(Request):
+    """A request whose body FastAPI reads within the same bounds."""
+
+    async def body(self) -> bytes:
+        if not hasattr(self, "_read"):
+            self._read = await bodies.read(self)
+        return self._read
+
+    async def json(self) -> Any:
+        return await run_sync(parse_json, await self.body(), "The body")
 
 
-def _no_number(name: str) -> None:
-    raise ValueError(f"{name} is no JSON")
+class AskedRoute(APIRoute):
+    """The class of every route whose body is a model in its signature (`APIRouter(route_class=AskedRoute)`)."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        handle = super().get_route_handler()
+
+        async def bounded(request: Request) -> Response:
+            return await handle(_AskedRequest(request.scope, request.receive))
+
+        return bounded

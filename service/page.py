@@ -8,7 +8,7 @@ from fastapi.responses import HTMLResponse
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
-from starlette.types import Scope
+from starlette.types import Receive, Scope, Send
 
 NOT_BUILT = """<!doctype html><title>Galatea</title><h1>Galatea</h1>
 <p>The service runs, but its web page is not built: run <code>make setup</code>.
@@ -21,6 +21,11 @@ class Page(StaticFiles):
     def __init__(self, folder: Path):
         super().__init__(directory=folder, html=True, check_dir=False)
         self._folder = folder
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Whole files alone: of a page nobody needs a range, and those that are none would be answered by no problem."""
+        headers = [(name, value) for name, value in scope["headers"] if name not in (b"range", b"if-range")]
+        await super().__call__({**scope, "headers": headers}, receive, send)
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         if scope["path"].startswith("/v1/"):

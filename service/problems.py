@@ -29,6 +29,10 @@ from service.traces.current import current_request
 MEDIA_TYPE = "application/problem+json"
 RETRY_SECONDS = 5
 """After how long it is worth trying again where something does not answer."""
+MOST_ERRORS = 10
+"""As many wrong fields are told of in one answer: a stranger may send many thousands."""
+LONGEST_POINTER, LONGEST_DETAIL = 300, 2000
+"""Characters of what an answer repeats of a request."""
 METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 
 HEADERS = {
@@ -64,6 +68,7 @@ class ProblemDocument(BaseModel):
     detail: str
     """What to do."""
     errors: list[FieldError] | None = None
+    """The fields that are wrong, the first ten of them."""
     request_id: str | None = None
     """Of the request, as in the service's log."""
 
@@ -82,8 +87,11 @@ class Problem(Exception):
         super().__init__(f"{code}: {detail}")
         self.status = status
         self.code = code
-        self.detail = detail
-        self.errors = list(errors)
+        self.detail = _cut(detail, LONGEST_DETAIL)
+        self.errors = [
+            FieldError(pointer=_cut(e.pointer, LONGEST_POINTER), code=e.code, detail=_cut(e.detail, LONGEST_DETAIL))
+            for e in errors[:MOST_ERRORS]
+        ]
         self.headers = dict(headers or {})
 
     def response(self) -> JSONResponse:
@@ -103,16 +111,28 @@ class Problem(Exception):
         )
 
 
+def _cut(text: str, longest: int) -> str:
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
 def field_errors(
     errors: Sequence[Any], prefix: str = "", elsewhere: Mapping[str, str] = MappingProxyType({})
 ) -> list[FieldError]:
-    """pydantic's errors as JSON pointers below `prefix`, or below what `elsewhere` has for the outermost name."""
+    """pydantic's errors as JSON pointers below `prefix`, or below what `elsewhere` has for the outermost name; no more
+    than are told of."""
 
     def pointer(location: Sequence[Any]) -> str:
         place = elsewhere.get(str(location[0]), prefix) if location else prefix
         return place + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
 
-    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors]
+    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors[:MOST_ERRORS]]
+
+
+def _invalid(code: str, errors: Sequence[FieldError], count: int) -> Problem:
+    """The 422 problem for `errors`, the first of `count`."""
+    first = errors[0]
+    more = f" There are {count - 1} more errors." if count > MOST_ERRORS else ""
+    return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}{more}", errors)
 
 
 def invalid(
@@ -125,17 +145,16 @@ def invalid(
     """The 422 problem for a pydantic error (see `field_errors`); of an option that is none of a job kind's `options`, with
     those that are."""
     told = error.errors(include_url=False, include_context=False, include_input=False)
+    count = len(told)
     if options is not None:
-        told = explained(told, options)
-    errors = field_errors(told, prefix, elsewhere)
-    first = errors[0]
-    return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}", errors)
+        told = explained(told[:MOST_ERRORS], options)
+    return _invalid(code, field_errors(told, prefix, elsewhere), count)
 
 
 def invalid_request(error: RequestValidationError) -> Problem:
     """The 422 problem for a request whose parts are not as the OpenAPI document says."""
-    errors = field_errors(error.errors())
-    return Problem(422, "invalid_request", f"{errors[0].pointer}: {errors[0].detail}", errors)
+    told = error.errors()
+    return _invalid("invalid_request", field_errors(told), len(told))
 
 
 def install(app: FastAPI) -> None:
@@ -151,8 +170,8 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:
-        if error.status_code == 400 and isinstance(error.__cause__, ValueError):  # FastAPI's, of a body that is no text
-            return Problem(422, "invalid_json", "The body is not valid JSON.").response()
+        if isinstance(error.__cause__, Problem):  # what `service.asked` says of a body, as FastAPI passes it on
+            return error.__cause__.response()
         if error.status_code == 405:
             error.headers = {"Allow": ", ".join(_methods(app, request.scope))}
         code = {404: "not_found", 405: "method_not_allowed"}.get(error.status_code, f"http_{error.status_code}")

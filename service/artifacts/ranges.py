@@ -22,14 +22,16 @@ def parse_ranges(header: str | None, size: int) -> list[tuple[int, int]] | None:
     """
     if header is None or not header.strip().lower().startswith("bytes="):
         return None
-    parts = [part.strip() for part in header.strip()[6:].split(",")]
+    parts = [part.strip() for part in header.strip()[6:].split(",", MOST_RANGES + 1)]
+    if len(parts) > MOST_RANGES:
+        return None
     ranges = []
     for part in filter(None, parts):
         parsed = _one(part, size)
         if parsed is None:
             return None
         ranges.append(parsed)
-    if not ranges or len(ranges) > MOST_RANGES:
+    if not ranges:
         return None
     inside = [(start, end) for start, end in ranges if start < end]
     if not inside:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
+from service.asked import AskedRoute
 from service.auth import repository, service
 from service.auth.caller import Admin, Reader, not_known
 from service.auth.models import Key
@@ -14,7 +15,7 @@ from service.clock import now
 from service.context import InContext
 from service.problems import Problem, responses
 
-router = APIRouter(tags=["keys"])
+router = APIRouter(tags=["keys"], route_class=AskedRoute)
 
 
 @router.get("/key", operation_id="get_own_key")

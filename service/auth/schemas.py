@@ -24,7 +24,10 @@ class KeyIn(BaseModel):
     model_config = ASKED
 
     name: str = Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")
-    scopes: Annotated[list[Scope], Field(min_length=1, max_length=10), AfterValidator(_each_once)] = ["read", "submit"]
+    scopes: Annotated[list[Scope], Field(fail_fast=True, min_length=1, max_length=10), AfterValidator(_each_once)] = [
+        "read",
+        "submit",
+    ]
     expires_in_days: float | None = Field(None, gt=0, le=36_500)
     requests_per_minute: Annotated[int, Field(ge=1, le=1_000_000), WHOLE] | None = None
     jobs_at_once: Annotated[int, Field(ge=0, le=1_000_000), WHOLE] | None = None

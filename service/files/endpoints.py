@@ -49,8 +49,7 @@ UPLOAD: dict[str, Any] = {
 async def create_file(request: Request, response: Response, caller: Submitter, context: InContext) -> FileOut:
     """Upload one file. It is erased after a while if no job uses it."""
     require_multipart(request)
-    async with Form(request, context.settings, most_files=1) as form:
-        form.require_only(fields=(), files=("file",))
+    async with Form(request, context.settings, most_files=1, files=("file",)) as form:
         if not form.files:
             raise Problem(422, "file_missing", "Send the file as a part of the multipart body.")
         file = await run_sync(service.keep, context, caller.owner, form.files[0])

@@ -113,8 +113,8 @@ def list_jobs(
     response: Response,
     caller: Reader,
     context: InContext,
-    status: Annotated[list[Status], Query(description="One or several.")] = [],  # noqa: B006
-    kind: Annotated[list[str], Query(description="One or several.")] = [],  # noqa: B006
+    status: Annotated[list[Status], Query(description="One or several.", max_length=20)] = [],  # noqa: B006
+    kind: Annotated[list[str], Query(description="One or several.", max_length=100)] = [],  # noqa: B006
     created_after: Moment | None = None,
     created_before: Moment | None = None,
     q: Annotated[

@@ -85,7 +85,9 @@ def resolve(
     for name in given:
         if name not in offered:
             names = ", ".join(offered)
-            errors.append(_error(name, "unknown_input", f"{kind.name} has no input “{name}”; it has {names}.", place))
+            errors.append(
+                _error(name, "unknown_input", f"{kind.name} has no input “{name[:80]}”; it has {names}.", place)
+            )
     for item in kind.inputs:
         try:
             source = _source(lookup, item, given.get(item.name))

@@ -9,9 +9,10 @@ from anyio.to_thread import run_sync
 from fastapi import Request
 from pydantic import ValidationError
 
-from service.asked import JSON_TYPES, parse_json, read_json
+from service.asked import JSON_TYPES, read_json
 from service.auth.caller import Caller
 from service.context import Context
+from service.documents import parse_json
 from service.files import service as files
 from service.files.intake import Form
 from service.files.models import File
@@ -67,7 +68,7 @@ async def _accepted(
         return await _accepted_form(request, context, caller, model, named, accept)
     if content_type.split(";")[0].strip() not in JSON_TYPES:
         raise Problem(415, "body_type_unsupported", "Send the body as application/json or multipart/form-data.")
-    asked = _validated(model, await read_json(request))
+    asked = await run_sync(_validated, model, await read_json(request))
     require_priority(caller, asked.priority)
     return await run_sync(accept, asked, {})
 
@@ -75,15 +76,9 @@ async def _accepted(
 async def _accepted_form(
     request: Request, context: Context, caller: Caller, model: type[Asked], named: str, accept: Accept[Asked]
 ) -> tuple[Job, bool]:
-    async with Form(request, context.settings, context.settings.upload_files) as form:
-        parts = (named, *JSON_PARTS)
-        document: dict[str, Any] = {name: parse_json(form.fields[name], name) for name in parts if name in form.fields}
-        document |= {name: form.fields[name] for name in TEXT_PARTS if name in form.fields}
-        # Any other text part names an input, so that `-F driver=idle` works beside `-F image=@photo.jpg`.
-        texts = {name: text for name, text in form.fields.items() if name not in (*parts, *TEXT_PARTS)}
-        if texts and isinstance(document.setdefault(named, {}), dict):
-            document[named] |= texts
-        asked = _validated(model, document)
+    texts = (named, *JSON_PARTS, *TEXT_PARTS)
+    async with Form(request, context.settings, context.settings.upload_files, texts) as form:
+        asked = await run_sync(_asked, model, named, form.fields)
         require_priority(caller, asked.priority)
         uploaded: dict[str, list[File]] = {}
         ids: list[str] = []
@@ -96,6 +91,18 @@ async def _accepted_form(
         finally:
             # Those that no job uses: the job was refused, or an earlier request had made it.
             await run_sync(files.erase_unused, context, ids)
+
+
+def _asked(model: type[Asked], named: str, fields: Mapping[str, str]) -> Asked:
+    """What the texts of a form ask for. Raises a 422 problem."""
+    parts = (named, *JSON_PARTS)
+    document: dict[str, Any] = {name: parse_json(fields[name], name) for name in parts if name in fields}
+    document |= {name: fields[name] for name in TEXT_PARTS if name in fields}
+    # Any other text part names an input, so that `-F driver=idle` works beside `-F image=@photo.jpg`.
+    texts = {name: text for name, text in fields.items() if name not in (*parts, *TEXT_PARTS)}
+    if texts and isinstance(document.setdefault(named, {}), dict):
+        document[named] |= texts
+    return _validated(model, document)
 
 
 def _validated(model: type[Asked], document: Any) -> Asked:

@@ -16,6 +16,7 @@ from service.clock import now
 from service.jobs.models import TITLE_CHARACTERS, TITLE_PATTERN, Job, Priority, Status
 from service.webhooks.schemas import Events, Url
 
+Given = str | Annotated[list[str], Field(fail_fast=True, max_length=200)]
 PriorityName = Literal["high", "normal", "low"]
 Title = Annotated[str, Field(min_length=1, max_length=TITLE_CHARACTERS, pattern=TITLE_PATTERN)]
 
@@ -26,7 +27,7 @@ class JobIn(BaseModel):
     model_config = ASKED
 
     kind: str
-    inputs: dict[str, str | list[str]] = {}
+    inputs: dict[str, Given] = {}
     """Input names to file ids, https addresses or names of drivers; a list where an input takes many."""
     options: dict[str, JsonValue] = {}
     webhook_url: Url | None = None

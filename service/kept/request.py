@@ -72,8 +72,7 @@ async def keep_body(request: Request, context: Context, caller: Caller, shelf: S
 
 
 async def _keep_form(request: Request, context: Context, owner: str, shelf: Shelf) -> str:
-    async with Form(request, context.settings, most_files=1) as form:
-        form.require_only(fields=("name",), files=("file",))
+    async with Form(request, context.settings, most_files=1, texts=("name",), files=("file",)) as form:
         name = form.fields.get("name", "")
         await run_sync(service.require_free_name, context, shelf, owner, name)
         if not form.files:

@@ -8,6 +8,9 @@ from difflib import get_close_matches
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
+LONGEST_NAME = 80
+"""As many characters of a name are compared, which takes time by the square of them."""
+
 
 def explained(errors: Sequence[ErrorDetails], options: type[BaseModel]) -> list[ErrorDetails]:
     """pydantic's errors, those of unknown options with what is nearest by name, or all there are."""
@@ -17,6 +20,6 @@ def explained(errors: Sequence[ErrorDetails], options: type[BaseModel]) -> list[
 def _explained(error: ErrorDetails, names: Sequence[str]) -> ErrorDetails:
     if error["type"] != "extra_forbidden" or len(error["loc"]) != 1:
         return error
-    near = get_close_matches(str(error["loc"][0]), names, n=1)
+    near = get_close_matches(str(error["loc"][0])[:LONGEST_NAME], names, n=1)
     there = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}."
     return {**error, "msg": f"There is no such option: {there}"}

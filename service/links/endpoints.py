@@ -11,6 +11,7 @@ from starlette.responses import Response
 
 from service.artifacts import repository as artifacts
 from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
+from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.clock import now
 from service.context import InContext
@@ -22,7 +23,7 @@ from service.links.models import PublicLink
 from service.links.schemas import LinkIn, LinkList, LinkOut, SharedOut, opens
 from service.problems import Problem, responses
 
-router = APIRouter(tags=["links"])
+router = APIRouter(tags=["links"], route_class=AskedRoute)
 
 FROM_ANYWHERE = {
     "Access-Control-Allow-Origin": "*",

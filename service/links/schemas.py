@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import datetime
+from typing import Annotated
 from urllib.parse import quote
 
 from pydantic import BaseModel, Field
@@ -20,7 +21,7 @@ class LinkIn(BaseModel):
 
     expires_in_hours: float | None = Field(None, gt=0, le=876_000)
     """Null: it is good until it is revoked."""
-    artifacts: list[str] | None = Field(None, min_length=1, max_length=200)
+    artifacts: Annotated[list[str], Field(fail_fast=True, min_length=1, max_length=200)] | None = None
     """The artifacts that it opens; null: all of them."""
 
 

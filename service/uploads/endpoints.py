@@ -7,6 +7,7 @@ from fastapi import APIRouter, Depends, Request
 from starlette.responses import JSONResponse, Response
 
 from service.auth.caller import Caller, Reader, Submitter
+from service.bodies import announced
 from service.context import Context, InContext
 from service.disk import require_space
 from service.problems import Problem, responses
@@ -185,7 +186,7 @@ async def _receive(
             )
         service.require_length(context, upload, length)
         length = upload.length if length is None else length
-        coming = _announced(request)
+        coming = announced(request)
         if length is not None and offset + coming > length:
             raise Problem(
                 413,
@@ -200,9 +201,3 @@ async def _receive(
     if reception.file is not None:
         under_way.forget(upload_id)
     return upload
-
-
-def _announced(request: Request) -> int:
-    """How many bytes a request says it brings; 0 where it does not say."""
-    length = request.headers.get("content-length", "")
-    return int(length) if length.isdecimal() else 0

@@ -8,6 +8,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
+from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.clock import now
 from service.context import InContext
@@ -30,7 +31,7 @@ from service.webhooks.schemas import (
     WebhookOut,
 )
 
-router = APIRouter(prefix="/webhooks", tags=["webhooks"])
+router = APIRouter(prefix="/webhooks", tags=["webhooks"], route_class=AskedRoute)
 
 
 @router.get("", operation_id="list_webhooks")
@@ -56,8 +57,8 @@ def list_deliveries(
     response: Response,
     caller: Reader,
     context: InContext,
-    status: Annotated[list[DeliveryStatus], Query(description="One or several.")] = [],  # noqa: B006
-    event: Annotated[list[Told], Query(description="One or several.")] = [],  # noqa: B006
+    status: Annotated[list[DeliveryStatus], Query(description="One or several.", max_length=20)] = [],  # noqa: B006
+    event: Annotated[list[Told], Query(description="One or several.", max_length=20)] = [],  # noqa: B006
     job: Annotated[str | None, Query(description="The id of a job.")] = None,
     webhook: Annotated[str | None, Query(description="The id of an endpoint.")] = None,
     limit: Annotated[int, Query(ge=1, le=200)] = 50,

@@ -25,7 +25,9 @@ def _once(events: list[EventType]) -> list[EventType]:
 
 
 Url = Annotated[str, Field(min_length=1, max_length=URL_CHARACTERS)]
-Events = Annotated[list[Annotated[EventType, Strict(False)]], Field(min_length=1, max_length=20), AfterValidator(_once)]
+Events = Annotated[
+    list[Annotated[EventType, Strict(False)]], Field(fail_fast=True, min_length=1, max_length=20), AfterValidator(_once)
+]
 Description = Annotated[str, Field(max_length=500, pattern=r"^[^\x00]*$")]
 Told = EventType | Literal["webhook.test"]
 """All that an address can be told."""

@@ -20,7 +20,8 @@ from engine.media.limits import Limits
 from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff_bytes
 from engine.media.timing import rate_of
 from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
-from service.files.intake import Form, shown_name
+from service.files.door import shown_name
+from service.files.intake import MOST_FIELDS, Form
 from service.problems import Problem
 from service.settings import Settings
 
@@ -166,3 +167,49 @@ def test_a_chunk_that_claims_an_absurd_length_ends_the_file(tmp_path: Path, leng
     path.write_bytes(b"RIFF\0\0\0\0WEBPANMF" + struct.pack("<I", length))
     with pytest.raises(InputError):
         animated_webp.read_chunks(path)
+
+
+def taken(form_type: str, pieces: list[bytes], folder: Path) -> tuple[Problem, int]:
+    """The problem that a form is, and how many of its pieces had been taken by then."""
+    waiting = [{"type": "http.request", "body": piece, "more_body": True} for piece in pieces]
+    scope = {"type": "http", "method": "POST", "headers": [(b"content-type", form_type.encode("latin-1"))]}
+    count = 0
+
+    async def next_piece() -> dict[str, object]:
+        nonlocal count
+        count += 1
+        return waiting[count - 1]
+
+    async def work() -> Problem:
+        with pytest.raises(Problem) as caught:
+            async with Form(Request(scope, next_piece), Settings(data_dir=folder, disk_reserve_mb=0), 3, ("options",)):
+                pass
+        return caught.value
+
+    return anyio.run(work), count
+
+
+def part(name: str, content: bytes = b"x", more: str = "") -> bytes:
+    return f'--edge\r\nContent-Disposition: form-data; name="{name}"{more}\r\n\r\n'.encode() + content + b"\r\n"
+
+
+@pytest.mark.parametrize(
+    ("pieces", "status", "code", "most"),
+    [
+        ([part(f"f{i}") for i in range(30_000)], 413, "too_many_parts", MOST_FIELDS + 1),
+        ([part("f", b"", '; filename=""') for _ in range(30_000)], 413, "too_many_parts", MOST_FIELDS + 1),
+        ([part("f", b"GIF89a", '; filename="a"') for _ in range(30_000)], 413, "too_many_files", 4),
+        ([b"--edge\r\n", *(b"X-%d: a\r\n" % i for i in range(30_000))], 413, "part_head_too_large", 11),
+        ([b"--edge\r\nX: ", *[b"a" * 1000] * 30_000], 413, "part_head_too_large", 6),
+        ([b"--edge\r\n", *[b"X" * 1000] * 30_000], 413, "part_head_too_large", 6),
+        ([part("options")[:-3], *[b"1" * 10_000] * 30_000], 413, "request_too_large", 102),
+        ([part(f"f{i}", b"x" * 3000) for i in range(90)] + [part("options", b"1" * 800_000)], 413, "request_too_large", 91),
+    ],
+    ids=["fields", "files not chosen", "files", "headers", "a header's value", "a header's name", "a text", "texts"],
+)  # fmt: skip
+def test_a_form_is_refused_before_the_rest_of_it_has_come(
+    tmp_path: Path, pieces: list[bytes], status: int, code: str, most: int
+) -> None:
+    problem, count = taken("multipart/form-data; boundary=edge", pieces, tmp_path)
+    assert (problem.status, problem.code) == (status, code)
+    assert count <= most

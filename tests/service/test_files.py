@@ -108,7 +108,7 @@ def test_broken_bodies_are_problems(
 
 
 def test_one_file_at_a_time(running: Running, picture: bytes) -> None:
-    response = running.client.post("/v1/files", files=[("a", ("a", picture)), ("b", ("b", picture))])
+    response = running.client.post("/v1/files", files=[("file", ("a", picture)), ("file", ("b", picture))])
     assert (response.status_code, response.json()["code"]) == (413, "too_many_files")
 
 

@@ -9,10 +9,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 from running import HERE, Running
+from servers import PostgresServer
 
 SEED = 4711
 EXAMPLES, SECONDS = 4, 50
 """Requests of each kind for each operation; how long the random phases go on."""
+
+MORE_EXAMPLES, MORE_SECONDS = 40, 25
+"""The same where one phase has a service to itself."""
 
 SETTINGS = {"image_mb": 1, "video_mb": 2, "wait_seconds": 0.3, "allowed_networks": "127.0.0.0/8"}
 
@@ -74,6 +78,22 @@ def test_where_a_key_is(start: Callable[..., Running], picture: bytes, tmp_path:
     running.start()
     running.client.headers["Authorization"] = f"Bearer {key['token']}"
     faultless(running, picture, tmp_path, "--header", f"Authorization: Bearer {key['token']}", key=key["id"])
+
+
+def test_what_nobody_would_send_on_another_database(
+    start: Callable[..., Running], postgres: PostgresServer, picture: bytes, tmp_path: Path
+) -> None:
+    running = start(database_url=postgres.new_database(), **SETTINGS)
+    faultless(running, picture, tmp_path, *only("fuzzing"))
+
+
+def test_sequences_of_requests(start: Callable[..., Running], picture: bytes, tmp_path: Path) -> None:
+    faultless(start(**SETTINGS), picture, tmp_path, *only("stateful"))
+
+
+def only(phase: str) -> tuple[str, ...]:
+    """Arguments by which one phase has all the time."""
+    return "--phases", phase, "--max-examples", str(MORE_EXAMPLES), "--max-time", str(MORE_SECONDS)
 
 
 def faultless(running: Running, picture: bytes, folder: Path, *arguments: str, key: str = "") -> None:
