@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from engine.character.framing import kept_in_frame
 from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
@@ -20,9 +21,7 @@ from engine.motion.reading import read_motion
 from engine.motion.retarget import retarget
 from engine.motion.source_motion import SourceMotion
 from engine.motion.step_out import step_out
-
-NEAREST = 0.3
-"""How near to the camera the film lets the person come, as a share of the distance at which they are pictured."""
+from engine.render.camera import Camera
 
 
 @dataclass(frozen=True)
@@ -58,6 +57,7 @@ def motion_in_use(
 
 def choose_motion(
     character: Character,
+    camera: Camera,
     start: Clip,
     name: str,
     motion: SourceMotion | None,
@@ -68,7 +68,7 @@ def choose_motion(
 ) -> Played:
     """The character's clips at `fps` frames a second, beginning from the pose `start`: the built-in one of that `name`, or a
     file's `motion`, of which `joints` overrides which joint moves which. Parts of the body that are `kept` stay as they
-    are there.
+    are there. In the film the person stays in the picture of `camera`.
 
     Raises
     ------
@@ -82,12 +82,14 @@ def choose_motion(
         carried = retarget(motion, skeleton, joints, fps=fps)
         clip, mapping = replace(carried.clip, name="motion"), carried.mapping
     length = seconds if clip.loops else None
-    stepped = step_out(skeleton, start, clip, length=length)
+
+    def stepped(back: float) -> Clip:
+        film = _cut(step_out(skeleton, start, clip, length=length, back=back), seconds)
+        return keep(skeleton, film, start, list(kept)) if kept else film
+
+    film = replace(kept_in_frame(character, camera, stepped), name="step_out")
     if kept:
-        clip, stepped = (keep(skeleton, one, start, list(kept)) for one in (clip, stepped))
-    arrived = np.flatnonzero(stepped.root[:, 2] > (1 - NEAREST) * character.eye[2])
-    until = min(seconds, arrived[0] / fps) if len(arrived) else seconds
-    film = replace(_cut(stepped, until), name="step_out")
+        clip = keep(skeleton, clip, start, list(kept))
     idle = built_in("idle", skeleton, fps)
     clips = [character.pictured, film, clip, replace(in_place(clip), name=f"{clip.name}_in_place")]
     if clip.name != "idle":

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from engine.character.figure import Figure
 from engine.character.label_map import Labels
+from engine.character.measures import picture_camera
 from engine.character.motions import choose_motion, posed_by_hand
 from engine.character.options import CharacterOptions
 from engine.character.rigging import Character
@@ -26,8 +27,10 @@ class Person:
 
     def act(self, options: CharacterOptions, motion: SourceMotion | None) -> None:
         """Choose the pose they `start` from and what is `played`."""
+        height, width = self.figure.rgb.shape[:2]
+        camera = picture_camera(self.character, self.fitted, (height, width))
         self.start = posed_by_hand(self.character, options.pose)
         self.played = choose_motion(
-            *(self.character, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
+            *(self.character, camera, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
             options.motion_joints,
         )

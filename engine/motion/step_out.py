@@ -41,7 +41,14 @@ class _Window:
     lifted: bool
 
 
-def step_out(skeleton: Skeleton, pictured: Clip, clip: Clip, seconds: float = 0.8, length: float | None = None) -> Clip:
+def step_out(
+    skeleton: Skeleton,
+    pictured: Clip,
+    clip: Clip,
+    seconds: float = 0.8,
+    length: float | None = None,
+    back: float = 0.0,
+) -> Clip:
     """From the first frame of `pictured` into `clip`, at the clip's frame rate; frame 0 is the pictured pose exactly.
 
     Parameters
@@ -51,6 +58,7 @@ def step_out(skeleton: Skeleton, pictured: Clip, clip: Clip, seconds: float = 0.
         one round after that; another clip is entered at its beginning, and plays to its end.
     seconds : how long it takes to be in the clip.
     length : seconds in all, where the default does not fit.
+    back : metres by which the first steps lead away from the viewer, out of where the person is pictured.
     """
     fps, leg = clip.fps, leg_length(skeleton)
     round_ = repeated(clip, 3 * len(clip.rotations)) if clip.loops else clip
@@ -70,7 +78,7 @@ def step_out(skeleton: Skeleton, pictured: Clip, clip: Clip, seconds: float = 0.
     )
     contacts = np.concatenate([stands, np.repeat(stands[-1:], len(source.rotations), 0)])
     contacts = contacts[np.round(own_frames).astype(int)]
-    played = _aligned(skeleton, pictured, played, contacts)
+    played = _aligned(skeleton, pictured, played, contacts, back)
     blended = _blend(skeleton, pictured, played, contacts, seconds, leg)
     return replace(blended, name=f"step out, {clip.name}")
 
@@ -97,8 +105,9 @@ def _feet_from_hips(skeleton: Skeleton, clip: Clip) -> Array:
     return np.asarray(sole_places(skeleton, clip)[:, :, 1] - np.asarray(clip.root, np.float64)[:, None])
 
 
-def _aligned(skeleton: Skeleton, pictured: Clip, played: Clip, contacts: NDArray[np.bool_]) -> Clip:
-    """The clip moved over the ground, so that the feet on which it begins to stand are where they are pictured."""
+def _aligned(skeleton: Skeleton, pictured: Clip, played: Clip, contacts: NDArray[np.bool_], back: float) -> Clip:
+    """The clip moved over the ground, so that the feet on which it begins to stand are where they are pictured, or as far
+    behind that as the person steps `back`."""
     there = sole_places(skeleton, replace(pictured, rotations=pictured.rotations[:1], root=pictured.root[:1]))[0, :, 1]
     here = sole_places(skeleton, replace(played, rotations=played.rotations[:1], root=played.root[:1]))[0, :, 1]
     lasting = np.array([_stands_on(contacts[:, side]) for side in range(2)])
@@ -107,7 +116,7 @@ def _aligned(skeleton: Skeleton, pictured: Clip, played: Clip, contacts: NDArray
     else:
         side = int(np.argmax(lasting))
         shift = there[side] - here[side]
-    return replace(played, root=(played.root + shift * [1, 0, 1]).astype(np.float32))
+    return replace(played, root=(played.root + shift * [1, 0, 1] - [0, 0, back]).astype(np.float32))
 
 
 def _stands_on(stands: NDArray[np.bool_]) -> int:
@@ -118,7 +127,7 @@ def _stands_on(stands: NDArray[np.bool_]) -> int:
 def _windows(contacts: NDArray[np.bool_], gaps: Array, seconds: float, fps: float) -> list[_Window]:
     """When each foot leaves its pictured place: with its first step in the clip if that comes soon, else in a step of
     its own; feet that are where they should be only settle."""
-    windows = []
+    windows: list[_Window] = []
     lasting = [_stands_on(contacts[:, side]) / fps for side in range(2)]
     both_wait = min(lasting) > seconds
     for side in range(2):
@@ -134,6 +143,16 @@ def _windows(contacts: NDArray[np.bool_], gaps: Array, seconds: float, fps: floa
         else:
             landing = next((first / fps for first, _ in spans(contacts[:, side])), seconds)
             windows.append(_Window(0.0, max(landing, 0.3), True))
+    return _in_turn(windows, lasting)
+
+
+def _in_turn(windows: list[_Window], lasting: list[float]) -> list[_Window]:
+    """Where both feet would leave their places at once, the one on which the clip stands longer waits for the other."""
+    if not all(window.lifted for window in windows) or windows[0].begin != windows[1].begin:
+        return windows
+    later = int(np.argmax(lasting))
+    begin, step = windows[1 - later].end, windows[later].end - windows[later].begin
+    windows[later] = replace(windows[later], begin=begin, end=begin + step)
     return windows
 
 

@@ -114,16 +114,17 @@ def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_p
 def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
     picture: Path, media: Callable[[str], Path], tmp_path: Path
 ) -> None:
-    """Up to the camera; the character keeps the loop, and out of its file it leads there again."""
+    """As far as the picture has room; the character keeps the loop, and out of its file it leads there again."""
     motion = media("mocap/makehuman_walk_cycle.bvh")
     for folder, clip in (("first", None), ("again", "motion_in_place")):
         out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip)
         motion = out / "character.glb"
         film = read_gltf_motion(motion, "step_out")
-        way = film.translations[:, film.names.index("Hips"), 2]
-        camera = json.loads((out / "skeleton.json").read_text())["camera"]["eye"][2]
-        assert way[0] < 0.1 * camera
-        assert 0.6 * camera < way[-1] < 0.7 * camera
+        hips = film.names.index("Hips")
+        way = film.translations[:, hips, 2]
+        assert film.fps * 4 == len(way), "for as long as it was asked for"
+        assert way.max() - way[0] < 0.5, "the person fills the picture"
+        assert np.ptp(read_gltf_motion(motion, "motion").translations[:, hips, 2]) > 0.5, "a walk that gets on"
         assert sum(1 for _ in read_video(out / "animation.mp4")) == len(film.rotations)
         for name in ("motion", "motion_in_place"):
             assert read_gltf_motion(motion, name).loops
