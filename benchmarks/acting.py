@@ -62,5 +62,5 @@ def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) 
 def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[DriverTrack, int]:
     """A clip as a driver for a target, its meshes on the skin."""
     track = track_driver(path, None, None, Limits())
-    chosen = choose_neutral_frame(track, target.mesh, neutral)
+    chosen = choose_neutral_frame(track, target.mesh, neutral).frame
     return replace(track, meshes=register_track(track, chosen).meshes), chosen

@@ -42,7 +42,7 @@ def main() -> None:
     layers = separate_layers(target)
     rig = rig_target(target, layers)
     track = track_driver(video(PERFORMANCE), None, (0.0, SECONDS + 0.5), Limits())
-    neutral = choose_neutral_frame(track, target.mesh, None)
+    neutral = choose_neutral_frame(track, target.mesh, None).frame
     register_track(track, neutral)
     ratios = list(keep_ratio_images(track, neutral))
     frame = round(SECONDS * track.fps)

@@ -53,7 +53,13 @@ class Eyeball:
 def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) how far each iris has moved against the neutral frame, right eye first, in eye widths along
     and across the line between the eye's corners. A shut eye does not look anywhere: it moves back to rest."""
-    return np.stack([_look(meshes, s) - _look(neutral[None], s) for s in SIDES], axis=1)
+    return look(meshes) - look(neutral[None])
+
+
+def look(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N, 2, 2) where each iris stands between the eye's corners, right eye first, from their middle, in eye widths along
+    and across the line between them."""
+    return np.stack([_look(meshes, side) for side in SIDES], axis=1)
 
 
 def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:

@@ -1,39 +1,70 @@
-"""The driver's neutral frame s*: closed mouth, open eyes, calm brows, frontal, near the calm frames' mean (section 4)."""
+"""The driver's neutral frame s*: closed mouth, open eyes, calm brows, frontal, near the calm frames' mean (section 4).
+
+First the driver's own face at rest is found, from the driver alone; then the frame nearest to it. Only where the target
+itself wears an expression is the frame nearest to that looked for, because equation 1 carries differences against it.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from engine.errors import InputError
-from engine.perception.landmarks import RIGID, eye_opening, fiducials, mouth_opening
 from engine.portrait.driver import DriverTrack
-from engine.portrait.expression import EXPRESSION, expression, lopsided
-from engine.portrait.head_motion import fit_rigid, turns
+from engine.portrait.expression import lopsided
+from engine.portrait.eyes import look
+from engine.portrait.head_motion import turns
+from engine.portrait.measures import FACE, LIDS, MEASURES, MOUTH, SPREAD, USUAL, USUAL_BELOW, general_rest, measure
 
-MOUTH, SHUT, CORNERS, WIDE, TORN, UPPER, EYES, TURN, MEAN = 4.0, 2.0, 10.0, 4.0, 20.0, 10.0, 2.0, 1.5, 3.0
-"""What counts how much: a mouth that is further open, or less open, than the target's, how far its corners lie higher or
-lower, by how much it is wider and by how much it is torn to another side (eye distances), brows and lids that no calm face shows, closing of the eyes, radians of
-turn, and distance from the mean. A mouth that stays a little open does less harm than one that is pressed together,
-because the frame with the right opening smiles and the target does not."""
+LOWERED, LIDS_VARY = 4.0, 0.2
+"""How much lowered lids count, as a share of how far they are usually open, beyond what these vary by."""
 
-USUAL = 0.05
-"""Eye distances by which mouths differ between people who do nothing."""
+ALIKE = 0.5
+"""Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
+is the rest."""
 
-CALM = {"inner_brows_up": (0.28, 0.31, 0.41), "eyes_open": (0.18, 0.24, 0.40)}
-"""Where people who do nothing have the brows' inner ends and the lids: most of two dozen from the second value to the third,
-and a driver down to the first that has them there most of the time. They differ by as much as an expression moves them: a
-target's alone do not tell what it shows, and are taken to be at rest."""
+MOST = 2000
+"""Frames that are compared with one another: of longer videos as many, evenly spread."""
 
-CALMEST = 0.2
-"""Share of a driver's frames that stand for its face at rest: over a whole clip it may be surprised most of the time."""
+AS_CALM = 0.5
+"""Frames whose mean square difference from what is looked for, in `SPREAD`, is greater than the least by no more than this
+are as good; the head's turn and the gaze choose among them."""
+
+TURN, ASIDE = 0.2, 0.1
+"""What counts as much as one `SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
+look, elsewhere than the target's."""
+
+TORN = 0.05
+"""The same of a mouth that is torn aside, in eye distances."""
+
+UNEVEN = 0.15
+"""Eye distances from which on a target's mouth is torn aside: under it, faces that are turned or painted seem so, too."""
+
+WORN = 0.5
+"""Beyond this, in standard deviations of `USUAL` past the first, a target wears an expression."""
+
+CALM = 2.0
+"""Mean square of a calm face's differences from a face at rest, in standard deviations of `USUAL`."""
+
+Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
 
 
-def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> int:
-    """The frame of the driver that shows what the target shows.
+@dataclass(frozen=True)
+class NeutralFrame:
+    """A frame of the driver and why it was taken: `chosen` by the user; `at_rest` as the target is; `like_the_target`, whose
+    expression it shares; `nearest_to_rest`, of a driver that is never at rest."""
 
-    For a neutral target that is the driver's neutral frame. For one that smiles or is turned it is the frame
-    whose expression is nearest, because equation 1 carries differences against it.
+    frame: int
+    reason: Reason
+
+
+def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> NeutralFrame:
+    """The frame of the driver that shows what the target shows: rest, or the expression that the target wears.
 
     Parameters
     ----------
@@ -49,39 +80,89 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
                 f"are {len(track)}.",
                 ("neutral_frame",),
             )
-        return chosen
-    cost = neutral_cost(track.meshes, target)
-    return int(np.argmin(np.where(track.found, cost, np.inf)))
+        return NeutralFrame(chosen, "chosen")
+    values = measure(track.meshes)
+    rest = probable_rest(values[track.found])
+    worn = worn_expression(target)
+    face = (
+        _face_unlike(values, rest + worn) + _torn(track, target, values, rest) + LOWERED * _lowered(values, rest[LIDS])
+    )
+    face = np.where(track.found, face, np.inf)
+    place = (turns(track.meshes, target) / TURN) ** 2 + _gaze_unlike(track.meshes, target)
+    frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
+    if worn.any():
+        return NeutralFrame(frame, "like_the_target")
+    return NeutralFrame(frame, "at_rest" if unrest(values[frame][None])[0] <= CALM else "nearest_to_rest")
 
 
-def neutral_cost(meshes: NDArray[np.float32], target: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) how far each frame's mesh (478, 3) is from showing the target's expression, 0 is a match."""
-    rigid = list(RIGID)
-    middle = meshes[len(meshes) // 2].astype(float)
-    scale, rotation, shift = fit_rigid(middle[rigid], meshes[:, rigid], np.ones(len(rigid)))
-    inner = fiducials(meshes)[:, 17:]
-    at_rest = np.einsum("nji,nvj->nvi", rotation, inner - shift[:, None]) / scale[:, None, None]
-    unit = float(np.linalg.norm(middle[33] - middle[263]))
-    angle = turns(meshes, target)
-    opening = mouth_opening(meshes) - float(mouth_opening(target))
-    mouth = np.maximum(MOUTH * opening, -SHUT * opening)
-    corners, wide = (EXPRESSION.index(name) for name in ("corners_up", "mouth_wide"))
-    shown, wanted = expression(meshes), expression(np.asarray(target)[None])[0]
-    smile = np.maximum(np.abs(shown[:, corners] - wanted[corners]) - USUAL, 0)
-    at_most = max(float(wanted[wide]), float(np.quantile(shown[:, wide], 0.2)))
-    grin = np.maximum(shown[:, wide] - at_most - USUAL, 0)
-    torn = np.linalg.norm(lopsided(meshes) - lopsided(np.asarray(target)[None]), axis=-1).mean(axis=-1)
-    torn = np.maximum(torn - USUAL, 0)
-    upper = sum(_outside(shown[:, k], wanted[k], *CALM[name]) for k, name in enumerate(EXPRESSION) if name in CALM)
-    cost = mouth + CORNERS * smile + WIDE * grin + TORN * torn + UPPER * upper + TURN * angle
-    calm = cost <= np.quantile(cost, CALMEST)
-    eyes = eye_opening(meshes)
-    closing = np.clip(1 - eyes / np.maximum(np.median(eyes[calm], axis=0), 1e-3), 0, 1).max(axis=1)
-    far = np.linalg.norm(at_rest - np.median(at_rest[calm], axis=0), axis=-1).mean(axis=-1) / unit
-    return np.asarray(cost + EYES * closing + MEAN * far, float)
+def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
+    """Warn (`driver_never_at_rest`) where the driver shows a face at rest in none of its frames."""
+    if choice.reason == "nearest_to_rest":
+        warn(
+            "driver_never_at_rest",
+            f"The driver's face is at rest in none of its frames, so that frame {choice.frame} stands for it: let the "
+            "performance begin with a calm face and closed lips, or choose neutral_frame by hand.",
+        )
 
 
-def _outside(shown: NDArray[np.floating], wanted: float, least: float, low: float, high: float) -> NDArray[np.floating]:
-    """(N,) how far values (N,) lie outside of a range that is widened to what is wanted, and towards what is usual."""
-    low = min(low, wanted, max(float(np.median(shown)), least))
-    return np.maximum(np.maximum(low - shown, shown - max(high, wanted)), 0)
+def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
+
+    The most probable one, where people at rest are distributed about the general rest by `USUAL`, and one person at rest
+    about their own by `SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
+    for a driver may laugh through most of a clip; likeness alone would not, for people differ.
+    """
+    seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
+    apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
+    lowered = _lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
+    cost = unrest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * lowered
+    alike = apart[int(np.argmin(cost))] < ALIKE**2
+    return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
+
+
+def unrest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how unlike a face at rest faces with these measures (N, 12) are, whoever they are: the mean square of the
+    differences, 1 is what people at rest differ by."""
+    apart = values - general_rest()
+    return np.asarray(np.mean((apart / np.where(apart < 0, USUAL_BELOW, USUAL))[:, FACE] ** 2, axis=1), float)
+
+
+def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """By how much the target's measures (12,) are beyond what people at rest differ by: of a mouth that is open or smiles.
+    Brows and lids differ between people by as much as an expression moves them, and narrow mouths are a matter of style: of
+    these a target tells nothing, and is taken to be at rest."""
+    shown = (measure(np.asarray(target)[None])[0] - general_rest()) / USUAL
+    worn = np.zeros(len(MEASURES))
+    worn[MOUTH] = np.maximum(shown[MOUTH] - 1, 0)
+    return np.asarray(np.where(worn > WORN, worn, 0) * USUAL, float)
+
+
+def _lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) by which share of how far they are `usual`ly open (2,) lids are lowered, beyond what these vary by."""
+    return np.asarray(np.clip(1 - LIDS_VARY - values[:, LIDS] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float)
+
+
+def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) mean square difference of measures (N, 12) from those `wanted` (12,), in `SPREAD`, the head's turn left out."""
+    return np.asarray((((values - wanted) / SPREAD)[:, FACE] ** 2).mean(axis=1), float)
+
+
+def _torn(
+    track: DriverTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N,) square of how far each frame's mouth is torn aside, in `TORN`: from where it is at rest, which is even but for as
+    much, or from the target's where that is torn."""
+    torn = lopsided(track.meshes)
+    nearest = np.argsort(np.where(track.found, _face_unlike(values, rest), np.inf))[:5]
+    wanted = np.median(torn[nearest], axis=0)
+    wanted *= min(1, TORN / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
+    shown = lopsided(np.asarray(target)[None])[0]
+    if np.linalg.norm(shown, axis=-1).mean() > UNEVEN:
+        wanted = shown
+    return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN) ** 2, float)
+
+
+def _gaze_unlike(meshes: NDArray[np.floating], target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) square of how far each frame's eyes look elsewhere than the target's, in `ASIDE`."""
+    aside = np.linalg.norm(look(meshes) - look(np.asarray(target)[None]), axis=-1).mean(axis=-1)
+    return np.asarray((aside / ASIDE) ** 2, float)

@@ -22,7 +22,7 @@ from engine.portrait.fine_details import DetailRegion, RatioStrip, detail_region
 from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.loop import close_loop
 from engine.portrait.misfit import Misfit
-from engine.portrait.neutral import choose_neutral_frame
+from engine.portrait.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
 from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import render
@@ -71,6 +71,7 @@ def animate_portrait(
         loop=options.loop,
     )
     track, neutral = performed.track, performed.neutral
+    warn_of_unrest(performed.choice, run.warn)
     height, width = target.rgb.shape[:2]
     misfit = performed.look_again(target, prepared.details(), options, run)
     layers, rig = prepared.layers(), prepared.rig()
@@ -88,6 +89,7 @@ def animate_portrait(
             "frames": len(track),
             "faces": in_pixels(target.faces),
             "neutral_frame": neutral,
+            "neutral_frame_reason": performed.choice.reason,
             "driver_size": list(track.size),
             "driver_faces": in_pixels(track.faces),
             "animation": options.animation,
@@ -121,12 +123,17 @@ def prepare_target(looking: Beside[TargetFace], out: Path, run: Run) -> Prepared
 
 @dataclass(frozen=True)
 class Performed:
-    """A driver's performance: its `track` on the skin, its `neutral` frame, its `ratios`, the `glances` at it."""
+    """A driver's performance: its `track` on the skin, the `choice` of its neutral frame, its `ratios`, the `glances` at it."""
 
     track: DriverTrack
-    neutral: int
+    choice: NeutralFrame
     ratios: RatioStrip
     glances: Glances
+
+    @property
+    def neutral(self) -> int:
+        """The neutral frame's index."""
+        return self.choice.frame
 
     def look_again(self, target: TargetFace, details: DetailRegion, options: PortraitOptions, run: Run) -> Misfit:
         """What is amiss where a target acts this out."""
@@ -143,18 +150,19 @@ def follow(
 
 
 def analyse_driver(
-    tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], int], run: Run, loop: bool = False
+    tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], NeutralFrame], run: Run, loop: bool = False
 ) -> Performed:
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
     track = tracking.once()
-    neutral = neutral_of(track)
+    choice = neutral_of(track)
+    neutral = choice.frame
     registered = run.stage("register_driver", register_track, track, neutral, run.tick, track.meshes, shared=True)
     track = replace(track, meshes=registered.meshes)
     if loop:
         track = close_loop(track)
     glances = run.beside("glance_at_driver", glance_at_driver, track, neutral, shared=True)
     ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
-    return Performed(track, neutral, ratios, glances())
+    return Performed(track, choice, ratios, glances())
 
 
 def _write_animation(

@@ -18,9 +18,9 @@ from engine.media.limits import Limits
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.performances import STATES
+from engine.portrait.measures import MEASURES, measure
 from engine.portrait.moments import find_moments
 from engine.portrait.moments.gestures import swings
-from engine.portrait.moments.measures import MEASURES, measure
 from engine.portrait.moments.pipeline import Moment, work
 from engine.portrait.moments.portions import BEARABLE, Portion, find_portions
 from engine.portrait.moments.prototypes import show

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.performances import State
-from engine.portrait.moments.measures import MEASURES
+from engine.portrait.measures import MEASURES
 
 
 @dataclass(frozen=True)

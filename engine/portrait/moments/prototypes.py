@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.performances import State
-from engine.portrait.moments.measures import MEASURES
+from engine.portrait.measures import MEASURES
 
 CLEAR: Mapping[str, float] = {
     "corners_up": 0.085,

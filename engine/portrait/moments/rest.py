@@ -6,15 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
-from engine.perception.head_pose import canonical_face
-from engine.portrait.moments.measures import MEASURES, measure
-
-SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
-"""By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
-varies by while people wait (from the idle performances and the quiet stretches of the clips in `benchmarks/moments`)."""
-
-USUAL = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
-"""By how much the measures at rest differ between people."""
+from engine.portrait.measures import MEASURES, SPREAD, USUAL, general_rest
 
 UNLIKE = 0.3
 """How much being unlike a resting face in general counts, against being unlike most of what this person shows."""
@@ -39,7 +31,7 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     The frame among whose nearest neighbours it is closest, and which is not unlike a resting face at all: so a smile
     that lasts through half of a clip is not taken for rest, where the other half is quiet.
     """
-    general = measure(canonical_face()[None].astype(float))[0]
+    general = general_rest()
     neighbours = min(max(FEWEST, round(NEIGHBOURS * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
     unlike = np.sqrt(np.mean(((values - general) / USUAL)[:, :9] ** 2, axis=1))

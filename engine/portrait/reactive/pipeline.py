@@ -20,7 +20,7 @@ from engine.portrait.head_proxy import build_head_proxy
 from engine.portrait.layers import Layers
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import carry_motion
-from engine.portrait.neutral import choose_neutral_frame
+from engine.portrait.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, Performed, analyse_driver, follow, prepare_target, write_landmarks
 from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
@@ -113,7 +113,7 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
     """A driver's analysis, the same that a portrait driven by it alone would make where the frame rates agree."""
     if not state.own:
         tracking = follow(state.video, options.fps, None, 0, run)
-        return analyse_driver(tracking, lambda track: round(_frame(state, track.fps)), run)
+        return analyse_driver(tracking, lambda track: NeutralFrame(round(_frame(state, track.fps)), "chosen"), run)
     trim = options.trim
     if trim is None and probe_video(state.video, run.limits).seconds > MOST_SECONDS:
         trim = (0.0, MOST_SECONDS)
@@ -121,7 +121,11 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
             "driver_shortened", f"The first {MOST_SECONDS:.0f} seconds of the driver are used: trim chooses others."
         )
     tracking = follow(state.video, fps, trim, options.driver_face_index, run)
-    return analyse_driver(tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run)
+    performed = analyse_driver(
+        tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run
+    )
+    warn_of_unrest(performed.choice, run.warn)
+    return performed
 
 
 def _frame(state: State, fps: float) -> float:

@@ -18,6 +18,19 @@ MEASURES = (
 """Lengths are in eye distances of the face turned to the front; the eyes' opening is over their own width; angles in
 radians: `yaw` > 0 turns the face to the picture's right, `pitch` > 0 upwards, `roll` > 0 clockwise as seen."""
 
+MOUTH, LIDS, FACE = slice(0, 4), slice(7, 9), slice(0, 9)
+"""Which of them are the mouth's, the lids', and the face's own, without the head's turn."""
+
+SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
+"""By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
+varies by while people wait (from the idle performances and the quiet stretches of the clips in `benchmarks/moments`)."""
+
+USUAL = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
+"""By how much the measures at rest differ between people."""
+
+USUAL_BELOW = np.array([0.03, 0.10, 0.04, 0.04, 0.05, 0.05, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
+"""The same below the general rest: brows lie higher by much on some people, and lower by much only where they frown."""
+
 JAW_TAKES_CORNERS = 0.25
 """An opening jaw takes the corners of the mouth down by this share of the opening (0.22 to 0.29 in the built-in
 performances of surprise, whose corners do nothing of themselves): what is left is their own doing."""
@@ -44,6 +57,11 @@ def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
             *_angles(meshes),
         ]
     ).astype(np.float32)
+
+
+def general_rest() -> NDArray[np.float32]:
+    """The measures (12,) of a face at rest that is nobody's in particular."""
+    return measure(canonical_face()[None].astype(float))[0]
 
 
 def _angles(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
