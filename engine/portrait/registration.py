@@ -111,7 +111,7 @@ def register_track(
         eased = _eased(belief[:, some].astype(np.float32))
         meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
         meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
-    shut_by_contrast(meshes, contrast, neutral)
+    shut_by_contrast(meshes, contrast, neutral, track.fps)
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
 
 

@@ -33,7 +33,16 @@ def ratios(folder: Path, pictures: list[NDArray[np.uint8]]) -> NDArray[np.float6
 def test_an_eye_is_shut_where_its_lid_is_seen_each_by_itself(tmp_path: Path) -> None:
     wink = OPEN.copy()
     wink[:, :HALF] = SHUT[:, :HALF]
-    np.testing.assert_allclose(ratios(tmp_path, [OPEN, SHUT, wink, OPEN]), [[1, 1], [0, 0], [0, 1], [1, 1]], atol=1e-6)
+    seen = ratios(tmp_path, [OPEN, SHUT, SHUT, SHUT, wink, OPEN])
+    np.testing.assert_allclose(seen, [[1, 1], [0, 0], [0, 0], [0, 0], [0, 1], [1, 1]], atol=1e-6)
+
+
+def test_what_is_gone_for_a_moment_is_no_blink(tmp_path: Path) -> None:
+    """A frame blurred by motion, or a reflection in glasses: shorter than any blink, however often it comes."""
+    pictures = [OPEN, SHUT, OPEN, SHUT, SHUT, OPEN, SHUT]
+    np.testing.assert_allclose(ratios(tmp_path, pictures), 1, atol=1e-6)
+    blink = ratios(tmp_path, [OPEN, SHUT, SHUT, SHUT, OPEN, SHUT, OPEN])
+    np.testing.assert_allclose(blink[:, 0], [1, 0, 0, 0, 1, 1, 1], atol=1e-6)
 
 
 def test_the_light_is_not_the_eye_s(tmp_path: Path) -> None:
@@ -92,3 +101,10 @@ def test_eyes_that_the_tracker_follows_stay_as_tracked(media, neutral: int) -> N
     track = track_driver(media("driving/woman_frown_surprise_d3.mp4"), None, (6.0, 10.0), Limits())
     tracked, seen = (lid_ratio(m, track.meshes[neutral]) for m in (track.meshes, register_track(track, neutral).meshes))
     np.testing.assert_allclose(seen, tracked, atol=0.05)
+
+
+def test_eyes_stay_open_behind_glasses_on_a_head_that_moves_fast(media) -> None:
+    """Frames in which blur or a reflection takes the iris' contrast, among others in which whoever looks sees open eyes."""
+    track = track_driver(media("driving/man_laugh_d12.mp4"), None, (0.0, 1.76), Limits())
+    seen = lid_ratio(register_track(track, 1).meshes, track.meshes[1])
+    assert seen[18:44, [3, 10]].min() > 0.6
