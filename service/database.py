@@ -7,6 +7,7 @@ decision stands in the WHERE of the change itself.
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -17,7 +18,8 @@ from alembic import command
 from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import DateTime, Dialect, Float, TypeDecorator, literal
+from sqlalchemy import DateTime, Dialect, Float, TypeDecorator, inspect, literal
+from sqlalchemy.engine import Connection
 from sqlalchemy.exc import DBAPIError, InterfaceError, TimeoutError
 from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.orm import DeclarativeBase, Session
@@ -27,6 +29,14 @@ from service import postgresql, sqlite
 
 SET_BACK_SECONDS = 1800.0
 """What lies further ahead (leases are far shorter) was written before the clock was set back."""
+
+
+class DatabaseInUse(Exception):
+    """A service or a worker works with these tables: they cannot be changed under it."""
+
+
+class WouldForget(Exception):
+    """Going down to an older version erases what that has no room for; the message says what."""
 
 
 class Base(DeclarativeBase):
@@ -96,20 +106,53 @@ class Database:
             yield session
 
     def upgrade(self) -> None:
-        """Bring the tables to the newest version; safe when several processes start at once."""
-        self.migrate("head")
-
-    def migrate(self, revision: str) -> None:
-        """Bring the tables to a version, up or down. Going down forgets what the older version cannot hold."""
-        config = alembic_config()
+        """Bring the tables to the newest version; safe when several processes start at once, and beside a release that
+        is still running: what it does not know of does not disturb it."""
         with self._kind.alone(self.url) as connection:
-            config.attributes["connection"] = connection
-            scripts = ScriptDirectory.from_config(config)
+            _move(connection, "head", down=False)
+
+    def migrate(self, revision: str, forget: bool = False) -> None:
+        """Bring the tables to a version, up or down, while nobody works with them.
+
+        Going down forgets what the older version cannot hold, and is done only where `forget` says so. Raises
+        `DatabaseInUse`, `WouldForget`, and alembic's `CommandError` where there is no such version.
+        """
+        self._engine.dispose()  # our own connections, of which none is at work
+        with self._kind.alone(self.url) as connection:
             here = MigrationContext.configure(connection).get_current_revision()
             connection.rollback()
-            # Only what has been passed lies below: going there is going down.
-            passed = [script.revision for script in scripts.iterate_revisions(here, "base")] if here else []
-            (command.downgrade if revision in ("base", *passed[1:]) else command.upgrade)(config, revision)
+            if here is not None and (aim := _scripts().get_revision(revision)) is not None and aim.revision == here:
+                return
+            down = revision in _below(here)
+            if down and not forget:
+                raise WouldForget("; ".join(self._forgotten(connection, revision)) or "nothing")
+            with self._kind.unused(self.url, connection) as free:
+                if not free:
+                    raise DatabaseInUse
+                _move(connection, revision, down)
+
+    def forgets(self, revision: str) -> list[str]:
+        """What going to a version would erase, in words: tables, and columns of tables. Empty where it is not older."""
+        with self._engine.connect() as connection:
+            here = MigrationContext.configure(connection).get_current_revision()
+            return self._forgotten(connection, revision) if revision in _below(here) else []
+
+    def _forgotten(self, connection: Connection, revision: str) -> list[str]:
+        """The tables and columns that are here and not in an older version, which is made to see what it has."""
+        with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
+            older = Database(f"sqlite:///{folder}/older.db")
+            if revision != "base":
+                older.migrate(revision)
+            with older._engine.connect() as other:
+                stays = _columns(other)
+            older.close()
+        lost = []
+        for table, columns in sorted(_columns(connection).items()):
+            if table not in stays:
+                lost.append(f"the table {table}")
+            elif gone := sorted(columns - stays[table]):
+                lost.append(f"of {table} {', '.join(gone)}")
+        return lost
 
     def revision(self) -> str | None:
         """The version of the tables; None if there are none yet."""
@@ -123,6 +166,29 @@ class Database:
 
     def close(self) -> None:
         self._engine.dispose()
+
+
+def _move(connection: Connection, revision: str, down: bool) -> None:
+    config = alembic_config()
+    config.attributes["connection"] = connection
+    (command.downgrade if down else command.upgrade)(config, revision)
+
+
+def _scripts() -> ScriptDirectory:
+    return ScriptDirectory.from_config(alembic_config())
+
+
+def _below(revision: str | None) -> list[str]:
+    """The versions that were passed on the way to one: going there is going down."""
+    passed = [script.revision for script in _scripts().iterate_revisions(revision, "base")] if revision else []
+    return ["base", *passed[1:]] if passed else []
+
+
+def _columns(connection: Connection) -> dict[str, set[str]]:
+    """All tables but alembic's own, with the names of their columns."""
+    found = inspect(connection)
+    names = [name for name in found.get_table_names() if name != "alembic_version"]
+    return {name: {column["name"] for column in found.get_columns(name)} for name in names}
 
 
 def database_unavailable(error: BaseException) -> bool:

@@ -8,6 +8,7 @@ that was cut off had begun, so that its locks do not outlive it.
 from __future__ import annotations
 
 import ssl
+import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
@@ -28,6 +29,12 @@ the server is the first to give up and nothing is left undecided there."""
 
 UPGRADE_LOCK = 0x67616C61746561
 """The advisory lock under which tables are changed ("galatea")."""
+
+LEAVING_SECONDS = 3.0
+"""How long the server may take to notice that a connection was closed."""
+
+USE_LOCK = UPGRADE_LOCK + 1
+"""The advisory lock that every connection shares with the others for as long as it is open."""
 
 UNTRANSLATABLE = "22021"
 """The error code for a text that the server cannot keep."""
@@ -108,6 +115,7 @@ def engine(url: str, connections: int) -> Engine:
         cursor = connection.cursor()
         for name in ("statement_timeout", "lock_timeout", "idle_in_transaction_session_timeout"):
             cursor.execute(f"SET {name} = '{SERVER_SECONDS}s'")
+        cursor.execute(f"SELECT pg_advisory_lock_shared({USE_LOCK})")  # where tables are being changed: BUSY
         cursor.close()
 
     @event.listens_for(made, "begin")
@@ -163,6 +171,18 @@ def alone(url: str) -> Iterator[Connection]:
         connection.commit()  # the lock is the session's and ends with the connection
         yield connection
     opened.dispose()
+
+
+@contextmanager
+def unused(url: str, connection: Connection) -> Iterator[bool]:
+    """Whether nobody has the database open but by `alone`; until `connection` is closed, nobody opens it then."""
+    deadline = time.monotonic() + LEAVING_SECONDS
+    while not (free := bool(connection.scalar(text(f"SELECT pg_try_advisory_lock({USE_LOCK})")))):
+        if time.monotonic() > deadline:
+            break
+        time.sleep(0.1)
+    connection.commit()
+    yield free
 
 
 def _once(place: URL, arguments: dict[str, Any]) -> Engine:

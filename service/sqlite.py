@@ -7,11 +7,12 @@ otherwise find its snapshot stale and fail.
 from __future__ import annotations
 
 import fcntl
+import sqlite3
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import structlog
 from sqlalchemy import create_engine, event
@@ -30,6 +31,21 @@ EMPTYING_PAUSE_SECONDS = 0.25
 
 def engine(url: str, connections: int) -> Engine:
     """Connections to the file. (Their number is SQLAlchemy's own: a file has no server to be gentle with.)"""
+    made = _connections(url)
+
+    @event.listens_for(made, "connect")
+    def use(_: Any, record: Any) -> None:
+        record.info["in_use"] = _in_use(url)
+
+    @event.listens_for(made, "close")
+    def leave(_: Any, record: Any) -> None:
+        if (lock := record.info.pop("in_use", None)) is not None:
+            lock.close()
+
+    return made
+
+
+def _connections(url: str) -> Engine:
     made = create_engine(url, connect_args={"timeout": PATIENCE_SECONDS})
 
     @event.listens_for(made, "connect")
@@ -66,7 +82,7 @@ def alone(url: str) -> Iterator[Connection]:
     """A connection for changing the tables; others who ask for one wait. Makes the file's folder."""
     path = make_url(url).database or ""
     Path(path).parent.mkdir(parents=True, exist_ok=True)
-    opened = engine(url, 1)
+    opened = _connections(url)
     with Path(f"{path}.upgrade").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         with opened.connect() as connection:
@@ -74,6 +90,39 @@ def alone(url: str) -> Iterator[Connection]:
             connection.connection.execute("PRAGMA foreign_keys=OFF")  # type: ignore[attr-defined]
             yield connection
     opened.dispose()
+
+
+@contextmanager
+def unused(url: str, connection: Connection) -> Iterator[bool]:
+    """Whether nobody has the database open but by `alone`; until the block ends, nobody opens it then."""
+    with _uses(url).open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            yield False
+        else:
+            yield True
+
+
+def _in_use(url: str) -> IO[str]:
+    """The lock that every connection shares with the others for as long as it is open: `unused` asks for it alone. The
+    system gives it back when a process ends, in whatever way."""
+    lock = _uses(url).open("w")
+    deadline = time.monotonic() + PATIENCE_SECONDS
+    while True:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                lock.close()
+                raise sqlite3.OperationalError("database is locked: its tables are being changed") from None
+            time.sleep(0.1)
+        else:
+            return lock
+
+
+def _uses(url: str) -> Path:
+    return Path(f"{make_url(url).database}.used")
 
 
 def tidy(connection: Connection) -> None:

@@ -94,21 +94,34 @@ def keys() -> None:
 
 @main.command()
 @click.argument("version", default="head")
-def migrate(version: str) -> None:
+@click.option("--down", is_flag=True, help="Go down, and erase what the older tables have no room for.")
+def migrate(version: str, down: bool) -> None:
     """Bring the database's tables to the newest version, or to another, up or down.
 
     The service does so by itself when it starts. Going down is for going back to an older release: stop everything,
-    make a backup, then name that release's version; what the older tables have no room for is lost.
+    make a backup, then name that release's version; what the older tables have no room for is lost, and said before.
     """
     from alembic.util import CommandError
 
-    from service.database import Database
+    from service.database import Database, DatabaseInUse, WouldForget
     from shell.complaint import Complaint
     from shell.settings import read_settings
 
     database = Database(read_settings().database)
     try:
-        database.migrate(version)
+        if down and (lost := database.forgets(version)):
+            click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
+        database.migrate(version, forget=down)
+    except WouldForget as lost:
+        raise Complaint(
+            f"{version} is older than the tables are. Going down to it erases {lost}. Nothing was done: make a backup, "
+            "then say --down."
+        ) from None
+    except DatabaseInUse:
+        raise Complaint(
+            "The service runs: stop `galatea serve` and every `galatea worker` that uses this database, on all "
+            "machines, then migrate. Nothing was done."
+        ) from None
     except CommandError as error:
         raise Complaint(f"{version}: {error}") from error
     click.echo(f"The tables are at version {database.revision()}.")

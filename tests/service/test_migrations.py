@@ -14,7 +14,7 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import MetaData, Table, create_engine, insert, select, text
 
 from service import postgresql
-from service.database import Database, alembic_config
+from service.database import Database, DatabaseInUse, WouldForget, alembic_config
 from service.tables import Base
 
 SCRIPTS = ScriptDirectory.from_config(alembic_config())
@@ -88,7 +88,7 @@ def test_each_step_up_and_down_keeps_what_was_there(database: Database) -> None:
         assert rows(database) == before, f"up to {revision}"
     assert database.revision() == REVISIONS[-1]
     for revision in REVISIONS[-2::-1]:
-        database.migrate(revision)
+        database.migrate(revision, forget=True)
         assert database.revision() == revision
         assert rows(database) == before, f"down to {revision}"
     database.upgrade()
@@ -96,11 +96,44 @@ def test_each_step_up_and_down_keeps_what_was_there(database: Database) -> None:
     with database.read() as session:
         (job,) = session.scalars(select(Base.metadata.tables["jobs"].c.id)).all()
         assert job == "j" * 36
-    database.migrate("base")
+    database.migrate("base", forget=True)
     with connect(database) as connection:
         metadata = MetaData()
         metadata.reflect(connection)
     assert set(metadata.tables) == {"alembic_version"}
+
+
+def test_tables_that_somebody_uses_are_left_as_they_are(database: Database) -> None:
+    user = Database(database.url)
+    user.upgrade()
+    with user.read() as session:
+        session.execute(text("SELECT 1"))
+    with pytest.raises(DatabaseInUse):
+        database.migrate("0005", forget=True)
+    assert database.revision() == REVISIONS[-1]
+    user.close()
+    database.migrate("0005", forget=True)
+    assert database.revision() == "0005"
+    database.upgrade()
+    with user.read() as session:
+        session.execute(text("SELECT 1"))
+    user.close()
+
+
+def test_what_would_be_lost_is_said_before(database: Database) -> None:
+    database.upgrade()
+    with pytest.raises(WouldForget, match="the table motions"):
+        database.migrate("0010")
+    assert database.revision() == REVISIONS[-1]
+    lost = database.forgets("0005")
+    assert {"the table webhooks", "the table uploads", "the table webhook_deliveries"} <= set(lost)
+    (jobs,) = [one for one in lost if one.startswith("of jobs")]
+    assert {"priority", "request", "trace", "title"} <= set(jobs.removeprefix("of jobs ").split(", "))
+    assert database.forgets("head") == database.forgets(REVISIONS[-1]) == []
+    assert "the table jobs" in database.forgets("base")
+    database.migrate("0005", forget=True)
+    assert database.forgets("head") == [] and database.forgets("0005") == []
+    database.migrate("head")
 
 
 def test_jobs_of_before_are_found_by_words(database: Database) -> None:
