@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
+from itertools import islice
 from math import inf
 from pathlib import Path
 from typing import cast
@@ -15,15 +17,23 @@ from av.container import InputContainer, OutputContainer
 
 from engine.errors import InputError
 from engine.media.demux import open_container, video_stream
-from engine.media.sniff import sniff
+from engine.media.sniff import VIDEO_TYPES, sniff
 
 _RATE = 48_000
 """Samples a second of sound that is coded anew; always in stereo."""
 
 _FITTING = {"mp4": "aac", "webm": "opus"}
 _ENCODERS = {"mp4": ("aac", "160k"), "webm": ("libopus", "128k")}
+_APART = ("mov", "matroska")
+"""FFmpeg's names of the formats that keep the codec's set-up apart from the packets, where the output wants it."""
 _GAP = _RATE // 20
-"""Samples by which sound may stray from its timestamps before silence is put in."""
+"""Samples by which sound may stray from its timestamps before silence is put in, or what overlaps is left out."""
+_RESTART = _RATE
+"""Samples: timestamps that fall back further were begun anew, as in clips that were joined: the sound goes on."""
+_TRIED = 100
+"""Packets of which one must decode for a track to count as sound."""
+_FAULTS = (av.FFmpegError, ValueError)
+"""What reading, decoding and laying in of sound may raise; none of it ends a video."""
 
 
 def open_sound(
@@ -37,19 +47,51 @@ def open_sound(
     trim : (start, end) seconds since the first frame of the file's video; the sound is moved to begin at 0.
     """
     media_type = sniff(path)
-    try:
-        source = open_container(path, media_type or "")
-    except (InputError, KeyError):
+    if media_type not in VIDEO_TYPES or not _decodes(path, media_type):
         return None
-    stream = next((s for s in source.streams.audio if s.codec_context is not None), None)
-    if stream is None or not stream.time_base:
-        source.close()
-        return None
-    return SoundTrack(source, stream, container, format, trim or (0.0, inf))
+    source = open_container(path, media_type)
+    return SoundTrack(
+        source, source.streams.audio[0], container, format, trim or (0.0, inf), _can_be_copied(path, media_type)
+    )
+
+
+def _decodes(path: Path, media_type: str) -> bool:
+    """Whether the first sound of a file can be made anything of."""
+    with suppress(InputError, *_FAULTS), open_container(path, media_type) as source:
+        if not source.streams.audio or source.streams.audio[0].codec_context is None:
+            return False
+        for packet in islice(source.demux(source.streams.audio[0]), _TRIED):
+            with suppress(*_FAULTS):
+                if packet.decode():
+                    return True
+    return False
+
+
+def _can_be_copied(path: Path, media_type: str) -> bool:
+    """Whether the packets of a file's sound can be laid into another file as they are: each has a time of its own, later
+    than the one before, and one set-up of the codec is that of all."""
+    with suppress(*_FAULTS), open_container(path, media_type) as source:
+        stream = source.streams.audio[0]
+        if not (source.format.name.startswith(_APART) and stream.time_base and stream.codec_context.extradata):
+            return False
+        before: int | None = None
+        for packet in source.demux(stream):
+            if not packet.size:
+                continue
+            if (
+                packet.pts is None
+                or (before is not None and packet.pts <= before)
+                or packet.has_sidedata("new_extradata")
+            ):
+                return False
+            before = packet.pts
+        return True
+    return False
 
 
 class SoundTrack:
-    """Sound on its way from one container to another; see `open_sound`."""
+    """Sound on its way from one container to another; see `open_sound`. Whatever is wrong with it, the picture goes on:
+    `damaged` tells whether some of it was left out for that."""
 
     def __init__(
         self,
@@ -58,15 +100,15 @@ class SoundTrack:
         container: OutputContainer,
         format: str,
         trim: tuple[float, float],
+        whole: bool,
     ):
         self._source, self._stream, self._container = source, stream, container
         self._seconds = trim[1] - trim[0]
         picture = video_stream(source)
         origin = float((picture.start_time or 0) * picture.time_base) if picture and picture.time_base else 0.0
         self._zero = origin + trim[0]
-        # Only these two keep the codec's set-up apart from the packets, where the output wants it.
-        copied = stream.codec_context.name.removeprefix("lib") == _FITTING[format]
-        if copied and source.format.name.startswith(("mov", "matroska")):
+        self.damaged = False
+        if whole and stream.codec_context.name.removeprefix("lib") == _FITTING[format]:
             self._out = container.add_stream_from_template(stream)
             self._packets = self._copied(keep_lead=format == "mp4")
         else:
@@ -80,10 +122,16 @@ class SoundTrack:
         """Mux what begins before `seconds` of the result."""
         while True:
             if self._waiting is None:
-                self._waiting = next(self._packets, None)
+                try:
+                    self._waiting = next(self._packets, None)
+                except _FAULTS:
+                    self.damaged = True  # and the generator is at its end
             if self._waiting is None or self._waiting[0] >= seconds:
                 return
-            self._container.mux(self._waiting[1])
+            try:
+                self._container.mux(self._waiting[1])
+            except (av.error.ArgumentError, av.error.InvalidDataError):
+                self.damaged = True
             self._waiting = None
 
     def close(self) -> None:
@@ -93,10 +141,10 @@ class SoundTrack:
     def _demux(self) -> Iterator[av.Packet]:
         try:
             for packet in self._source.demux(self._stream):
-                if packet.pts is not None and packet.size:
+                if packet.size:
                     yield packet
         except av.FFmpegError:
-            return  # a broken tail: what came before it is used
+            self.damaged = True  # a broken tail: what came before it is used
 
     def _copied(self, keep_lead: bool) -> Iterator[tuple[float, av.Packet]]:
         """`keep_lead`: keep the packet that overlaps the cut and the one before, which a decoder needs to be exact; MP4
@@ -140,26 +188,43 @@ class SoundTrack:
 
     def _samples(self) -> Iterator[np.ndarray]:
         """Samples float32 (2, n) one after another; the first is at the cut. What is missing is silence."""
-        resampler = av.AudioResampler("fltp", "stereo", _RATE)
         at: int | None = None  # where the next samples belong, counted from the cut
+        moved = 0  # by how much timestamps that begin anew are too early
+        resampler, kind = av.AudioResampler("fltp", "stereo", _RATE), None
+        for frame in self._frames():
+            spare = 0
+            if frame.pts is not None and frame.time_base:
+                place = round((float(frame.pts * frame.time_base) - self._zero) * _RATE) + moved
+                if at is not None and place < at - _RESTART:
+                    moved, place = moved + at - place, at
+                if at is None or place > at + _GAP:
+                    yield from _silence(place - max(at or 0, 0))
+                    at = place
+                elif place < at - _GAP:
+                    spare = at - place
+            if kind != (kind := (frame.format.name, frame.layout.name, frame.sample_rate)):
+                resampler = av.AudioResampler("fltp", "stereo", _RATE)  # it takes one kind alone
+            frame.pts = None
+            for piece in resampler.resample(frame):
+                samples = cast(np.ndarray, piece.to_ndarray())[:, spare:]
+                spare = max(0, spare - piece.samples)
+                at = (at or 0) + samples.shape[1]
+                if at > 0 and samples.shape[1]:
+                    yield samples[:, -min(at, samples.shape[1]) :]
+            if (at or 0) >= self._seconds * _RATE:
+                return
+
+    def _frames(self) -> Iterator[av.AudioFrame]:
+        """What decodes."""
         for packet in self._demux():
             try:
-                frames = cast(list[av.AudioFrame], packet.decode())
+                yield from cast(list[av.AudioFrame], packet.decode())
             except av.FFmpegError:
-                continue
-            for frame in frames:
-                if frame.pts is not None and frame.time_base:
-                    place = round((float(frame.pts * frame.time_base) - self._zero) * _RATE)
-                    if at is None or place > at + _GAP:
-                        silence = place - max(at or 0, 0)
-                        if silence > 0:
-                            yield np.zeros((2, silence), np.float32)
-                        at = place
-                frame.pts = None
-                for piece in resampler.resample(frame):
-                    samples = cast(np.ndarray, piece.to_ndarray())
-                    at = (at or 0) + samples.shape[1]
-                    if at > 0:
-                        yield samples[:, -min(at, samples.shape[1]) :]
-                if (at or 0) >= self._seconds * _RATE:
-                    return
+                self.damaged = True
+
+
+def _silence(samples: int) -> Iterator[np.ndarray]:
+    """So many samples, a second at a time: a file may claim a gap of years."""
+    while samples > 0:
+        yield np.zeros((2, min(samples, _RATE)), np.float32)
+        samples -= _RATE

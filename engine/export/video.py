@@ -44,7 +44,8 @@ class VideoWriter:
     entries : "mp4" alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from
         other videos of the same picture without a jump in its grain; between the entries it is slow to search.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes.
-    warn : called with (code, message): `no_sound` where there is none to carry, or the format holds none.
+    warn : called with (code, message): `no_sound` where there is none to carry, or the format holds none; `sound_damaged`
+        where parts of it cannot be read.
 
     Raises `ValueError` for frames that do not fit and for a video of none, `OSError` where the disk is full.
     """
@@ -106,6 +107,7 @@ class VideoWriter:
             try:
                 if error is None and self._failure is None:
                     self._encoder.finish()
+                    self._tell_of_sound(self._encoder)
                     self._draft.replace(self._target.path)
             finally:
                 self._encoder.abandon()
@@ -113,6 +115,11 @@ class VideoWriter:
                 raise self._failure
         finally:
             self._draft.unlink(missing_ok=True)
+
+    def _tell_of_sound(self, encoder: Encoder) -> None:
+        sound = encoder.sound if isinstance(encoder, StreamEncoder) else None
+        if sound is not None and sound.damaged:
+            self._warn("sound_damaged", "Parts of the driver's sound cannot be read: they are left out.")
 
     def _start(self, transparent: bool) -> Encoder:
         target = replace(self._target, path=self._draft)

@@ -39,7 +39,7 @@ def read_chunks(path: Path) -> tuple[Header, Timetable]:
     if size is None or not lengths:
         raise unreadable()
     times = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
-    header = Header(*size, fps=0.0, seconds=sum(lengths), frames=len(lengths), has_sound=False, codec="webp")
+    header = Header(*size, fps=0.0, seconds=sum(lengths), frames=len(lengths), codec="webp")
     return header, Timetable(times, lengths[-1], cut)
 
 

@@ -37,14 +37,13 @@ _HIGHEST_RATE = 480.0
 @dataclass(frozen=True)
 class Header:
     """What a file claims of its video: `width`, `height` in pixels as coded, `fps` (0 if unknown), `seconds` (0 if
-    unknown), `frames` (0 if unknown), `has_sound`, `codec` (FFmpeg's name), `pixel_aspect` width to height."""
+    unknown), `frames` (0 if unknown), `codec` (FFmpeg's name), `pixel_aspect` width to height."""
 
     width: int
     height: int
     fps: float
     seconds: float
     frames: int
-    has_sound: bool
     codec: str
     pixel_aspect: float = 1.0
 
@@ -52,11 +51,13 @@ class Header:
 @dataclass(frozen=True)
 class Timetable:
     """When the frames are to be shown: `times` (n,) float64 seconds on the file's clock, ascending; `last` seconds
-    that the last one stays; `cut` whether the file ends before what its header announces."""
+    that the last one stays; `cut` whether the file ends before what its header announces; `has_sound` whether there is any
+    beside, for a track of it may be empty."""
 
     times: np.ndarray
     last: float
     cut: bool
+    has_sound: bool = False
 
     @property
     def seconds(self) -> float:
@@ -116,7 +117,6 @@ def header_of(container: InputContainer, stream: VideoStream) -> Header:
         fps=next((rate for rate in rates if rate <= _HIGHEST_RATE), 0.0),
         seconds=max(seconds, 0.0),
         frames=stream.frames,
-        has_sound=bool(container.streams.audio),
         codec=stream.codec_context.name,
         pixel_aspect=aspect if 0.25 <= aspect <= 4 else 1.0,  # beyond, it is a mistake
     )
@@ -129,7 +129,7 @@ def timetable_of(container: InputContainer, stream: VideoStream, header: Header,
     """
     times: list[float] = []
     step = 1 / header.fps if header.fps else 1 / 25
-    end, any_end, cut, earliest = -np.inf, -np.inf, False, np.inf
+    end, any_end, cut, earliest, has_sound = -np.inf, -np.inf, False, np.inf, False
     try:
         for packet in container.demux(stream, *container.streams.audio):
             if packet.size == 0 or packet.is_discard:
@@ -143,6 +143,8 @@ def timetable_of(container: InputContainer, stream: VideoStream, header: Header,
                 end = max(end, time + (length or step))
                 if len(times) > limits.video_frames or end - earliest > limits.video_seconds + 1:
                     break
+            else:
+                has_sound = True
             if time is not None:
                 any_end = max(any_end, time + length)
     except av.FFmpegError:
@@ -158,7 +160,7 @@ def timetable_of(container: InputContainer, stream: VideoStream, header: Header,
         or reached < header.seconds - max(0.5, 3 * step)
         or len(times) < header.frames - 3
     )
-    return Timetable(shown, max(float(end - shown[-1]), 1e-3), bool(cut))
+    return Timetable(shown, max(float(end - shown[-1]), 1e-3), bool(cut), has_sound)
 
 
 def _lacks_trailer(container: InputContainer) -> bool:

@@ -67,7 +67,7 @@ def probe_video(path: Path, limits: Limits | None = None) -> VideoInfo:
         frames=round((seconds - (clip.timetable.last if clip.rate.constant else 0)) * clip.rate.fps)
         + clip.rate.constant,
         seconds=seconds,
-        has_sound=clip.header.has_sound,
+        has_sound=clip.timetable.has_sound,
         variable_rate=not clip.rate.constant,
         hdr=None if clip.transfer == "sdr" else clip.transfer,
         codec=clip.header.codec,

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from engine.export.video import VideoWriter
+from engine.media.video import probe_video
 
 CLICKS = (0.5, 1.25, 2.0)  # seconds after the first picture
 
@@ -132,3 +133,121 @@ def test_broken_sound_does_not_break_the_picture(tmp_path: Path) -> None:
             writer.write(np.full((48, 64, 3), 90, np.uint8))
     with av.open(str(tmp_path / "out.mp4")) as container:
         assert sum(1 for _ in container.decode(video=0)) == 75
+
+
+def remuxed(path: Path, out: Path, change) -> Path:  # type: ignore[no-untyped-def]
+    """The same file with its packets of sound as `change(packets)` has them; each packet is (seconds, bytes)."""
+    with av.open(str(path)) as source, av.open(str(out), "w") as container:
+        video, sound = source.streams.video[0], source.streams.audio[0]
+        streams = container.add_stream_from_template(video), container.add_stream_from_template(sound)
+        sounds, rest = [], []
+        for packet in source.demux(video, sound):
+            if not packet.size:
+                continue
+            if packet.stream.type == "audio":
+                sounds.append((float(packet.pts * packet.time_base), bytes(packet)))
+            else:
+                packet.stream = streams[0]
+                rest.append((float(packet.dts * packet.time_base), packet))
+        for time, content in change(sounds):
+            packet = av.Packet(content)
+            packet.time_base, packet.pts = Fraction(1, 1000), round(time * 1000)
+            packet.dts, packet.duration, packet.stream = packet.pts, 21, streams[1]
+            rest.append((time, packet))
+        for _, packet in sorted(rest, key=lambda one: one[0]):
+            container.mux(packet)
+    return out
+
+
+def doubled_time(packets):  # type: ignore[no-untyped-def]
+    """One packet bears the timestamp of the one before it, as in clips that were joined or muxed anew."""
+    return [(packets[k - 1][0], content) if k == 40 else (time, content) for k, (time, content) in enumerate(packets)]
+
+
+def garbage(packets):  # type: ignore[no-untyped-def]
+    """From two thirds on, nothing decodes; one packet is missing."""
+    noise = np.random.default_rng(3).integers(0, 256, 400).astype(np.uint8).tobytes()
+    return [(time, noise if time > 2.2 else content) for k, (time, content) in enumerate(packets) if k != 100]
+
+
+def carried(driver: Path, out: Path, format: str, seconds: float = 3.0) -> list[str]:
+    """The codes of the warnings of a result with a driver's sound."""
+    warnings: list[str] = []
+    warn = lambda code, message: warnings.append(code)  # noqa: E731
+    with VideoWriter(out, (64, 48), 25, format, sound=driver, warn=warn) as writer:  # type: ignore[arg-type]
+        for _ in range(round(seconds * 25)):
+            writer.write(np.full((48, 64, 3), 90, np.uint8))
+    with av.open(str(out)) as container:
+        assert sum(1 for _ in container.decode(video=0)) == round(seconds * 25)
+    return warnings
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm"])
+def test_two_packets_of_one_time_are_sounded_one_after_the_other(tmp_path: Path, format: str) -> None:
+    driver = remuxed(write_driver(tmp_path / "in.mp4", "aac"), tmp_path / "in.mkv", doubled_time)
+    assert carried(driver, tmp_path / "out", format) == []
+    clicks, _, _ = clicks_in(tmp_path / "out")
+    assert clicks == pytest.approx(CLICKS, abs=0.015)
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm"])
+def test_sound_that_breaks_off_is_kept_up_to_there_and_told_of(tmp_path: Path, format: str) -> None:
+    driver = remuxed(write_driver(tmp_path / "in.mov", "aac", 44100), tmp_path / "in.mkv", garbage)
+    codes = carried(driver, tmp_path / "out", format)
+    if format == "webm":  # coded anew; in an MP4 it is copied as it is
+        assert codes == ["sound_damaged"]
+        assert clicks_in(tmp_path / "out")[0] == pytest.approx(CLICKS, abs=0.015)
+
+
+def test_sound_of_which_nothing_decodes_is_left_out(tmp_path: Path) -> None:
+    spoil = lambda packets: [(time, b"\x81" * 50) for time, _ in packets]  # noqa: E731
+    driver = remuxed(write_driver(tmp_path / "in.mp4", "aac"), tmp_path / "in.mkv", spoil)
+    for format in ("mp4", "webm"):
+        assert carried(driver, tmp_path / f"out.{format}", format) == ["no_sound"]
+
+
+def test_sound_that_changes_its_format_on_the_way_goes_on(tmp_path: Path) -> None:
+    """Packets of MP3 say of themselves what they hold: rate and channels change in the middle of the stream."""
+
+    def coded(rate: int, layout: str, start: float, end: float) -> list[tuple[float, bytes]]:
+        codec = av.CodecContext.create("libmp3lame", "w")
+        codec.sample_rate, codec.layout, codec.format, codec.time_base = rate, layout, "fltp", Fraction(1, rate)
+        found, size = [], 1152 if rate > 24000 else 576
+        channels = 1 if layout == "mono" else 2
+        for k in range(int((end - start) * rate / size) + 2):
+            times = start + (k * size + np.arange(size)) / rate
+            loud = sum(((times >= click) & (times < click + 0.004)).astype(np.float32) for click in CLICKS)
+            samples = np.repeat((0.9 * loud * np.sin(times * 2 * np.pi * 2000))[None].astype(np.float32), channels, 0)
+            frame = av.AudioFrame.from_ndarray(samples, "fltp", layout)
+            frame.sample_rate, frame.pts, frame.time_base = rate, k * size, Fraction(1, rate)
+            found += [(start + max(0, p.pts * float(p.time_base)), bytes(p)) for p in codec.encode(frame)]
+        return [one for one in found if one[0] < end]
+
+    first, second = coded(44100, "stereo", 0, 1.0), coded(22050, "mono", 1.0, 3.0)
+    driver = remuxed(
+        write_driver(tmp_path / "in.mp4", "libmp3lame", 44100), tmp_path / "b.mkv", lambda _: first + second
+    )
+    for format in ("mp4", "webm"):
+        assert carried(driver, tmp_path / f"out.{format}", format) == []
+        clicks, seconds, _ = clicks_in(tmp_path / f"out.{format}")
+        assert clicks == pytest.approx(CLICKS, abs=0.06) and seconds > 2.8
+
+
+@pytest.mark.parametrize("name", ["in.mp4", "in.mov", "in.mkv", "in.webm", "in.avi"])
+def test_a_track_without_sound_in_it_is_no_sound(tmp_path: Path, name: str) -> None:
+    codecs = ("libvpx", "libopus") if name == "in.webm" else ("libx264", "aac")
+    with av.open(str(tmp_path / name), "w") as container:
+        video, sound = container.add_stream(codecs[0], rate=25), container.add_stream(codecs[1], rate=48000)
+        video.width, video.height, video.pix_fmt = 64, 48, "yuv420p"
+        sound.codec_context.layout = "stereo"
+        sound.codec_context.open()
+        for k in range(25):
+            frame = av.VideoFrame.from_ndarray(np.full((48, 64, 3), 90, np.uint8), "rgb24")
+            frame.pts, frame.time_base = k, Fraction(1, 25)
+            container.mux(video.encode(frame))
+        container.mux(video.encode(None))
+    with av.open(str(tmp_path / name)) as container:
+        tracks = len(container.streams.audio)
+    assert tracks == 1 or name in ("in.mp4", "in.mov")  # these are written without it
+    assert not probe_video(tmp_path / name).has_sound
+    assert carried(tmp_path / name, tmp_path / "out", "mp4", 1.0) == ["no_sound"]
