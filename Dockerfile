@@ -27,7 +27,7 @@ COPY worker worker
 COPY shell shell
 RUN /opt/galatea/bin/pip install --no-cache-dir --no-deps --no-build-isolation --editable . \
  && /opt/galatea/bin/python -m compileall -q engine service worker shell
-COPY --from=page /page/dist web/dist
+COPY --from=page /page/dist service/web
 COPY --from=page /page/reactive/dist/reactive-portrait.js engine/portrait/reactive/player/
 # The root may be read-only: everything that is written lies under /data and /tmp.
 ENV PATH=/opt/galatea/bin:$PATH \

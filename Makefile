@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures samples docs licences clean
+.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures samples docs licences wheel clean
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
@@ -72,5 +72,10 @@ licences:  ## docs/packages.md, from the installed packages
 docs: tools  ## the documentation as a site, in site/
 	@scripts/docs.sh
 
+wheel: setup  ## a wheel in dist/ that holds all that runs, the page included
+	@rm -rf build dist
+	@$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
+	@ls dist/*.whl
+
 clean:  ## remove what can be made again (keeps .venv and node_modules)
-	@rm -rf web/dist web/reactive/dist engine/portrait/reactive/player demo site var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis
+	@rm -rf build dist web/dist web/reactive/dist engine/portrait/reactive/player demo site var/test-reports benchmarks/out .coverage .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis

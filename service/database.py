@@ -11,7 +11,6 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any
 
 from alembic import command
@@ -25,6 +24,7 @@ from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.orm import DeclarativeBase, Session
 from sqlalchemy.sql.functions import GenericFunction
 
+from engine.package_data import package_folder
 from service import postgresql, sqlite
 
 SET_BACK_SECONDS = 1800.0
@@ -210,5 +210,5 @@ def database_unavailable(error: BaseException) -> bool:
 def alembic_config() -> Config:
     """Where the migrations are."""
     config = Config()
-    config.set_main_option("script_location", str(Path(__file__).parent / "migrations"))
+    config.set_main_option("script_location", str(package_folder("service.migrations")))
     return config

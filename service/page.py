@@ -10,9 +10,14 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Receive, Scope, Send
 
-NOT_BUILT = """<!doctype html><title>Galatea</title><h1>Galatea</h1>
-<p>The service runs, but its web page is not built: run <code>make setup</code>.
-The API is described at <a href="/v1/openapi.json">/v1/openapi.json</a>."""
+NOT_BUILT = "The web page is not built: `galatea doctor` says what to do. The API works without it."
+NO_PAGE = f"""<!doctype html><title>Galatea</title><h1>Galatea</h1>
+<p>The service runs. {NOT_BUILT} It is described at <a href="/v1/openapi.json">/v1/openapi.json</a>."""
+
+
+def built(folder: Path) -> bool:
+    """Whether there is a page in the folder."""
+    return (folder / "index.html").is_file()
 
 
 class Page(StaticFiles):
@@ -30,9 +35,9 @@ class Page(StaticFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         if scope["path"].startswith("/v1/"):
             raise HTTPException(404)
-        if not (self._folder / "index.html").is_file():
+        if not built(self._folder):
             if path == ".":
-                return HTMLResponse(NOT_BUILT)
+                return HTMLResponse(NO_PAGE)
             raise HTTPException(404)
         try:
             return await super().get_response(path, scope)

@@ -11,9 +11,9 @@ from pydantic import Field, SecretStr, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from engine.media.limits import Limits
+from service.installed import page_folder
 from service.loopback import is_loopback
 
-ROOT = Path(__file__).parent.parent
 MEGABYTE = 1_000_000
 
 
@@ -58,7 +58,7 @@ class Settings(BaseSettings):
         [], description="Networks, separated by commas, that addresses given by users may lead to beside public ones."
     )
     public_url: str | None = Field(None, description="The service's own address, for links in what it sends.")
-    web_dir: Path = Field(ROOT / "web" / "dist", description="The built web page.")
+    web_dir: Path = Field(page_folder(), description="The built web page.")
     wait_seconds: float = Field(60, ge=0, description="The longest that `Prefer: wait` holds an answer back.")
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field("INFO", description="How much is logged.")
     log_format: Literal["console", "json"] = Field("console", description="How it is written.")

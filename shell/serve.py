@@ -11,6 +11,7 @@ from pathlib import Path
 from types import FrameType
 from typing import IO
 
+import click
 import redis
 import structlog
 import uvicorn
@@ -19,6 +20,7 @@ from service.app import make_app
 from service.auth.repository import any_usable
 from service.context import Context
 from service.logs import configure
+from service.page import NOT_BUILT, built
 from service.protocol import Protocol
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
@@ -77,6 +79,8 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         timeout_graceful_shutdown=3,
         lifespan="off",
     )
+    if not built(settings.web_dir):
+        click.echo(NOT_BUILT, err=True)
     Server(config).run(sockets=[listening])
 
 

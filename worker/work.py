@@ -18,6 +18,7 @@ from engine.allocation import give_back_memory
 from engine.errors import Canceled, InputError
 from engine.kind import Candidates, Given, Kind
 from engine.media.limits import Limits
+from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run, Turn
 from engine.store import StageStore
 from service.kinds import library
@@ -122,6 +123,8 @@ def _unexpected(error: BaseException) -> dict[str, Any]:
     while link is not None:
         if isinstance(link, MemoryError) or getattr(link, "code", None) == -4:  # OpenCV's StsNoMem
             return failed("out_of_memory", "The job needs more memory than a job may use: send a smaller input.")
+        if isinstance(link, IncompleteInstallation):
+            return failed("installation_incomplete", f"The worker is not whole. {link}")
         number = getattr(link, "errno", None)
         if number in (ENOSPC, EDQUOT):
             return failed("disk_full", "The disk became full during the job: free space and submit it again.")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.package_data import package_data
 from engine.perception.landmarks import RIGID, fiducials
 
 FOCAL = 1.5
@@ -35,14 +35,14 @@ class HeadPose:
 def canonical_face() -> NDArray[np.float32]:
     """(478, 3) mean neutral face, symmetric, frontal: origin between the eyes, x to the picture's right,
     y down, z away from the viewer, the eye distance is 1. A median over many tracked faces."""
-    with np.load(Path(__file__).with_name("canonical_face.npz")) as data:
+    with np.load(package_data("engine.perception", "canonical_face.npz")) as data:
         return np.asarray(data["mesh"], np.float32)
 
 
 @cache
 def mirror_vertices() -> NDArray[np.int16]:
     """(478,) the vertex that each one becomes in a mirrored face."""
-    with np.load(Path(__file__).with_name("canonical_face.npz")) as data:
+    with np.load(package_data("engine.perception", "canonical_face.npz")) as data:
         return np.asarray(data["mirror"], np.int16)
 
 

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, get_args
 
+from engine.package_data import package_folder
+
 FPS = 30
 POSTER_SIDE = 256
 """Pixels of a poster."""
 
-VIDEOS = Path(__file__).parent / "videos"
+VIDEOS = package_folder("engine.performances", "videos")
 """The rendered performances ship with the package; `python -m engine.performances render` made them."""
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.kind import Candidates
+from engine.package_data import package_data
 from engine.performances import names
 from engine.performances.catalogue import VIDEOS
 from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
@@ -111,7 +112,7 @@ def known_looks(path: Path) -> Looks | None:
 @cache
 def library_looks() -> Mapping[str, Looks]:
     """The looks of all built-in performances, as `python -m engine.portrait.library_looks` wrote them down."""
-    document = json.loads((VIDEOS / "looks.json").read_text())
+    document = json.loads(package_data("engine.performances", "videos/looks.json").read_text())
     figure = {name: np.array(document["figure"][name], np.float32) for name in ("proportions", "light", "palette")}
     return {
         name: Looks(**figure, expressions=np.array(one["expressions"], np.float32), turn=one["turn"])

@@ -26,13 +26,15 @@ class Running:
         self,
         data_dir: Path,
         path: Path = HERE,
+        root: Path = ROOT,
         command: Sequence[str] = (sys.executable, "-m", "shell.main"),
         cwd: Path | None = None,
         **settings: Any,
     ):
-        """`path` is where job kinds are imported from; `command` is started in the folder `cwd`."""
+        """`path` is where job kinds are imported from, `root` the program; `command` is started in the folder `cwd`."""
         self.data_dir = data_dir
         self.path = path
+        self.root = root
         self.command = command
         self.cwd = cwd or data_dir.parent
         self.settings = settings
@@ -45,7 +47,7 @@ class Running:
             "GALATEA_DATA_DIR": str(self.data_dir),
             "GALATEA_KINDS": "tiny_kind:KIND",
             "GALATEA_DISK_RESERVE_MB": "1",
-            "PYTHONPATH": os.pathsep.join([str(self.path), str(ROOT)]),
+            "PYTHONPATH": os.pathsep.join([str(self.path), str(self.root)]),
             **{f"GALATEA_{name.upper()}": str(value) for name, value in self.settings.items()},
         }
         with self.output.open("wb") as output:

@@ -6,27 +6,32 @@ import html
 import zipfile
 from pathlib import Path
 
+from engine.package_data import package_data
 from engine.portrait.reactive.document import Profile
 
-HERE = Path(__file__).parent
-SCRIPT = HERE / "player" / "reactive-portrait.js"
+PACKAGE = "engine.portrait.reactive"
+SCRIPT = "player/reactive-portrait.js"
 """The built web component: `make setup` puts it there from web/reactive."""
-PAGE = HERE / "page.html"
+PAGE = "page.html"
 """A page that shows the profile where profiles are at home, with places for what this one is."""
+
+
+def player() -> Path:
+    """The built web component. Raises `IncompleteInstallation` where it is not there."""
+    return package_data(PACKAGE, SCRIPT)
 
 
 def write_bundle(path: Path, folder: Path, profile: Profile) -> None:
     """Pack a finished profile, whose files lie in `folder`.
 
-    Raises `FileNotFoundError` where the component is not built.
+    Raises `IncompleteInstallation` where the component is not built.
     """
-    if not SCRIPT.is_file():
-        raise FileNotFoundError(f"{SCRIPT} is not built: run `make setup` in the checkout")
+    script = player()
     draft = path.with_name(f".{path.name}.draft")
     try:
         with zipfile.ZipFile(draft, "w", zipfile.ZIP_DEFLATED) as bundle:
             bundle.writestr("index.html", demonstration(profile))
-            bundle.write(SCRIPT, SCRIPT.name)
+            bundle.write(script, script.name)
             bundle.write(folder / "profile.json", "profile.json")
             for name in profile.files():
                 bundle.write(folder / name, name, zipfile.ZIP_STORED)
@@ -43,7 +48,7 @@ def demonstration(profile: Profile) -> str:
         for name, state in profile.states.items()
         if name != profile.initial
     )
-    page = PAGE.read_text()
+    page = package_data(PACKAGE, PAGE).read_text()
     for place, value in (("{{width}}", str(width)), ("{{height}}", str(height)), ("{{buttons}}", buttons)):
         page = page.replace(place, value)
     return page

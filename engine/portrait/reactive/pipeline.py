@@ -24,7 +24,7 @@ from engine.portrait.neutral import NeutralFrame, choose_neutral_frame, warn_of_
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, Performed, analyse_driver, follow, prepare_target, write_landmarks
 from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
-from engine.portrait.reactive.bundle import write_bundle
+from engine.portrait.reactive.bundle import player, write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
 from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
@@ -59,6 +59,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     nothing: the built-in performances are there anyway."""
     image, driver = inputs["image"], inputs.get("driver")
     assert isinstance(image, Path)
+    player()  # before anything is worked out
     states = choose_states(options, driver if isinstance(driver, Path) else None)
     run.plan(STAGES, dict.fromkeys(PER_DRIVER, len(states)))
     if options.sound:

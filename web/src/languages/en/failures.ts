@@ -80,6 +80,7 @@ export const failures = {
     no_webgl: 'This browser cannot show 3D',
     unreachable: 'The service cannot be reached',
     internal_error: 'Something went wrong inside the service',
+    installation_incomplete: 'The service is not installed completely',
   } as Record<string, string>,
 
   failed: 'This did not work',
