@@ -1,0 +1,62 @@
+"""However much comes over a line at once, and however finely cut, the others have their turn in between."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import pytest
+import uvicorn
+from uvicorn.server import ServerState
+
+from service.protocol import SLICE_BYTES, Protocol
+
+BODY = bytes(range(251)) * 1000
+HEAD = b"POST / HTTP/1.1\r\nHost: localhost\r\n"
+
+
+def framed(size: int) -> bytes:
+    pieces = [BODY[i : i + size] for i in range(0, len(BODY), size)]
+    return b"".join(b"%x\r\n%s\r\n" % (len(piece), piece) for piece in pieces) + b"0\r\n\r\n"
+
+
+async def taken(sent: bytes, requests: int) -> list[list[bytes]]:
+    """The bodies of so many requests that come over one line in one go, each in the pieces in which it was given."""
+    bodies: list[list[bytes]] = []
+
+    async def app(scope: Any, receive: Any, send: Any) -> None:
+        pieces: list[bytes] = []
+        bodies.append(pieces)
+        more = True
+        while more:
+            message = await receive()
+            pieces.append(message["body"])
+            more = message["more_body"]
+        await send({"type": "http.response.start", "status": 204, "headers": []})
+        await send({"type": "http.response.body", "body": b""})
+
+    config = uvicorn.Config(app, http=Protocol, ws="none", lifespan="off", log_config=None)
+    server = await asyncio.get_running_loop().create_server(lambda: Protocol(config, ServerState(), {}), "127.0.0.1", 0)
+    async with server:
+        reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
+        writer.write(sent)
+        for _ in range(requests):
+            assert (await reader.readuntil(b"\r\n\r\n")).startswith(b"HTTP/1.1 204")
+        writer.close()
+        await writer.wait_closed()
+    return bodies
+
+
+@pytest.mark.parametrize("size", [1, 7, 1000, len(BODY)])
+def test_a_body_in_chunks_of_any_size(size: int) -> None:
+    (pieces,) = asyncio.run(taken(HEAD + b"Transfer-Encoding: chunked\r\n\r\n" + framed(size), 1))
+    assert b"".join(pieces) == BODY
+    assert max(map(len, pieces)) <= 2 * SLICE_BYTES
+
+
+def test_requests_that_come_one_behind_the_other() -> None:
+    one = HEAD + b"Content-Length: %d\r\n\r\n" % len(BODY) + BODY
+    two = HEAD + b"Transfer-Encoding: chunked\r\n\r\n" + framed(500)
+    bodies = asyncio.run(taken(one + two + one, 3))
+    assert [b"".join(pieces) for pieces in bodies] == [BODY] * 3
+    assert max(len(piece) for pieces in bodies for piece in pieces) <= 2 * SLICE_BYTES
