@@ -54,6 +54,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
         **figures,
         "loops": checked.loops,
         "clips": list(motion_clips(path)[:MOST_CLIPS]),
+        "skeletons": list(motion.skeletons[:MOST_CLIPS]),
         "joints": [
             {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)
         ],
@@ -63,6 +64,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     }
     (out / "motion.json").write_text(json.dumps(document, indent=2) + "\n")
     report = {**figures, "joints": len(checked.joints), "motion_joints": dict(checked.mapping)}
+    if motion.skeletons:
+        report |= {"skeleton": motion.skeletons[0], "skeletons": len(motion.skeletons)}
     write_report(out / "report.json", "motion", run, report, {})
 
 

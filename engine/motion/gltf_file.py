@@ -1,4 +1,4 @@
-"""glTF files for reading: their parts and the numbers in them, sizes checked first."""
+"""glTF files for reading: their parts and the bytes in them, sizes checked first."""
 
 from __future__ import annotations
 
@@ -8,13 +8,10 @@ import json
 import re
 import struct
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, cast
 
 from engine.errors import InputError
-from engine.motion.source_motion import MAX_BYTES, MAX_NUMBERS
+from engine.motion.source_motion import MAX_BYTES
 
 MAX_JSON = 8 << 20
 """Bytes of a file's JSON beside the buffers in it."""
@@ -30,12 +27,8 @@ MAX_ANIMATIONS = 4096
 MAX_CHANNELS = 65_536
 """Of all animations together."""
 
-MOST_READ = 4 * MAX_NUMBERS
-"""Numbers that a file may have read in all: many accessors can point to the same bytes."""
-
-_TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _MAGIC = b"glTF"
+_JSON, _BINARY = 0x4E4F534A, 0x004E4942
 _BUFFER = re.compile(rb'"data:[^"\\]*"')
 
 
@@ -74,52 +67,63 @@ class GltfFile:
         """
         text, self._binary = _read(source)
         try:
-            self.parts: Part = json.loads(text, object_hook=Part)
+            self.parts: Part = json.loads(text.decode("utf-8-sig"), object_hook=Part, parse_constant=_no_number)
         except (ValueError, RecursionError) as error:
             raise unreadable("its structure is broken") from error
         if not _well_formed(self.parts):
             raise unreadable("its structure is broken")
         _require_few(self.parts)
+        self._required = frozenset(self.parts.extensionsRequired or ())
         self._buffers: dict[int, bytes] = {}
-        self._read = 0
 
-    def numbers(self, accessor: int | None) -> NDArray[np.float64]:
-        """(count, width) the numbers of an accessor; integers that stand for fractions become these.
+    def view(self, index: Any) -> tuple[bytes, Part]:
+        """The bytes of a buffer view, and what the file says of it.
 
         Raises
         ------
-        InputError : `motion_unreadable`, `motion_too_large`, `motion_not_finite`.
+        InputError : `motion_unreadable`, `motion_extension`.
         """
-        try:
-            part = self.parts.accessors[accessor]
-            view = self.parts.bufferViews[part.bufferView]
-            width, kind = _WIDTHS[part.type], np.dtype(_TYPES[part.componentType]).newbyteorder("<")
-            count = int(part.count)
-            if part.sparse is not None or count < 0:
-                raise unreadable("it has sparse accessors")
-            row = width * kind.itemsize
-            stride = view.byteStride or row
-            start = (view.byteOffset or 0) + (part.byteOffset or 0)
-            data = self._buffer(view.buffer)
-            if count == 0 or start < 0 or stride < row or start + stride * (count - 1) + row > len(data):
-                raise unreadable("an accessor points outside its buffer")
-            self._read += count * width
-            if self._read > MOST_READ:
-                raise InputError("motion_too_large", "The glTF file has too many keys: cut the recording.")
-            table = np.ndarray((count, width), kind, data, start, (stride, kind.itemsize)).astype(np.float64)
-        except (TypeError, KeyError, IndexError, ValueError) as error:
-            raise unreadable("an accessor is broken") from error
-        if part.normalized and kind.kind != "f":
-            table = np.maximum(table / (2.0 ** (8 * kind.itemsize - (kind.kind == "i")) - 1), -1.0)
-        if not np.isfinite(table).all():
-            raise InputError("motion_not_finite", "The glTF file holds numbers that are not finite: export it again.")
-        return table
+        part = self.part("bufferViews", index)
+        start, size = natural(part.byteOffset, 0), natural(part.byteLength)
+        data = self._buffer(part.buffer)
+        if start + size > len(data):
+            raise unreadable("a view reaches beyond its buffer")
+        return data[start : start + size], part
 
-    def _buffer(self, index: int) -> bytes:
+    def part(self, kind: str, index: Any) -> Part:
+        """An element of one of the file's lists, of which everything that must be known is known.
+
+        Raises
+        ------
+        InputError : `motion_unreadable`, `motion_extension`.
+        """
+        parts = self.parts.get(kind, [])
+        if type(index) is not int or not 0 <= index < len(parts):
+            raise unreadable(f"one of its {kind} is not there")
+        self.require_known(parts[index])
+        return cast(Part, parts[index])
+
+    def require_known(self, part: Part) -> None:
+        """Refuse a part which is read, and which an extension changes that a reader must know.
+
+        Extensions of other parts, materials or meshes say, are of no concern, whether a reader must know them or not.
+
+        Raises
+        ------
+        InputError : `motion_extension`.
+        """
+        for name in part.extensions if isinstance(part.extensions, dict) else ():
+            if name in self._required:
+                raise _extension(name)
+
+    def _buffer(self, index: Any) -> bytes:
+        part = self.part("buffers", index)
         if index not in self._buffers:
-            uri = self.parts.buffers[index].uri
-            if uri is None:
+            uri = part.uri
+            if uri is None and index == 0 and self._binary is not None:
                 data = self._binary
+            elif uri is None:
+                raise _extension(next(iter(part.extensions))) if part.extensions else unreadable("a buffer is missing")
             elif isinstance(uri, str) and uri.startswith("data:"):
                 try:
                     data = base64.b64decode(uri.partition(",")[2], validate=True)
@@ -129,8 +133,33 @@ class GltfFile:
                 raise InputError(
                     "motion_unreadable", "The glTF file's numbers lie in another file: export it as one GLB file."
                 )
-            self._buffers[index] = data
+            size = natural(part.byteLength)
+            if size > len(data):
+                raise unreadable("a buffer is shorter than it says")
+            self._buffers[index] = data[:size]
         return self._buffers[index]
+
+
+def natural(value: Any, default: int | None = None) -> int:
+    """A whole number from 0 on, as lengths and counts are; the default where none is given.
+
+    Raises
+    ------
+    InputError : `motion_unreadable`.
+    """
+    if value is None and default is not None:
+        return default
+    if type(value) is not int or value < 0:
+        raise unreadable("a length or a count is no whole number")
+    return value
+
+
+def _extension(name: str) -> InputError:
+    return InputError(
+        "motion_extension",
+        f"The glTF file keeps its motion by the extension {name[:60]!r}, which is not known here: export it without"
+        " compression and other extensions.",
+    )
 
 
 def _well_formed(parts: Any) -> bool:
@@ -139,6 +168,8 @@ def _well_formed(parts: Any) -> bool:
         return False
     lists = ("nodes", "skins", "animations", "accessors", "bufferViews", "buffers")
     if not all(_list_of(Part, parts.get(key, [])) for key in lists):
+        return False
+    if not _list_of(str, parts.get("extensionsRequired", [])):
         return False
     return (
         all(_list_of(int, node.get("children", [])) for node in parts.get("nodes", []))
@@ -165,16 +196,20 @@ def _is_animation(animation: Part) -> bool:
         return False
     targets = [channel.target for channel in animation.channels]
     return _list_of(Part, targets) and all(
-        isinstance(target.path, str) and isinstance(target.node, int | None) for target in targets
+        isinstance(target.path, str) and (target.node is None or type(target.node) is int) for target in targets
     )
 
 
 def _list_of(kind: type, value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(item, kind) for item in value)
+    return isinstance(value, list) and all(type(item) is kind for item in value)
 
 
-def _read(source: Path | bytes) -> tuple[bytes, bytes]:
-    """The JSON, and the binary part of a GLB."""
+def _no_number(word: str) -> float:
+    raise ValueError(f"{word} is not JSON")
+
+
+def _read(source: Path | bytes) -> tuple[bytes, bytes | None]:
+    """The JSON, and the binary part of a GLB that has one."""
     size = source.stat().st_size if isinstance(source, Path) else len(source)
     if size > MAX_BYTES:
         raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
@@ -183,14 +218,29 @@ def _read(source: Path | bytes) -> tuple[bytes, bytes]:
         raise unreadable("it is neither GLB nor glTF")
     if data[:4] != _MAGIC:
         _require_few_parts(len(data) - sum(len(found.group()) for found in _BUFFER.finditer(data)))
-        return data, b""
+        return data, None
     if len(data) < 20:
         raise unreadable("it breaks off")
-    version, length, first = struct.unpack_from("<III", data, 4)
-    if version != 2 or length > len(data) or first > len(data) - 20:
+    version, length = struct.unpack_from("<II", data, 4)
+    if version != 2 or length > len(data):
         raise unreadable("it breaks off")
-    _require_few_parts(first)
-    return data[20 : 20 + first], data[28 + first :]
+    text, kind, place = _chunk(data, 12, length)
+    if kind != _JSON:
+        raise unreadable("its structure is broken")
+    _require_few_parts(len(text))
+    if place + 8 > length:
+        return text, None
+    binary, kind, _ = _chunk(data, place, length)
+    return text, binary if kind == _BINARY else None
+
+
+def _chunk(data: bytes, place: int, length: int) -> tuple[bytes, int, int]:
+    """A GLB's chunk, of which kind it is, and where the next one begins."""
+    size, kind = struct.unpack_from("<II", data, place) if place + 8 <= length else (length, 0)
+    begin = place + 8
+    if begin + size > length:
+        raise unreadable("it breaks off")
+    return data[begin : begin + size], kind, begin + size
 
 
 def _require_few_parts(size: int) -> None:

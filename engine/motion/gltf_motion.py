@@ -7,15 +7,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion import rotation
+from engine.motion.gltf_accessors import Accessors
 from engine.motion.gltf_file import GltfFile, unreadable
-from engine.motion.source_motion import MAX_FRAMES, MAX_JOINTS, MAX_NUMBERS, Array, SourceMotion, place, unique_names
-
-FEWEST_JOINTS = 10
-"""Animated nodes without a skin are a skeleton if they are at least this many: hips, limbs, head."""
+from engine.motion.gltf_skeleton import (
+    FEWEST_JOINTS,
+    NodeTree,
+    at_rest,
+    bind_pose,
+    find_skeletons,
+    node_tree,
+    skeleton_nodes,
+)
+from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
 
 USUAL_FPS = 30.0
 """For clips whose keys are sparse."""
@@ -45,18 +51,19 @@ def gltf_clips(source: Path | bytes) -> tuple[str, ...]:
 
 
 def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = "") -> SourceMotion:
-    """Read an animation of a skeleton: the one named `clip`, or the first in which something moves.
+    """Read an animation of a skeleton: the one named `clip`, or the first in which something moves. Of several skeletons it
+    is the one of which that moves most.
 
     Sampled at the clip's own rate, LINEAR, STEP and CUBICSPLINE alike. The rest pose is the one that the skin is bound
     in. Scales are applied to lengths, and not animated.
 
     Raises
     ------
-    InputError : `motion_unreadable`, `motion_too_large`, `motion_not_finite`, `motion_without_skeleton`,
+    InputError : `motion_unreadable`, `motion_too_large`, `motion_not_finite`, `motion_extension`, `motion_without_skeleton`,
         `motion_without_animation`, `motion_clip_unknown` (`found["clips"]` are there).
     """
     file = GltfFile(source)
-    parents, order = _tree(file.parts)
+    accessors, tree = Accessors(file), node_tree(file.parts)
     skinned = {joint for skin in file.parts.skins or [] for joint in skin.joints}
     animations = list(file.parts.animations or [])
     if not animations:
@@ -71,14 +78,16 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
             ("motion_clip",),
             {"clips": list(names)},
         )
-    chosen = names.index(clip) if clip is not None else _first_that_moves(file, animations)
-    nodes = _skeleton_nodes(parents, order, skinned or _turned(animations[chosen]))
-    if len(nodes) > MAX_JOINTS:
-        raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
+    number, moving = _chosen(file, accessors, tree, None if clip is None else names.index(clip))
+    chosen = animations[number]
+    skeletons = find_skeletons(tree, skinned, _turned(chosen))
+    counts = [(len(joints & moving), len(joints & _turned(chosen))) for joints in skeletons]
+    own = counts.index(max(counts))
+    nodes = skeleton_nodes(tree, skeletons[own])
     index = {node: joint for joint, node in enumerate(nodes)}
-    own_parents = np.array([index.get(parents[node], -1) for node in nodes], np.int32)
-    turns, offsets, scales = _at_rest(file.parts, nodes, own_parents)
-    tracks = _tracks(file, animations[chosen], index)
+    own_parents = np.array([index.get(tree.parents[node], -1) for node in nodes], np.int32)
+    turns, offsets, scales = at_rest(file.parts, nodes, own_parents)
+    tracks = _tracks(file, accessors, chosen, index)
     fps, times = _sampling(tracks, len(nodes))
     rotations = np.tile(turns, (len(times), 1, 1))
     translations = np.tile(offsets, (len(times), 1, 1))
@@ -87,11 +96,11 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
             rotations[:, joint] = _sampled(track, times)
         else:
             translations[:, joint] = _sampled(track, times) * scales[joint]
-    rest_turns, rest_offsets = _bind_pose(file, nodes, own_parents, turns, offsets)
+    rest_turns, rest_offsets = bind_pose(file, accessors, nodes, own_parents, turns, offsets)
     return SourceMotion(
-        name=name or names[chosen],
+        name=name or names[number],
         fps=fps,
-        names=unique_names(str(file.parts.nodes[node].name or f"node {node}") for node in nodes),
+        names=unique_names(_name(file.parts.nodes[node], f"node {node}") for node in nodes),
         parents=own_parents,
         rest_rotations=rest_turns,
         rest_offsets=rest_offsets,
@@ -101,7 +110,10 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
         up=(0.0, 1.0, 0.0),
         unit="metre",
         unit_metres=1.0,
-        loops=_loops(animations[chosen]),
+        loops=_loops(chosen),
+        skeletons=tuple(
+            _topmost(file, tree, joints) for joints in (skeletons[own], *skeletons[:own], *skeletons[own + 1 :])
+        ),
     )
 
 
@@ -112,139 +124,79 @@ def _loops(animation: Any) -> bool | None:
 
 
 def _clip_names(file: GltfFile) -> tuple[str, ...]:
-    return unique_names(str(a.name or f"clip {i}") for i, a in enumerate(file.parts.animations or []))
+    return unique_names(_name(a, f"clip {i}") for i, a in enumerate(file.parts.animations or []))
+
+
+def _name(part: Any, otherwise: str) -> str:
+    return part.name if isinstance(part.name, str) and part.name else otherwise
+
+
+def _topmost(file: GltfFile, tree: NodeTree, joints: set[int]) -> str:
+    """The name of the first joint of a skeleton."""
+    node = next(node for node in tree.order if node in joints)
+    return _name(file.parts.nodes[node], f"node {node}")[:128]
 
 
 def _turned(animation: Any) -> set[int]:
     return {c.target.node for c in animation.channels if c.target.path == "rotation" and c.target.node is not None}
 
 
-def _tree(parts: Any) -> tuple[list[int], list[int]]:
-    """Each node's parent (-1: none), and all nodes, parents first."""
-    nodes = list(parts.nodes or [])
-    parents = [-1] * len(nodes)
-    for index, node in enumerate(nodes):
-        for child in node.children or []:
-            if not 0 <= child < len(nodes) or parents[child] != -1 or child == index:
-                raise unreadable("its nodes are no tree")
-            parents[child] = index
-    order = [index for index, parent in enumerate(parents) if parent == -1]
-    for index in order:
-        order.extend(nodes[index].children or [])
-    if len(order) != len(nodes):
-        raise unreadable("its nodes are no tree")
-    return parents, order
-
-
-def _skeleton_nodes(parents: list[int], order: list[int], joints: set[int]) -> list[int]:
-    """The joints, what they hang on, and what hangs on them, parents first."""
-    if not all(0 <= joint < len(parents) for joint in joints):
-        raise unreadable("a joint is not there")
-    kept = set(joints)
-    for joint in joints:
-        while (joint := parents[joint]) >= 0 and joint not in kept:
-            kept.add(joint)
-    below = set(joints)
-    for node in order:
-        if parents[node] in below:
-            below.add(node)
-    kept |= below
-    return [node for node in order if node in kept]
-
-
-def _at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[Array, Array, Array]:
-    """Turns (J, 4) and offsets (J, 3) as the nodes have them, in parents' axes, and by what their parents scale (J,)."""
-    turns, offsets, scales = rotation.identity(len(nodes)), np.zeros((len(nodes), 3)), np.ones(len(nodes))
-    own = np.ones(len(nodes))
-    try:
-        for joint, node in enumerate(parts.nodes[index] for index in nodes):
-            if node.matrix is not None:
-                matrix = np.array(node.matrix, np.float64).reshape(4, 4).T
-                turns[joint], own[joint] = _turn_and_scale(matrix[:3, :3])
-                offsets[joint] = matrix[:3, 3]
-            else:
-                turns[joint] = rotation.normalize(node.rotation or rotation.IDENTITY)
-                offsets[joint] = node.translation or (0, 0, 0)
-                own[joint] = np.mean(node.scale or (1, 1, 1))
-            if parents[joint] >= 0:
-                scales[joint] = scales[parents[joint]] * own[parents[joint]]
-    except (TypeError, ValueError) as error:
-        raise unreadable("a node is broken") from error
-    offsets = offsets * scales[:, None]
-    if not (np.isfinite(turns).all() and np.isfinite(offsets).all()):
-        raise InputError("motion_not_finite", "The glTF file holds numbers that are not finite: export it again.")
-    return turns, offsets, scales
-
-
-def _turn_and_scale(matrix: Array) -> tuple[Array, float]:
-    """The turn nearest to a matrix (3, 3), and its mean scale."""
-    u, sizes, v = np.linalg.svd(matrix)
-    sign = np.sign(np.linalg.det(u @ v))
-    return rotation.from_matrix(u @ np.diag([1, 1, sign]) @ v), float(sizes.mean())
-
-
-def _bind_pose(
-    file: GltfFile, nodes: list[int], parents: NDArray[np.int32], turns: Array, offsets: Array
-) -> tuple[Array, Array]:
-    """Turns and offsets in parents' axes of the pose in which the skin was bound; joints outside of it stay at rest."""
-    world, places = place(parents, turns, offsets)
-    bound = np.zeros(len(nodes), bool)
-    index = {node: joint for joint, node in enumerate(nodes)}
-    for skin in file.parts.skins or []:
-        if skin.inverseBindMatrices is None:
-            continue
-        matrices = file.numbers(skin.inverseBindMatrices).reshape(-1, 4, 4).swapaxes(1, 2)
-        regular = np.abs(np.linalg.det(matrices)) > 1e-12
-        for node, matrix, invertible in zip(skin.joints, matrices, regular, strict=False):
-            joint = index[node]
-            if invertible and not bound[joint]:
-                bind = np.asarray(np.linalg.inv(matrix), np.float64)
-                world[joint], places[joint], bound[joint] = _turn_and_scale(bind[:3, :3])[0], bind[:3, 3], True
-    if not bound.any():
-        return turns, offsets
-    own_turns, own_offsets = turns.copy(), offsets.copy()
-    for joint, parent in enumerate(parents):
-        if parent >= 0 and bound[joint]:
-            back = rotation.inverse(world[parent])
-            own_turns[joint] = rotation.multiply(back, world[joint])
-            own_offsets[joint] = rotation.rotate(back, places[joint] - places[parent])
-        elif parent >= 0:
-            world[joint] = rotation.multiply(world[parent], turns[joint])
-            places[joint] = places[parent] + rotation.rotate(world[parent], offsets[joint])
-    return own_turns, own_offsets
-
-
-def _tracks(file: GltfFile, animation: Any, index: dict[int, int]) -> list[tuple[int, _Track]]:
-    found = []
+def _tracks(file: GltfFile, accessors: Accessors, animation: Any, index: dict[int, int]) -> list[tuple[int, _Track]]:
+    found: dict[tuple[int, str], _Track] = {}
     for channel in animation.channels:
         path, joint = channel.target.path, index.get(channel.target.node, -1)
         width = {"rotation": 4, "translation": 3}.get(path)
         if width is None or joint < 0:
             continue
-        try:
-            sampler = animation.samplers[channel.sampler]
-        except (IndexError, TypeError) as error:
-            raise unreadable("a sampler is not there") from error
-        if sampler.interpolation not in INTERPOLATIONS:
-            raise unreadable("an animation goes from key to key in a way that glTF does not know")
-        times, values = file.numbers(sampler.input)[:, 0], file.numbers(sampler.output)
+        sampler = _sampler(file, animation, channel)
+        times, values = accessors.numbers(sampler.input)[:, 0], accessors.numbers(sampler.output)
         spline = sampler.interpolation == "CUBICSPLINE"
         if values.shape != (len(times) * (3 if spline else 1), width) or (np.diff(times) < 0).any():
             raise unreadable("an animation's keys are broken")
-        found.append((joint, _Track(path, times, values, sampler.interpolation or "LINEAR")))
+        found.setdefault((joint, path), _Track(path, times, values, sampler.interpolation or "LINEAR"))
     if not found:
         raise InputError("motion_without_animation", "The file's animation does not move the skeleton: choose another.")
-    return found
+    return [(joint, track) for (joint, _), track in found.items()]
 
 
-def _first_that_moves(file: GltfFile, animations: list[Any]) -> int:
+def _sampler(file: GltfFile, animation: Any, channel: Any) -> Any:
+    """The sampler of a channel, of which everything that must be known is known."""
+    number = channel.sampler
+    if type(number) is not int or not 0 <= number < len(animation.samplers):
+        raise unreadable("a sampler is not there")
+    sampler = animation.samplers[number]
+    for part in (animation, channel, channel.target, sampler):
+        file.require_known(part)
+    if sampler.interpolation not in INTERPOLATIONS:
+        raise unreadable("an animation goes from key to key in a way that glTF does not know")
+    return sampler
+
+
+def _chosen(file: GltfFile, accessors: Accessors, tree: NodeTree, wanted: int | None) -> tuple[int, set[int]]:
+    """Which animation is played: the one that is wanted, or the first by which a joint turns; and what it moves."""
+    animations = file.parts.animations
+    if wanted is not None:
+        return wanted, _moving(file, accessors, animations[wanted])
+    joints = {joint for skin in file.parts.skins or [] for joint in skin.joints}
+    first: tuple[int, set[int]] | None = None
     for number, animation in enumerate(animations):
-        everything = {node: node for node in _turned(animation)}
-        if everything and any(
-            np.ptp(track.values, axis=0).max() > 1e-3 for _, track in _tracks(file, animation, everything)
-        ):
-            return number
-    return 0
+        moving = _moving(file, accessors, animation)
+        if moving & joints if joints else moving:
+            return number, moving
+        first = first or (number, moving) if moving else first
+    return first or (0, set())
+
+
+def _moving(file: GltfFile, accessors: Accessors, animation: Any) -> set[int]:
+    """The nodes that an animation turns or moves, and does not only hold."""
+    found: set[int] = set()
+    for channel in animation.channels:
+        node = channel.target.node
+        if node is None or node in found or channel.target.path not in ("rotation", "translation"):
+            continue
+        if accessors.varies(_sampler(file, animation, channel).output):
+            found.add(node)
+    return found
 
 
 def _sampling(tracks: list[tuple[int, _Track]], joints: int) -> tuple[float, Array]:

@@ -32,6 +32,7 @@ class SourceMotion:
     `up`: the world's axis that points up, or None where the format leaves it open.
     `unit_metres`: the length of the file's unit, and `unit` its name; a guess for formats that do not tell.
     `loops`: whether the last frame shows the first again, moved on by what the root travels; None where the file is silent.
+    `skeletons`: the first joints of all skeletons in the file, this one's first; empty where the format holds one alone.
     """
 
     name: str
@@ -47,6 +48,7 @@ class SourceMotion:
     unit: str = "unknown"
     unit_metres: float = float("nan")
     loops: bool | None = None
+    skeletons: tuple[str, ...] = ()
 
     def rest(self) -> tuple[Array, Array]:
         """World turns (J, 4) and places (J, 3) of the rest pose."""
@@ -74,6 +76,10 @@ def unique_names(names: Iterable[str]) -> tuple[str, ...]:
     seen: dict[str, int] = {}
     found = []
     for name in (name[:128].encode(errors="replace").decode() for name in names):
-        seen[name] = seen.get(name, 0) + 1
-        found.append(name if seen[name] == 1 else f"{name} #{seen[name]}")
+        said = name
+        while said in seen:
+            seen[name] += 1
+            said = f"{name} #{seen[name]}"
+        seen[said] = 1
+        found.append(said)
     return tuple(found)

@@ -29,6 +29,7 @@ export const failures = {
     motion_truncated: 'The motion is incomplete',
     motion_empty: 'The motion is empty',
     motion_channels: 'The motion cannot be read',
+    motion_extension: 'The motion is packed in a way that is not known here',
     motion_too_large: 'The motion is too large',
     motion_not_finite: 'The motion is broken',
     motion_without_skeleton: 'The motion has no skeleton',
