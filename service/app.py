@@ -9,6 +9,8 @@ import engine
 from service import openapi, problems
 from service.artifacts.endpoints import router as artifacts
 from service.auth.endpoints import router as keys
+from service.connections.patience import Patience
+from service.connections.stopping import Stopping
 from service.context import Context
 from service.drivers.endpoints import router as drivers
 from service.events.endpoints import router as events
@@ -41,7 +43,8 @@ def make_app(context: Context) -> FastAPI:
     )
     app.state.context = context
     app.state.uploads = UnderWay()
-    app.state.watch = Watch(context)
+    app.state.stopping = Stopping()
+    app.state.watch = Watch(context, app.state.stopping)
     problems.install(app)
     openapi.describe(app, context.settings.keys_required)
     v1 = APIRouter(prefix="/v1")
@@ -51,6 +54,9 @@ def make_app(context: Context) -> FastAPI:
     app.include_router(health)
     app.router.default = Page(context.settings.web_dir)  # not mounted: a mount would hide which methods a route has
     settings = context.settings
+    app.add_middleware(
+        Patience, stopping=app.state.stopping, most=settings.body_seconds, rate=settings.body_bytes_per_second
+    )
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware,

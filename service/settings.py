@@ -58,6 +58,12 @@ class Settings(BaseSettings):
         [], description="Networks, separated by commas, that addresses given by users may lead to beside public ones."
     )
     public_url: str | None = Field(None, description="The service's own address, for links in what it sends.")
+    connections: int = Field(1000, ge=8, description="The most connections at once; beyond, some are answered 503.")
+    head_seconds: float = Field(20, gt=0, description="How long a request's address and headers may take.")
+    body_seconds: float = Field(60, gt=0, description="How long a request's body may stand still.")
+    body_bytes_per_second: float = Field(500, gt=0, description="The slowest that a body may come for long.")
+    idle_seconds: float = Field(15, gt=0, description="How long a connection is kept for a next request.")
+    send_seconds: float = Field(300, gt=0, description="How long nothing may be taken of an answer.")
     web_dir: Path = Field(page_folder(), description="The built web page.")
     wait_seconds: float = Field(60, ge=0, description="The longest that `Prefer: wait` holds an answer back.")
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field("INFO", description="How much is logged.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import fcntl
 import signal
 import socket
@@ -15,13 +16,16 @@ import click
 import redis
 import structlog
 import uvicorn
+from fastapi import FastAPI
 
 from service.app import make_app
 from service.auth.repository import any_usable
+from service.connections.census import Census, most_connections, raise_file_limit
+from service.connections.protocol import Config
+from service.connections.stopping import Stopping
 from service.context import Context
 from service.logs import configure
 from service.page import NOT_BUILT, built
-from service.protocol import Protocol
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
 from shell.complaint import Complaint
@@ -30,8 +34,8 @@ from shell.supervisor import Supervisor
 from worker.interpreter import module_command
 
 PATIENCE_SECONDS = 10.0
-HEAD_BYTES = 64 * 1024
-"""How much of an address and headers may come without their end; what comes whole at once may be more."""
+STOP_SECONDS = 3
+"""How long requests may take to end once the service is to end; `Stopping` has told them."""
 
 SWITCH_SECONDS = 0.0005
 """How long one thread may keep Python to itself: a request passes from thread to thread several times, and would wait
@@ -65,23 +69,28 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     _require_a_key(context)
     if settings.worker:
         supervisor.keep("worker", module_command("shell.main", "worker"), stop_seconds=10)
-    config = uvicorn.Config(
-        make_app(context),
+    app = make_app(context)
+    if not built(settings.web_dir):
+        click.echo(NOT_BUILT, err=True)
+    Server(_config(settings, app), app.state.stopping).run(sockets=[listening])
+
+
+def _config(settings: Settings, app: FastAPI) -> Config:
+    return Config(
+        app,
+        Census(most_connections(settings.connections, raise_file_limit())),
+        settings.head_seconds,
+        settings.send_seconds,
+        timeout_keep_alive=settings.idle_seconds,
         loop="uvloop",
-        # Strict and bounded. The compiled one takes headers without end, and refuses bodies of who offers an upgrade.
-        http=Protocol,
-        h11_max_incomplete_event_size=HEAD_BYTES,
         ws="none",
         log_config=None,
         access_log=settings.log_level == "DEBUG",
         proxy_headers=False,
         server_header=False,
-        timeout_graceful_shutdown=3,
+        timeout_graceful_shutdown=STOP_SECONDS,
         lifespan="off",
     )
-    if not built(settings.web_dir):
-        click.echo(NOT_BUILT, err=True)
-    Server(config).run(sockets=[listening])
 
 
 def _require_a_key(context: Context) -> None:
@@ -94,7 +103,11 @@ def _require_a_key(context: Context) -> None:
 
 
 class Server(uvicorn.Server):
-    """Says where it is once it answers."""
+    """Says where it is once it answers, and tells all requests when it is to end."""
+
+    def __init__(self, config: Config, stopping: Stopping):
+        super().__init__(config)
+        self._stopping = stopping
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
@@ -102,6 +115,12 @@ class Server(uvicorn.Server):
             host, port = listening.getsockname()[:2]
             shown = f"[{host}]" if ":" in host else host
             print(f"Galatea serves at http://{shown}:{port}/", flush=True)
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._stopping.begin()
+        await super().shutdown(sockets)
+        if self.server_state.tasks:  # those that were cut short still say so
+            await asyncio.wait(self.server_state.tasks, timeout=1)
 
 
 def _listen(settings: Settings) -> socket.socket:

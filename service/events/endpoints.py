@@ -20,6 +20,8 @@ from service.problems import Problem, responses
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 
 HEARTBEAT_SECONDS = 15
+STOP_SECONDS = 2
+"""How long a stream may take to end by itself when the service does."""
 AN_EVENT_ID: dict[str, Any] = {"pattern": "^[0-9]{1,18}$"}
 
 
@@ -60,5 +62,8 @@ def follow_job(
         # A browser connects again whenever a stream ends; this answer tells it to stop.
         return Response(status_code=204)
     return EventSourceResponse(
-        follow(context, watch, job_id, events, seen), ping=HEARTBEAT_SECONDS, headers={"Cache-Control": "no-store"}
+        follow(context, watch, job_id, events, seen),
+        ping=HEARTBEAT_SECONDS,
+        headers={"Cache-Control": "no-store"},
+        shutdown_grace_period=STOP_SECONDS,
     )

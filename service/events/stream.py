@@ -20,7 +20,7 @@ async def follow(
     context: Context, watch: Watch, job_id: str, events: Sequence[Event], after: int
 ) -> AsyncIterator[dict[str, Any]]:
     """The job's events that came after one, as the fields of a server-sent event: those that were found already, then
-    what comes. Ends after the final one, or when the job is deleted."""
+    what comes. Ends after the final one, when the job is deleted, or with the service."""
     with watch.follow(job_id) as follower:
         there = True
         while there:
@@ -32,6 +32,7 @@ async def follow(
             events, there = await run_sync(_look, context, job_id, after)
             if there and not events:
                 await follower.wait()
+                there = not watch.stopping.begun
 
 
 def final(event: Event) -> bool:

@@ -15,6 +15,7 @@ from anyio.to_thread import run_sync
 from fastapi import Depends, Request
 from sqlalchemy.exc import SQLAlchemyError
 
+from service.connections.stopping import Stopping
 from service.context import Context
 from service.events import repository
 
@@ -29,10 +30,12 @@ PATIENCE_SECONDS = 5.0
 class Watch:
     """Wakes the followers of jobs. It looks only while somebody follows."""
 
-    def __init__(self, context: Context):
+    def __init__(self, context: Context, stopping: Stopping):
+        self.stopping = stopping
         self._context = context
         self._following: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
         self._task: asyncio.Task[None] | None = None
+        stopping.tell(self._wake_all)
 
     def follow(self, job_id: str) -> Follower:
         """Begin to follow a job: from now on no event of it is missed."""
@@ -48,6 +51,11 @@ class Watch:
         there.discard(follower.changed)
         if not there:
             del self._following[follower.job_id]
+
+    def _wake_all(self) -> None:
+        for followers in self._following.values():
+            for changed in followers:
+                changed.set()
 
     async def _look(self) -> None:
         newest: int | None = None

@@ -13,6 +13,7 @@ from starlette.responses import Response
 
 from service.auth.caller import Reader, Submitter
 from service.clock import Moment
+from service.connections.stopping import InStopping, Stopping
 from service.context import Context, InContext
 from service.disk import require_space
 from service.ids import LIKE_AN_ID, is_id
@@ -70,13 +71,14 @@ async def create_job(
     response: Response,
     caller: Submitter,
     context: InContext,
+    stopping: InStopping,
     idempotency_key: IdempotencyKeyHeader = None,
     prefer: PreferHeader = None,
 ) -> JobOut:
     """Submit a job. The same `Idempotency-Key` with the same request makes one job, however often it is sent."""
     require_space(context.settings)
     job, replayed = await submit_body(request, context, caller, idempotency_key)
-    return await _accepted(context, caller.owner, response, job, replayed, prefer)
+    return await _accepted(context, stopping, caller.owner, response, job, replayed, prefer)
 
 
 @router.post(
@@ -92,13 +94,14 @@ async def revise_job(
     response: Response,
     caller: Submitter,
     context: InContext,
+    stopping: InStopping,
     idempotency_key: IdempotencyKeyHeader = None,
     prefer: PreferHeader = None,
 ) -> JobOut:
     """Submit a job again with corrections or other options: only what depends on them is worked out anew."""
     require_space(context.settings)
     job, replayed = await revise_body(request, context, caller, job_id, idempotency_key)
-    return await _accepted(context, caller.owner, response, job, replayed, prefer)
+    return await _accepted(context, stopping, caller.owner, response, job, replayed, prefer)
 
 
 @router.get("/{job_id}/revisions", operation_id="list_revisions", responses=responses(404))
@@ -165,7 +168,13 @@ def delete_job(job_id: str, caller: Submitter, context: InContext) -> None:
 
 
 async def _accepted(
-    context: Context, owner: str, response: Response, job: Job, replayed: bool, prefer: str | None
+    context: Context,
+    stopping: Stopping,
+    owner: str,
+    response: Response,
+    job: Job,
+    replayed: bool,
+    prefer: str | None,
 ) -> JobOut:
     response.headers["Location"] = f"/v1/jobs/{job.id}"
     if replayed:
@@ -177,13 +186,14 @@ async def _accepted(
         return await run_sync(service.shown, context, owner, job.id)
     seconds = min(float(wait[1]), context.settings.wait_seconds)
     response.headers["Preference-Applied"] = f"wait={seconds:g}"
-    return await _wait(context, owner, job.id, seconds)
+    return await _wait(context, stopping, owner, job.id, seconds)
 
 
-async def _wait(context: Context, owner: str, job_id: str, seconds: float) -> JobOut:
+async def _wait(context: Context, stopping: Stopping, owner: str, job_id: str, seconds: float) -> JobOut:
+    """The job once it has ended, or the time is over, or the service stops: it was accepted, whatever becomes of us."""
     deadline = anyio.current_time() + seconds
     while True:
         job = await run_sync(service.shown, context, owner, job_id)
-        if job.status.final or anyio.current_time() >= deadline:
+        if job.status.final or stopping.begun or anyio.current_time() >= deadline:
             return job
-        await anyio.sleep(WAIT_POLL_SECONDS)
+        await stopping.sleep(WAIT_POLL_SECONDS)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import anyio
 from anyio.to_thread import run_sync
 from fastapi import Request
@@ -11,6 +9,7 @@ from starlette.requests import ClientDisconnect
 
 from service.auth.quotas import require_room, require_upload
 from service.clock import now
+from service.connections.patience import Stalled, Stopped
 from service.context import Context
 from service.disk import require_space
 from service.files.door import largest_mb, shown_name, too_large
@@ -26,9 +25,6 @@ from service.uploads.under_way import Hold
 
 WRITE_BYTES = 1 << 20
 """As much is held in memory of a piece that comes in."""
-
-IDLE_SECONDS = 60.0
-"""How long a request may send nothing. Its client can take the upload up again at any time."""
 
 
 def create(context: Context, owner: str, length: int | None, notes: str | None) -> Upload:
@@ -114,25 +110,24 @@ async def _stream(request: Request, hold: Hold, reception: Reception) -> Excepti
     """Take the body as it comes. Returns why it ended early, if it did."""
     try:
         with hold.interruptible as scope:
-            await _take(request, scope, reception)
+            await _take(request, reception)
     except ClientDisconnect as disconnect:
         return disconnect
-    except asyncio.CancelledError:  # the server wants to end, and the client will come back
-        return Problem(503, "service_stopping", "The service is stopping: ask where the upload stands when it is back.")
-    if not scope.cancelled_caught:
-        return None
-    if hold.asked:
+    except Stopped as stopped:
+        detail = "The service is stopping: ask where the upload stands when it is back."
+        return Problem(503, "service_stopping", detail, headers=stopped.headers)
+    except Stalled:
+        return Problem(408, "upload_stalled", "Nothing came for too long: ask where the upload stands, and go on.")
+    if scope.cancelled_caught:
         return Problem(423, "upload_taken_over", "A later request has taken the upload over: ask where it stands.")
-    return Problem(408, "upload_stalled", f"Nothing came for {IDLE_SECONDS:g} seconds: ask where the upload stands.")
+    return None
 
 
-async def _take(request: Request, scope: anyio.CancelScope, reception: Reception) -> None:
-    scope.deadline = anyio.current_time() + IDLE_SECONDS
+async def _take(request: Request, reception: Reception) -> None:
     async for data in request.stream():
         reception.take(data)
         if reception.waiting >= WRITE_BYTES:
             await run_sync(reception.write)
-        scope.deadline = anyio.current_time() + IDLE_SECONDS
 
 
 def terminate(context: Context, upload: Upload) -> None:

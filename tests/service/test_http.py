@@ -8,6 +8,7 @@ import time
 
 import psutil
 import pytest
+from raw_http import connect, problem, until_closed
 from running import Running
 
 PIECE = 16 * 1024
@@ -80,3 +81,73 @@ def test_who_offers_another_protocol_is_answered_in_this_one(running: Running, p
     assert running.client.get("/healthz", headers=headers).json() == {"status": "ok"}
     sent = running.client.post("/v1/files", files={"file": ("a.png", picture)}, headers=headers)
     assert sent.status_code == 201 and sent.json()["size"] == len(picture)
+
+
+TWO_ENDS = {
+    "both a length and chunks": "Content-Length: 5\r\nTransfer-Encoding: chunked",
+    "chunks and a length": "Transfer-Encoding: chunked\r\nContent-Length: 5",
+    "both, folded": "Content-Length: 5\r\nTransfer-Encoding:\r\n chunked",
+    "two lengths": "Content-Length: 0\r\nContent-Length: 5",
+    "a list of lengths": "Content-Length: 0, 5",
+    "a signed length": "Content-Length: +5",
+    "a length in two parts": "Content-Length: 5 5",
+    "two codings": "Transfer-Encoding: chunked, identity",
+    "a coding after chunks": "Transfer-Encoding: chunked\r\nTransfer-Encoding: identity",
+    "another coding": "Transfer-Encoding: identity",
+    "nearly chunks": "Transfer-Encoding: xchunked",
+    "chunks behind a control character": "Transfer-Encoding: \x0bchunked",
+    "a space before the colon": "Transfer-Encoding : chunked",
+    "a bare CR": "X-A: a\rTransfer-Encoding: chunked",
+    "a NUL": "X-A: a\0b",
+    "a header without a name": ": a",
+    "two hosts": "Host: example.org",
+}
+
+
+def rejected(running: Running, sent: bytes) -> None:
+    """It is answered once, by a refusal, and no second request is found in it."""
+    answer = until_closed(connect(running, sent + b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+    assert problem(answer) == (400, "malformed_request")
+    assert b"connection: close" in answer.lower()
+
+
+@pytest.mark.parametrize("header", TWO_ENDS.values(), ids=TWO_ENDS.keys())
+def test_a_request_whose_end_could_be_seen_elsewhere_is_refused(running: Running, header: str) -> None:
+    rejected(running, f"POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\n{header}\r\n\r\n0\r\n\r\n".encode("latin-1"))
+
+
+def test_chunks_are_not_of_http_1_0(running: Running) -> None:
+    rejected(running, b"POST /v1/jobs HTTP/1.0\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n")
+
+
+def test_a_header_is_not_begun_in_the_middle(running: Running) -> None:
+    rejected(running, b"GET /healthz HTTP/1.1\r\n X-A: a\r\nHost: localhost\r\n\r\n")
+
+
+@pytest.mark.parametrize(
+    "chunks",
+    [
+        b"0x5\r\nhello\r\n0\r\n\r\n",
+        b"+5\r\nhello\r\n0\r\n\r\n",
+        b"5\nhello\n0\n\n",
+        b"4\r\nhello\r\n0\r\n\r\n",
+        b"F" * 21 + b"\r\nhello\r\n0\r\n\r\n",
+    ],
+    ids=["hexadecimal twice", "a sign", "LF alone", "longer than it says", "no end of it"],
+)
+def test_chunks_that_could_end_elsewhere_are_refused(running: Running, chunks: bytes) -> None:
+    head = "Host: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked"
+    rejected(running, f"POST /v1/jobs HTTP/1.1\r\n{head}\r\n\r\n".encode() + chunks)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-A: a\r\n b\r\nConnection: close\r\n\r\n",
+        b"GET /healthz HTTP/1.1\nHost: localhost\nConnection: close\n\n",
+        b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\nContent-Length: 0\r\nConnection: close\r\n\r\n",
+    ],
+    ids=["a folded line", "LF alone", "the same length twice"],
+)
+def test_what_can_be_read_in_one_way_only_is_read(running: Running, head: bytes) -> None:
+    assert until_closed(connect(running, head)).startswith(b"HTTP/1.1 200")

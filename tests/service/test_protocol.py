@@ -6,10 +6,11 @@ import asyncio
 from typing import Any
 
 import pytest
-import uvicorn
 from uvicorn.server import ServerState
 
-from service.protocol import SLICE_BYTES, Protocol
+from service.connections.census import Census
+from service.connections.protocol import Config, Protocol
+from service.connections.turns import SLICE_BYTES
 
 BODY = bytes(range(251)) * 1000
 HEAD = b"POST / HTTP/1.1\r\nHost: localhost\r\n"
@@ -35,7 +36,7 @@ async def taken(sent: bytes, requests: int) -> list[list[bytes]]:
         await send({"type": "http.response.start", "status": 204, "headers": []})
         await send({"type": "http.response.body", "body": b""})
 
-    config = uvicorn.Config(app, http=Protocol, ws="none", lifespan="off", log_config=None)
+    config = Config(app, Census(10), 60, 60, ws="none", lifespan="off", log_config=None)
     server = await asyncio.get_running_loop().create_server(lambda: Protocol(config, ServerState(), {}), "127.0.0.1", 0)
     async with server:
         reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())

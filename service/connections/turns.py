@@ -1,21 +1,18 @@
-"""HTTP/1.1 as uvicorn speaks it by h11, whose own refusals are problem documents too, and in turns with everybody."""
+"""HTTP/1.1 as uvicorn speaks it by h11, in turns with everybody."""
 
 from __future__ import annotations
 
 import asyncio
 from typing import Any
 
-import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
-
-from service.problems import Problem
 
 SLICE_BYTES = 1 << 13
 """As much is read in one go: what comes in chunks of one byte takes a thousand times as long as it is worth."""
 
 
-class Protocol(H11Protocol):
-    """Answers what is no request, or one whose head has no end, as the service answers every error."""
+class InTurns(H11Protocol):
+    """Reads what came a slice at a time."""
 
     def __init__(self, *arguments: Any, **more: Any):
         super().__init__(*arguments, **more)
@@ -47,14 +44,3 @@ class Protocol(H11Protocol):
             self._held_back = False
             if not self.flow.read_paused:
                 self.transport.resume_reading()
-
-    def send_400_response(self, msg: str) -> None:
-        detail = "This is no HTTP/1.1 request, or its address and headers do not end within 64 KB."
-        answer = Problem(400, "malformed_request", detail, headers={"Connection": "close"}).response()
-        for event in (
-            h11.Response(status_code=answer.status_code, headers=answer.raw_headers),
-            h11.Data(data=answer.body),
-            h11.EndOfMessage(),
-        ):
-            self.transport.write(self.conn.send(event) or b"")
-        self.transport.close()

@@ -1,0 +1,205 @@
+"""HTTP/1.1 as uvicorn speaks it by h11: strict, with bounds for connections that bring nothing, and with refusals of its
+own that are problem documents too.
+
+How long a body may take is not said here: see `service.connections.patience`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from typing import Any, cast
+
+import h11
+import uvicorn
+
+from service.connections.census import MOST_PARTING, Census
+from service.connections.patience import Stopped
+from service.connections.strict import StrictConnection
+from service.connections.transport import Transport
+from service.connections.turns import InTurns
+from service.problems import Problem, phrase
+
+HEAD_BYTES = 64 * 1024
+"""How much of an address and headers may come without their end; what comes whole at once may be more."""
+
+UNREAD_SECONDS = 30.0
+"""How long a body may still come in that nobody asked for, once the request is answered: many clients read no answer
+before they have sent all."""
+
+
+class Config(uvicorn.Config):
+    """A server's configuration, with the bounds of its connections.
+
+    By h11, which is strict and bounded: the compiled parser takes headers without end, and refuses bodies of who offers
+    an upgrade.
+    """
+
+    def __init__(self, app: Any, census: Census, head_seconds: float, send_seconds: float, **more: Any):
+        """`head_seconds` may the head of a request take, `send_seconds` may nothing be taken of an answer."""
+        super().__init__(app, http=Protocol, h11_max_incomplete_event_size=HEAD_BYTES, **more)
+        self.census = census
+        self.head_seconds = head_seconds
+        self.send_seconds = send_seconds
+
+
+class Protocol(InTurns):
+    """One connection."""
+
+    config: Config
+    transport: Transport  # type: ignore[assignment]
+
+    def __init__(self, *given: Any, **named: Any):
+        super().__init__(*given, **named)
+        self.conn = StrictConnection(h11.SERVER, HEAD_BYTES)
+        self.address = ""
+        self._timer: asyncio.TimerHandle | None = None
+        self._timed = ""
+        self._admitted = False
+        self._heard = False  # something of the next head
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        guarded = Transport(transport, self._incoming, self.config.send_seconds)
+        super().connection_made(cast(asyncio.Transport, guarded))
+        self.address = self.client[0] if self.client else ""
+        self._admitted = self.config.census.admit(self)
+        if self._admitted:
+            self._look()
+        else:
+            self._refuse(crowded())
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._time("", 0, lambda: None)
+        self._count_out()
+        if self.transport.parting:
+            self.config.census.parting -= 1
+        self.transport.rest()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        if self.transport.is_closing():
+            self.transport.throw_away(data)
+            return
+        super().data_received(data)
+
+    def on_response_complete(self) -> None:
+        self._heard = bool(self.conn.trailing_data[0] or self._backlog)
+        super().on_response_complete()
+        self._look()
+
+    def pause_writing(self) -> None:
+        super().pause_writing()
+        self.transport.watch_sending()
+
+    def resume_writing(self) -> None:
+        super().resume_writing()
+        self.transport.rest()
+
+    def make_room(self) -> None:
+        """End: others have more use for the connection."""
+        if self.cycle is None:  # somebody new, who is told
+            self._refuse(crowded())
+        else:
+            self._refuse_or_close(crowded())
+
+    def shutdown(self) -> None:
+        """End with the service, as soon as the request under way is answered."""
+        if self.transport.is_closing():
+            return
+        if self.cycle is None or self.cycle.response_complete:
+            self._refuse_or_close(Stopped())
+        else:
+            self.cycle.keep_alive = False
+
+    def send_400_response(self, msg: str) -> None:
+        detail = "This is no HTTP/1.1 request, or its address and headers do not end within 64 KB."
+        self._refuse(Problem(400, "malformed_request", detail))
+
+    def _read_slice(self) -> None:
+        self._heard = self._heard or bool(self._backlog)
+        super()._read_slice()
+        self._look()
+
+    def _look(self) -> None:
+        """What is waited for, and how long."""
+        if self.transport.is_closing():
+            self._time("", 0, lambda: None)
+            self._count_out()
+        elif self.conn.their_state is h11.IDLE:
+            self.config.census.wait(self)
+            if self._heard or self.cycle is None:  # else it is idle, and uvicorn looks after that
+                self._time("head", self.config.head_seconds, lambda: self._refuse_or_close(late()))
+            else:
+                self._time("", 0, lambda: None)
+        else:
+            self.config.census.busy(self)
+            self._heard = False
+            if self.conn.their_state is h11.SEND_BODY and self.cycle is not None and self.cycle.response_complete:
+                self._time("unread", UNREAD_SECONDS, self.transport.abort)
+            else:
+                self._time("", 0, lambda: None)
+
+    def _time(self, what: str, seconds: float, then: Callable[[], None]) -> None:
+        """Have this done in so many seconds, unless something else is waited for before; only one thing ever is."""
+        if what == self._timed:
+            return
+        self._timed = what
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        if what:
+            self._timer = self.loop.call_later(seconds, then)
+
+    def _count_out(self) -> None:
+        if self._admitted:
+            self._admitted = False
+            self.config.census.leave(self)
+
+    def _incoming(self) -> bool:
+        """Whether to close with care: something may still come in, and few connections are closed like that."""
+        census = self.config.census
+        careful = self.conn.their_state in (h11.SEND_BODY, h11.ERROR) or self._heard or not self._admitted
+        if careful and census.parting < MOST_PARTING:
+            census.parting += 1
+            return True
+        return False
+
+    def _refuse_or_close(self, problem: Problem) -> None:
+        """Answer what came of a head, and close; without a word where nothing came."""
+        if self._heard:
+            self._refuse(problem)
+        else:
+            self.transport.close()
+            self._look()
+
+    def _refuse(self, problem: Problem) -> None:
+        """Answer in the service's place, and close."""
+        self._unset_keepalive_if_required()
+        if self.cycle is not None and not self.cycle.response_complete:  # whoever answers it is to let go
+            self.cycle.disconnected = True
+            self.cycle.message_event.set()
+            if self.cycle.response_started:
+                self.transport.abort()
+                return
+        problem.headers["Connection"] = "close"
+        answer = problem.response()
+        headers = [*answer.raw_headers, (b"x-content-type-options", b"nosniff")]
+        for event in (
+            h11.Response(status_code=answer.status_code, headers=headers, reason=phrase(answer.status_code).encode()),
+            h11.Data(data=answer.body),
+            h11.EndOfMessage(),
+        ):
+            self.transport.write(self.conn.send(event) or b"")
+        self.transport.close()
+        self._look()
+
+
+def crowded() -> Problem:
+    """There are as many connections as there may be."""
+    detail = "The service has as many connections as it can bear: try again in a moment."
+    return Problem(503, "too_many_connections", detail, headers={"Retry-After": "5"})
+
+
+def late() -> Problem:
+    """The head of a request does not come."""
+    return Problem(408, "head_too_slow", "The request's address and headers did not come in time: send it again.")
