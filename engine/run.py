@@ -40,7 +40,7 @@ Turn = Literal["began", "ended", "broke"]
 PATIENCE = 0.2
 """Seconds after which a wait for another core looks whether the run was canceled."""
 
-FORMAT = 2
+FORMAT = 3
 """Of what stages give: raised where it changes between releases, so that nothing older is taken for it."""
 
 

@@ -26,14 +26,12 @@ import io
 from collections.abc import Iterator
 from contextlib import suppress
 from errno import EFBIG
-from fractions import Fraction
 
 import numpy as np
 from PIL import Image
 
 from engine.export import synthetic
 from engine.export.encoders import Target
-from engine.media.timing import exact_rate
 
 QUALITY, METHOD = 85, 2
 """Of libwebp: how fine, and how long it may look for what is small."""
@@ -50,7 +48,7 @@ class WebpEncoder:
     """Frames into an animated WebP; `transparent` ones keep their alpha."""
 
     def __init__(self, target: Target, transparent: bool):
-        self._rate: Fraction = exact_rate(target.fps)
+        self._target = target
         self._size, self._transparent, self._synthetic = target.size, transparent, target.synthetic
         self._count = 0
         self._file = target.path.open("wb")
@@ -71,7 +69,7 @@ class WebpEncoder:
         coded = io.BytesIO()
         Image.fromarray(prepared).save(coded, "WEBP", quality=QUALITY, method=METHOD)
         picture = b"".join(_picture_chunks(coded.getvalue()))
-        begins, ends = (round(1000 * count / self._rate) for count in (self._count, self._count + 1))
+        begins, ends = (round(1000 * self._target.begins(k)) for k in (self._count, self._count + 1))
         head = bytes(6) + _sides(self._size) + (ends - begins).to_bytes(3, "little") + _INSTEAD
         self._write(_chunk(b"ANMF", head + picture))
         self._count += 1

@@ -26,6 +26,9 @@ from engine.export.sound import SoundTrack, open_sound
 from engine.media.timing import exact_rate
 from engine.media.ycbcr import BT709, LIMITED, frame_from_rgb
 
+_CLOCK = 90_000
+"""Ticks a second of frames that are not shown equally long, as is usual for video."""
+
 Format = Literal["mp4", "webm", "webp", "png"]
 
 
@@ -42,8 +45,15 @@ class Target:
     sound_trim: tuple[float, float] | None
     loop: bool
     frames: int | None
+    times: tuple[float, ...] | None
     entries: frozenset[int] | None
     synthetic: bool
+
+    def begins(self, frame: int) -> float:
+        """Seconds at which a frame comes on show, or the one before the first that there is not ends."""
+        if self.times is None:
+            return float(frame / exact_rate(self.fps))
+        return self.times[min(frame, len(self.times) - 1)]
 
 
 class Encoder(Protocol):
@@ -149,11 +159,14 @@ class StreamEncoder:
         self._rate = exact_rate(target.fps)
         self._entries = target.entries or frozenset()
         self._count = 0
+        self._lengths: dict[int, int] = {}
         self._container = av.open(str(target.path), "w", format=target.format, options=coding.container)
         if target.synthetic:
             self._container.metadata.update(synthetic.TAGS)
         self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
         self._stream.width, self._stream.height = target.size
+        if target.times is not None:
+            self._stream.codec_context.time_base = Fraction(1, _CLOCK)
         crf = {} if target.crf is None else {"crf": str(target.crf)}
         special = ENTERED if target.entries else _looped(target, coding.options) if target.loop else {}
         self._stream.options = {**coding.options, **special, **crf}
@@ -174,17 +187,29 @@ class StreamEncoder:
 
     def add(self, prepared: VideoFrame) -> None:
         """Code a frame, and the sound up to it."""
-        prepared.pts, prepared.time_base = self._count, 1 / self._rate
+        if self._target.times is None:
+            prepared.pts, prepared.time_base = self._count, 1 / self._rate
+        else:
+            begins, ends = (round(self._target.begins(k) * _CLOCK) for k in (self._count, self._count + 1))
+            prepared.pts, prepared.time_base = begins, Fraction(1, _CLOCK)
+            self._lengths[begins] = ends - begins
         if self._count in self._entries:
             prepared.pict_type = PictureType.I
         self._count += 1
-        self._container.mux(self._stream.encode(prepared))
+        self._mux(self._stream.encode(prepared))
         if self.sound is not None:
-            self.sound.mux_until(float(self._count / self._rate))
+            self.sound.mux_until(self._target.begins(self._count))
+
+    def _mux(self, packets: list[av.Packet]) -> None:
+        """Lay packets in, with the lengths of their frames: x264 does not hand them on."""
+        for packet in packets:
+            if packet.pts in self._lengths:
+                packet.duration = self._lengths.pop(packet.pts)
+        self._container.mux(packets)
 
     def finish(self) -> None:
         """Complete the file and close it."""
-        self._container.mux(self._stream.encode(None))
+        self._mux(self._stream.encode(None))
         self._container.close()
         self._close_sound()
         if self._target.synthetic and self._target.format == "mp4":
@@ -202,10 +227,11 @@ class StreamEncoder:
 
 
 class PngEncoder:
-    """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate."""
+    """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate; where they are not shown equally
+    long, `timecodes.txt` tells of each when it comes on show, in milliseconds (the format v2 that MKVToolNix reads)."""
 
     def __init__(self, target: Target):
-        self._synthetic = target.synthetic
+        self._synthetic, self._target = target.synthetic, target
         self._archive = zipfile.ZipFile(target.path, "w", zipfile.ZIP_STORED)
         self._archive.comment = f"{float(Fraction(exact_rate(target.fps))):g} frames per second".encode()
         self._count = 0
@@ -222,6 +248,9 @@ class PngEncoder:
 
     def finish(self) -> None:
         """Complete the archive and close it."""
+        if self._target.times is not None:
+            times = (f"{1000 * self._target.begins(k):.3f}\n" for k in range(self._count))
+            self._archive.writestr("timecodes.txt", "".join(["# timecode format v2\n", *times]))
         self._archive.close()
 
     def abandon(self) -> None:

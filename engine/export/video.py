@@ -41,6 +41,7 @@ class VideoWriter:
     loop : whether the video is to be played again and again: the end is coded for leading into the beginning, and an
         animated WebP repeats for ever (of the others, the player decides).
     frames : how many there will be, where that is known; an "mp4" that loops needs it.
+    times : seconds at which each frame comes on show, and the last one ends; by default evenly, by `fps`.
     entries : "mp4" alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from
         other videos of the same picture without a jump in its grain; between the entries it is slow to search.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes.
@@ -61,6 +62,7 @@ class VideoWriter:
         sound_trim: tuple[float, float] | None = None,
         loop: bool = False,
         frames: int | None = None,
+        times: Iterable[float] | None = None,
         entries: Iterable[int] | None = None,
         synthetic: bool = True,
         warn: Warn | None = None,
@@ -70,7 +72,8 @@ class VideoWriter:
         if entries is not None and format != "mp4":
             raise ValueError("only an MP4 has entries")
         whole = None if entries is None else frozenset(entries)
-        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, frames, whole, synthetic)
+        at = None if times is None else tuple(float(time) for time in times)
+        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, frames, at, whole, synthetic)
         self._draft = path.with_name(f".{path.name}.draft")
         self._warn = warn or (lambda code, message: None)
         self._encoder: Encoder | None = None

@@ -17,7 +17,7 @@ from engine.media.decode import Damage, decode
 from engine.media.demux import Header, Timetable, header_of, open_video, timetable_of, unreadable
 from engine.media.display import Orientation, orientation_of
 from engine.media.limits import Limits
-from engine.media.timing import Rate, rate_of, resample
+from engine.media.timing import Rate, at_own_times, rate_of, resample
 from engine.media.tone_mapping import Transfer
 
 
@@ -36,11 +36,14 @@ class Clip:
     transfer: Transfer
 
     def frames(self, fps: float | None, start: float, damage: Damage) -> Iterator[tuple[float, VideoFrame]]:
-        """(seconds, frame) from `start` seconds on, at `fps`, or at the clip's own rate and on its own grid."""
+        """(seconds, frame) from `start` seconds on, at `fps`, or at the clip's own rate and on its own grid; where that
+        changes, at the frames' own times."""
         decoded = decode(self.path, self.media_type, self.timetable, self.limits, start, damage)
         own, rate = self.rate, fps or self.rate.fps
         last = 1 / own.fps if own.constant else self.timetable.last
-        if fps is None and own.constant:
+        if fps is None and not own.constant:
+            yield from at_own_times(decoded, start)
+        elif fps is None:
             start = round(start * own.fps) / own.fps
             for time, frame in resample(decoded, rate, own.phase + start, last):
                 yield time - own.phase, frame

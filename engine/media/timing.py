@@ -18,6 +18,9 @@ hundredths (GIF), phones let them tremble a little; at half a frame the place on
 _SHORTEST_STEP = 1e-9
 """Seconds: timestamps that lie closer, or of which rounding leaves no order, are of no clock."""
 
+SHORTEST_SPAN = 1e-3
+"""Seconds for which a frame is on show at least; of those that are not, nobody sees anything."""
+
 _LOWEST = 1.0
 """Frames a second: a slower clip is a row of stills, whose rate is made up."""
 
@@ -85,6 +88,18 @@ def exact_rate(fps: float) -> Fraction:
     ntsc = Fraction(round(fps * 1.001) * 1000, 1001)
     near = abs(float(ntsc) - fps) < 5e-4 and abs(round(fps) - fps) > 5e-4
     return ntsc if near else Fraction(fps).limit_denominator(1000)
+
+
+def at_own_times(frames: Iterable[tuple[float, Shown]], start: float) -> Iterator[tuple[float, Shown]]:
+    """Frames in order with the time (seconds) at which each comes on show, from the one on show at `start` on, whose time
+    that is. Of frames of the same moment, the last is shown."""
+    held: tuple[float, Shown] | None = None
+    for time, frame in frames:
+        if held is not None and time > held[0] + SHORTEST_SPAN and time > start + SHORTEST_SPAN:
+            yield held
+        held = max(time, start), frame
+    if held is not None:
+        yield held
 
 
 def resample(

@@ -17,6 +17,7 @@ from engine.media.colour import SrgbConverter
 from engine.media.decode import Damage
 from engine.media.demux import unreadable
 from engine.media.limits import Limits
+from engine.media.timing import SHORTEST_SPAN
 
 Warn = Callable[[str, str], None]
 
@@ -26,8 +27,7 @@ class VideoInfo:
     """What a video is.
 
     `width`, `height` in pixels as shown (upright, pixels square); `fps` frames a second, for a variable rate a usual
-    rate that hardly loses a frame; `frames` how many `read_video` gives at that rate (fewer where the file is
-    damaged); `seconds`; `hdr` "hlg", "pq" or None; `codec` by FFmpeg's name.
+    rate that hardly loses a frame; `frames` how many `read_video` gives of itself (fewer where the file is damaged); `seconds`; `hdr` "hlg", "pq" or None; `codec` by FFmpeg's name.
     """
 
     width: int
@@ -64,8 +64,9 @@ def probe_video(path: Path, limits: Limits | None = None) -> VideoInfo:
         width=width,
         height=height,
         fps=clip.rate.fps,
-        frames=round((seconds - (clip.timetable.last if clip.rate.constant else 0)) * clip.rate.fps)
-        + clip.rate.constant,
+        frames=round((seconds - clip.timetable.last) * clip.rate.fps) + 1
+        if clip.rate.constant
+        else len(clip.timetable.times),
         seconds=seconds,
         has_sound=clip.timetable.has_sound,
         variable_rate=not clip.rate.constant,
@@ -86,9 +87,8 @@ def read_video(
 
     Parameters
     ----------
-    fps : frames a second to give; None keeps each frame of a clip of constant rate, and takes `VideoInfo.fps` for one
-        of variable rate. Frames are picked by their timestamps, never blended; over frames that do not decode, the one
-        before is held.
+    fps : frames a second to give, picked by their timestamps, never blended; None keeps each frame, of a clip of
+        variable rate at its own time. Over frames that do not decode, the one before is held.
     trim : (start, end) seconds of the clip; the frames' times still count from the clip's beginning. However short it
         is, and the clip at a low rate, there is one frame.
     warn : called with (code, message): `video_truncated` (the end is missing; what there is, is used),
@@ -106,11 +106,12 @@ def read_video(
             f"There is nothing between {start:g} s and {end:g} s: the video lasts {seconds:.2f} s.",
             ("trim",),
         )
+    least = SHORTEST_SPAN if fps is None and not clip.rate.constant else 0.5 / (fps or clip.rate.fps)
     damage = Damage()
     converter = SrgbConverter(clip.scaled_size(longest_side))
     shown: tuple[VideoFrame, np.ndarray] | None = None
     for time, frame in clip.frames(fps, start, damage):
-        if time > end - 0.5 / (fps or clip.rate.fps):
+        if time > end - least:
             break
         if shown is None or shown[0] is not frame:
             shown = frame, clip.orientation.apply(converter.convert(frame))

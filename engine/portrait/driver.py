@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.media.limits import Limits
+from engine.media.timing import SHORTEST_SPAN
 from engine.media.video import probe_video, read_video
 from engine.perception.landmarks import MESH_SIZE
 from engine.perception.one_face import OneFace
@@ -35,7 +36,8 @@ LONGEST_SIDE = 1280
 class DriverTrack:
     """A driver's analysis.
 
-    size : (width, height) at which it was read. fps. has_sound.
+    size : (width, height) at which it was read. fps : frames a second, a usual rate where they change. times : (N + 1,)
+    seconds of the part that is used at which each frame comes on show, and the last one ends. has_sound.
     meshes : (N, 478, 3) float32 face meshes, steadied, pixels; held where no face was found.
     found : (N,) bool. periphery : (N, K, 2) float32 points tracked around head and shoulders, pixels.
     trust : (N, K) float32 [0, 1], where the forward-backward check passed, fading over to where it did not.
@@ -46,6 +48,7 @@ class DriverTrack:
 
     size: tuple[int, int]
     fps: float
+    times: NDArray[np.float64]
     has_sound: bool
     meshes: NDArray[np.float32]
     found: NDArray[np.bool_]
@@ -58,6 +61,11 @@ class DriverTrack:
 
     def __len__(self) -> int:
         return len(self.meshes)
+
+    @property
+    def even(self) -> bool:
+        """Whether all frames are on show equally long."""
+        return bool(np.ptp(np.diff(self.times)) < 1e-6)
 
     def crop(self, frame: int) -> NDArray[np.uint8]:
         """The face's appearance in one frame: uint8 (*CROP, 3)."""
@@ -90,10 +98,11 @@ def track_driver(
     what reading the video may raise.
     """
     info = probe_video(path, limits)
-    expected = max(1, round(info.seconds * (fps or info.fps)))
+    expected = max(1, round(info.seconds * fps) if fps else info.frames)
     meshes = array("f")  # grows in place; thousands of small arrays would lie all over the memory
     places: list[NDArray[np.float64]] = []
     found: list[bool] = []
+    starts: list[float] = []
     size = (info.width, info.height)
     periphery, held = PeripheryTracker(), HeldFace()
     with (
@@ -107,6 +116,7 @@ def track_driver(
             read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
         ):
             tick(min(index / expected, 1.0))
+            starts.append(frame.time)
             size = (frame.rgb.shape[1], frame.rgb.shape[0])
             mesh = _followed(follow, frame.rgb, face_index)
             seen = None if mesh is None else appearance(frame.rgb, mesh)
@@ -130,9 +140,11 @@ def track_driver(
     stack = np.frombuffer(meshes, np.float32).reshape(-1, MESH_SIZE, 3)
     points, trust = periphery.result()
     _warn(warn, faces, found)
+    end = min(trim[1], info.seconds) if trim else info.seconds
     return DriverTrack(
         size=size,
         fps=fps or info.fps,
+        times=_times(starts, end, fps or (None if info.variable_rate else info.fps)),
         has_sound=info.has_sound,
         meshes=steady(stack, out=stack),
         found=np.array(found),
@@ -142,6 +154,14 @@ def track_driver(
         crop_places=np.array(places),
         faces=faces,
     )
+
+
+def _times(starts: list[float], end: float, fps: float | None) -> NDArray[np.float64]:
+    """The frames' `times`, from 0 on, by when each comes on show and the last one ends, seconds of the video; or evenly, at
+    `fps`."""
+    if fps is not None:
+        return np.arange(len(starts) + 1) / fps
+    return np.array([*starts, max(end, starts[-1] + SHORTEST_SPAN)]) - starts[0]
 
 
 def _followed(follow: OneFace, rgb: NDArray[np.uint8], face_index: int) -> NDArray[np.float32] | None:

@@ -181,6 +181,7 @@ def _write_animation(
         sound_trim=options.trim,
         loop=options.loop,
         frames=len(track),
+        times=None if track.even else track.times,
         synthetic=run.mark_synthetic,
         warn=run.warn,
     ) as writer:

@@ -251,3 +251,22 @@ def test_a_track_without_sound_in_it_is_no_sound(tmp_path: Path, name: str) -> N
     assert tracks == 1 or name in ("in.mp4", "in.mov")  # these are written without it
     assert not probe_video(tmp_path / name).has_sound
     assert carried(tmp_path / name, tmp_path / "out", "mp4", 1.0) == ["no_sound"]
+
+
+UNEVEN = np.cumsum([0, *([0.02, 0.03, 0.11, 0.04] * 14)])
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm"])
+def test_a_flash_and_a_click_come_together_at_any_rate(tmp_path: Path, format: str) -> None:
+    """Pictures that are not shown equally long: the one on show when a click is heard is white."""
+    driver = write_driver(tmp_path / "in.mp4", "aac")
+    flashes = [int(np.searchsorted(UNEVEN, click, "right")) - 1 for click in CLICKS]
+    with VideoWriter(tmp_path / "out", (64, 48), 25, format, sound=driver, times=UNEVEN) as writer:
+        for k in range(len(UNEVEN) - 1):
+            writer.write(np.full((48, 64, 3), 255 if k in flashes else 30, np.uint8))
+    with av.open(str(tmp_path / "out")) as container:
+        shown = [(frame.time, frame.to_ndarray(format="gray").mean() > 128) for frame in container.decode(video=0)]
+    assert [time for time, _ in shown] == pytest.approx(UNEVEN[:-1], abs=0.0011)
+    assert [time for time, bright in shown if bright] == pytest.approx(UNEVEN[flashes], abs=0.0011)
+    for click, flash in zip(clicks_in(tmp_path / "out")[0], flashes, strict=True):
+        assert UNEVEN[flash] - 0.015 <= click < UNEVEN[flash + 1] + 0.015

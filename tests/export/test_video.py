@@ -321,3 +321,27 @@ def test_memory_is_flat(tmp_path: Path, format: str, fps: int, size: tuple[int, 
         assert count == seconds * fps
         peaks[seconds] = peak / 1000
     assert peaks[180] - peaks[5] < 100, peaks
+
+
+UNEVEN = [0.0, 0.033, 0.066, 0.3, 0.34, 0.5, 1.1, 1.2]
+"""When seven frames come on show, and the last one ends, seconds."""
+
+
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp"])
+def test_frames_are_shown_as_long_as_they_are_to_be(tmp_path: Path, format: str) -> None:
+    path = write(tmp_path / "out", 7, 30, format=format, times=UNEVEN)
+    frames = list(read_video(path))
+    assert [frame.time for frame in frames] == pytest.approx(UNEVEN[:-1], abs=0.0011)
+    for k, frame in enumerate(frames):
+        assert np.abs(bars_of(frame.rgb) - bars_of(chart(k))).max() < 8
+    assert probe_video(path).seconds == pytest.approx(1.2, abs=0.002 if format != "webm" else 0.1)
+
+
+def test_numbered_pictures_come_with_their_times(tmp_path: Path) -> None:
+    write(tmp_path / "out.zip", 7, 30, format="png", times=UNEVEN)
+    with zipfile.ZipFile(tmp_path / "out.zip") as archive:
+        first, *times = archive.read("timecodes.txt").decode().splitlines()
+        assert first == "# timecode format v2" and [float(time) / 1000 for time in times] == UNEVEN[:-1]
+        assert len(archive.namelist()) == 8
+    write(tmp_path / "even.zip", 7, 30, format="png")
+    assert "timecodes.txt" not in zipfile.ZipFile(tmp_path / "even.zip").namelist()

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from engine.media.timing import exact_rate, rate_of, resample, without_echoes
+from engine.media.timing import at_own_times, exact_rate, rate_of, resample, without_echoes
 
 
 @given(
@@ -86,7 +86,14 @@ def test_a_held_frame_is_repeated_until_the_next() -> None:
     assert [time for time, _ in frames] == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
 
 
+def test_of_frames_of_one_moment_the_last_is_shown() -> None:
+    frames = [(0.0, "a"), (0.1, "b"), (0.1, "c"), (0.5, "d")]
+    assert list(at_own_times(frames, 0.0)) == [(0.0, "a"), (0.1, "c"), (0.5, "d")]
+    assert list(at_own_times(frames, 0.3)) == [(0.3, "c"), (0.5, "d")]
+
+
 def test_nothing_in_nothing_out() -> None:
+    assert list(at_own_times([], 0.0)) == []
     assert list(resample([], 25, 0.0, 1.0)) == []
 
 

@@ -136,23 +136,34 @@ def test_variable_rate_is_resampled_by_timestamps(tmp_path: Path) -> None:
     assert len(list(read_video(path))) == pytest.approx(info.frames, abs=1)
 
 
-def test_variable_rate_loses_hardly_a_frame_at_its_usual_rate(tmp_path: Path) -> None:
-    times = list(np.concatenate([np.arange(0, 2, 1 / 30), np.arange(2, 4, 1 / 24)]))
-    path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(len(times))], fps=30, times=times)
-    info = probe_video(path)
-    assert info.variable_rate and info.fps == 30
-    assert len(set(numbers(path))) >= 0.98 * len(times)
+BURSTS = np.array([k for k in range(60) if k % 10 < 5]) / 30
+UNEVEN = {
+    "bursts": BURSTS,
+    "30 then 24": np.concatenate([np.arange(0, 2, 1 / 30), np.arange(2, 4, 1 / 24)]),
+    "25 then 5": np.concatenate([np.arange(20) / 25, 20 / 25 + np.arange(20) / 5]),
+    "slow, then quick": np.concatenate([np.arange(12) / 10, 1.2 + np.arange(48) / 60]),
+    "late": 0.7 + BURSTS,
+}
 
 
-@pytest.mark.parametrize(("quick", "slow"), [(25, 5), (30, 15), (60, 10)])
-def test_a_clip_that_slows_down_is_shown_whole(tmp_path: Path, quick: int, slow: int) -> None:
-    times = np.concatenate([np.arange(20) / quick, 20 / quick + np.arange(20) / slow])
-    path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(40)], times=list(times))
+@pytest.mark.parametrize("times", UNEVEN.values(), ids=UNEVEN)
+@pytest.mark.parametrize("name", ["clip.mp4", "clip.mov", "clip.mkv"])
+def test_each_frame_of_an_uneven_clip_comes_once_at_its_own_time(tmp_path: Path, name: str, times: np.ndarray) -> None:
+    """Reordered frames (B-frames), a start later than 0 and edit lists included."""
+    path = write_clip(tmp_path / name, [counter(k) for k in range(len(times))], fps=30, times=list(times))
     info = probe_video(path)
-    assert info.variable_rate and info.fps == quick
-    shown = [number(frame.rgb) for frame in read_video(path)]
-    assert len(shown) == info.frames and sorted(set(shown)) == list(range(40))
-    assert shown == sorted(shown)
+    assert info.variable_rate and info.frames == len(times)
+    frames = list(read_video(path))
+    assert [number(frame.rgb) for frame in frames] == list(range(len(times)))
+    assert [frame.time for frame in frames] == pytest.approx(times - times[0], abs=0.0011)
+
+
+def test_a_part_of_an_uneven_clip_begins_with_what_is_on_show(tmp_path: Path) -> None:
+    path = write_clip(tmp_path / "clip.mp4", [counter(k) for k in range(30)], fps=30, times=list(BURSTS))
+    frames = list(read_video(path, trim=(0.25, 0.4)))
+    assert [number(frame.rgb) for frame in frames] == [4, 5, 6]
+    assert [frame.time for frame in frames] == pytest.approx([0.25, 1 / 3, 1 / 3 + 1 / 30], abs=0.0011)
+    assert [number(frame.rgb) for frame in read_video(path, trim=(0.2, 0.21))] == [4]
 
 
 def test_another_rate_is_picked_not_blended(tmp_path: Path) -> None:

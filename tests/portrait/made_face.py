@@ -135,6 +135,7 @@ def driver(
     return DriverTrack(
         size=size,
         fps=25.0,
+        times=np.arange(len(meshes) + 1) / 25,
         has_sound=False,
         meshes=stack,
         found=np.ones(len(meshes), bool),

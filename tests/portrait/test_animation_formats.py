@@ -13,7 +13,9 @@ import pytest
 from made_clip import OPENS, read_frames, unpacked
 from numpy.typing import NDArray
 
+from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
+from engine.media.video import read_video
 
 
 def test_size_and_rate_are_the_asked_ones(animation, woman, driver) -> None:
@@ -114,3 +116,21 @@ def test_a_loop_has_no_jump(animation, woman, driver) -> None:
     within = [step(a, b) for a, b in pairwise(frames)]
     assert ends[1] <= 1.2 * max(within)
     assert ends[1] < 0.5 * ends[0]
+
+
+def test_a_driver_that_stalls_gives_one_frame_for_each_of_its_own(animation, woman, driver, tmp_path: Path) -> None:
+    """Five frames at 30 a second, then a sixth of a second without any: each is shown when the driver shows it."""
+    source = [frame.rgb for frame in read_video(driver, trim=OPENS)]
+    times = [k / 30 for k in range(len(source)) if k % 10 < 5]
+    with VideoWriter(tmp_path / "bursts.mp4", source[0].shape[1::-1], 30, times=[*times, times[-1] + 1 / 30]) as writer:
+        for k, frame in enumerate(source):
+            if k % 10 < 5:
+                writer.write(frame)
+    made = animation(woman, tmp_path / "bursts.mp4")
+    with av.open(str(made.out / "animation.mp4")) as container:
+        assert [frame.time for frame in container.decode(video=0)] == pytest.approx(times, abs=0.0011)
+    assert json.loads((made.out / "report.json").read_text())["inputs"]["frames"] == len(times)
+    at_ten = animation(woman, tmp_path / "bursts.mp4", fps=10)
+    with av.open(str(at_ten.out / "animation.mp4")) as container:
+        shown = [frame.time for frame in container.decode(video=0)]
+    assert shown == pytest.approx(np.arange(len(shown)) / 10) and len(shown) == round(10 * (times[-1] + 1 / 30))
