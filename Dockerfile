@@ -6,6 +6,7 @@ WORKDIR /page
 COPY web/package.json web/package-lock.json web/.npmrc ./
 RUN npm ci --no-progress
 COPY web .
+COPY docs /docs
 RUN npm run build && npm run build:reactive && cp reactive/dist/reactive-portrait.js dist/
 
 FROM python:3.11.11-slim-bookworm AS packages

@@ -76,7 +76,7 @@ build_web() {
     (cd web && npm ci --no-progress --loglevel=error)
     echo "$packages" > web/node_modules/.installed
   fi
-  sources=$(find web/src web/public web/index.html web/*.ts web/*.json -type f | LC_ALL=C sort | xargs sha256sum | sha256sum)
+  sources=$(find web/src web/public web/index.html web/*.ts web/*.json docs -type f | LC_ALL=C sort | xargs sha256sum | sha256sum)
   if ! unchanged web/dist/.built "$sources"; then
     say "Building web/dist"
     (cd web && npm run --silent build -- --logLevel warn)

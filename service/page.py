@@ -1,4 +1,4 @@
-"""The built web page at the root, and its one document for every address that the page itself understands."""
+"""The built web page at the root; its document says, too, that there is nothing at an address."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def built(folder: Path) -> bool:
 
 
 class Page(StaticFiles):
-    """Static files; unknown addresses without a file's ending are answered with the page's document."""
+    """Static files; unknown addresses without a file's ending are answered with the page's document, and 404."""
 
     def __init__(self, folder: Path):
         super().__init__(directory=folder, html=True, check_dir=False)
@@ -44,7 +44,12 @@ class Page(StaticFiles):
         except HTTPException as error:
             if error.status_code != 404 or PurePosixPath(path).suffix:
                 raise
-            return await super().get_response("index.html", scope)
+            return await self._lost(scope)
+
+    async def _lost(self, scope: Scope) -> Response:
+        """The page, which says that there is nothing at this address: whole, and as the failure that it is."""
+        document = HTMLResponse((self._folder / "index.html").read_text(), status_code=404)
+        return document if scope["method"] == "GET" else Response(status_code=404)
 
     async def check_config(self) -> None:
         """The page may be built while the service runs: nothing to check at the start."""

@@ -14,8 +14,9 @@ def test_the_page_and_its_files(running: Running) -> None:
     assert script.text == "start()" and "javascript" in script.headers["content-type"]
 
 
-def test_addresses_that_only_the_page_understands_get_its_document(running: Running) -> None:
-    assert running.client.get("/jobs/123").text == "<title>The page</title>"
+def test_addresses_that_nobody_knows_get_the_document_that_says_so(running: Running) -> None:
+    response = running.client.get("/jobs/123")
+    assert (response.status_code, response.text) == (404, "<title>The page</title>")
     for path in ("/missing.js", "/v1/jobs/x/nothing"):
         response = running.client.get(path)
         assert (response.status_code, response.json()["code"]) == (404, "not_found")

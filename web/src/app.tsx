@@ -1,10 +1,12 @@
 /** The page around the pages: where one is, and where one can go. */
 
 import { useEffect, useState } from 'preact/hooks';
+import { Footer } from './components/footer';
 import { later } from './components/later';
 import { noCharacter, noPortrait, useDraft } from './drafts';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
+import { LostPage } from './pages/lost';
 import { SignInPage } from './pages/signin';
 import { StudioPage } from './pages/studio';
 import { historyLink, keysLink, type Route, studioLink, useRoute, webhooksLink } from './route';
@@ -36,6 +38,7 @@ export function App() {
       <main id="content" tabIndex={-1}>
         {locked && !shared ? <SignInPage onOpen={() => setLocked(false)} /> : <Page route={route} />}
       </main>
+      <Footer />
     </>
   );
 }
@@ -74,6 +77,8 @@ function Page({ route }: { route: Route }) {
       return <KeysPage />;
     case 'webhooks':
       return <WebhooksPage />;
+    case 'lost':
+      return <LostPage />;
     default:
       return <StudioPage draft={portrait} />;
   }

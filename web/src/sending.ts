@@ -9,6 +9,12 @@ import { forgetPending, keepPending, readPending } from './pending';
 import { jobLink } from './route';
 import { GIVEN_UP } from './upload';
 
+/** Answers that say that it is too early, too much at once, or that a key is wanted: later the same may be welcome. */
+const LATER = [401, 408, 409, 425, 429];
+
+/** Whether the service will not have what was sent, however often it is sent. */
+export const isRefusal = ({ status }: Problem): boolean => status >= 400 && status < 500 && !LATER.includes(status);
+
 export function useSending() {
   const [step, setStep] = useState<Sending | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
@@ -39,8 +45,9 @@ export function useSending() {
       },
       (error: unknown) => {
         setStep(null);
-        if (signal.reason === GIVEN_UP) void forgetPending();
-        else if (!signal.aborted) setProblem(asProblem(error));
+        const problem = asProblem(error);
+        if (signal.reason === GIVEN_UP || isRefusal(problem)) void forgetPending();
+        if (!signal.aborted) setProblem(problem);
       },
     );
   };

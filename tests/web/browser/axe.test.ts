@@ -155,7 +155,7 @@ describe.each(Object.entries(places))('%s', (_name, { hash, show }) => {
       await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
       const results = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<AxeResults> } }).axe.run());
       for (const { id, impact, nodes } of results.violations) {
-        if (impact === 'serious' || impact === 'critical') {
+        if (impact === 'serious' || impact === 'critical' || id === 'heading-order') {
           found.set(`${id} at ${width} ${colorScheme}`, nodes.map((node) => `${node.html} ${node.any[0]?.message ?? ''}`));
         }
       }

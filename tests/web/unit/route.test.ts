@@ -17,9 +17,14 @@ describe('addresses', () => {
     expect(parseRoute(characterLink)).toEqual({ page: 'character' });
   });
 
-  it('takes everything else for the start page', () => {
-    for (const hash of ['', '#', '#/', '#/jobs/', '#/jobs/1/2', '#content']) {
-      expect(parseRoute(hash)).toEqual({ page: 'studio' });
+  it('finds the start page', () => {
+    for (const hash of ['', '#', '#/', '#content']) expect(parseRoute(hash)).toEqual({ page: 'studio' });
+  });
+
+  it('knows what means nothing, damaged links among them', () => {
+    for (const hash of ['#/jobs/', '#/jobs/1/2', '#/jobs/%E0%A4%A', '#/shared/%', '#/keys/1', '#/nonsense', '#/Jobs/1']) {
+      expect(parseRoute(hash), hash).toEqual({ page: 'lost' });
     }
+    expect(parseRoute('', '/galery')).toEqual({ page: 'lost' });
   });
 });

@@ -24,25 +24,33 @@ describe('trouble in plain words', () => {
 });
 
 describe('what a file may be', () => {
-  const file = (name: string, type: string): File => new File(['x'], name, { type });
+  const bytes = (text: string): BlobPart => Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  const file = (start: string, name = 'a'): File => new File([bytes(start)], name);
 
-  it('knows a picture from a video by name or type', () => {
-    expect(isPicture(file('a.jpg', ''))).toBe(true);
-    expect(isPicture(file('photo', 'image/heic'))).toBe(true);
-    expect(isVideo(file('A.MOV', ''))).toBe(true);
-    expect(isPicture(file('a.mp4', 'video/mp4'))).toBe(false);
-    expect(isVideo(file('notes.txt', 'text/plain'))).toBe(false);
-  });
-
-  it('knows a motion by its name: browsers have no type for most', () => {
-    expect([isMotion(file('Jump.BVH', '')), isMotion(file('walk.glb', 'model/gltf-binary'))]).toEqual([true, true]);
-    expect([isMotion(file('walk.gltf', '')), isMotion(file('walk', 'model/gltf+json'))]).toEqual([true, true]);
-    expect([isMotion(file('walk.fbx', '')), isPicture(file('walk.glb', 'model/gltf-binary'))]).toEqual([false, false]);
-  });
-
-  it('takes a GIF for a performance: it moves', () => {
-    const gif = file('a.gif', 'image/gif');
-    expect([isPicture(gif), isVideo(gif)]).toEqual([false, true]);
+  it.each([
+    ['a JPEG', '\xff\xd8\xff\xe0', 'picture'],
+    ['a PNG', '\x89PNG\r\n\x1a\n', 'picture'],
+    ['a WebP', 'RIFF\x10\0\0\0WEBPVP8 ', 'picture'],
+    ['a HEIC', '\0\0\0\x18ftypheic', 'picture'],
+    ['an AVIF', '\0\0\0\x18ftypavif', 'picture'],
+    ['a GIF: it moves', 'GIF89a', 'video'],
+    ['an MP4', '\0\0\0\x18ftypisom', 'video'],
+    ['a MOV', '\0\0\0\x14ftypqt  ', 'video'],
+    ['an old MOV', '\0\0\0\x08wide', 'video'],
+    ['a WebM', '\x1a\x45\xdf\xa3', 'video'],
+    ['an AVI', 'RIFF\x10\0\0\0AVI LIST', 'video'],
+    ['a BVH', '\r\nHIERARCHY\nROOT Hips', 'motion'],
+    ['a GLB', 'glTF\x02\0\0\0', 'motion'],
+    ['a glTF', '\xef\xbb\xbf{ "asset": {', 'motion'],
+    ['a text', 'This is a letter.', null],
+    ['a sound', 'RIFF\x10\0\0\0WAVEfmt ', null],
+    ['a sound in MP4', '\0\0\0\x18ftypM4A ', null],
+    ['nothing', '', null],
+  ])('knows %s by its first bytes', async (_what, start, media) => {
+    const one = file(start, 'holiday.jpg');
+    expect([await isPicture(one), await isVideo(one), await isMotion(one)]).toEqual(
+      ['picture', 'video', 'motion'].map((kind) => kind === media),
+    );
   });
 });
 

@@ -2,10 +2,10 @@
 
 import { useEffect } from 'preact/hooks';
 
-export function useDropsAnywhere(onFile: (file: File) => void): void {
+export function useDropsAnywhere(onFile: (file: File) => Promise<void>): void {
   useEffect(() => {
     const take = (files: Iterable<File>): void => {
-      for (const file of files) onFile(file);
+      for (const file of files) void onFile(file);
     };
     const allow = (event: DragEvent): void => event.preventDefault();
     const drop = (event: DragEvent): void => {

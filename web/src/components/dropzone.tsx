@@ -16,7 +16,7 @@ interface Words {
 interface Props {
   file: File | null;
   accept: string;
-  accepts: (file: File) => boolean;
+  accepts: (file: File) => Promise<boolean>;
   words: Words;
   media: Media;
   onFile: (file: File) => void;
@@ -27,15 +27,16 @@ export function Dropzone({ file, accept, accepts, words, media, onFile }: Props)
   const [refused, setRefused] = useState(false);
   const error = useId();
 
-  const take = (candidate: File | undefined): void => {
+  const take = async (candidate: File | undefined): Promise<void> => {
     if (!candidate) return;
-    setRefused(!accepts(candidate));
-    if (accepts(candidate)) onFile(candidate);
+    const good = await accepts(candidate);
+    setRefused(!good);
+    if (good) onFile(candidate);
   };
   const drop = (event: DragEvent): void => {
     event.preventDefault();
     setOver(false);
-    take(event.dataTransfer?.files[0]);
+    void take(event.dataTransfer?.files[0]);
   };
 
   return (
@@ -55,7 +56,7 @@ export function Dropzone({ file, accept, accepts, words, media, onFile }: Props)
           aria-invalid={refused}
           aria-describedby={refused ? error : undefined}
           onChange={(event) => {
-            take(event.currentTarget.files?.[0]);
+            void take(event.currentTarget.files?.[0]);
             event.currentTarget.value = ''; // so that choosing the same file again counts as a choice
           }}
         />

@@ -20,6 +20,21 @@ const english = {
     all: 'Show all',
   },
 
+  lost: {
+    title: 'Page not found',
+    detail: 'The address is incomplete, or the page no longer exists.',
+    home: 'Go to the start page',
+  },
+
+  footer: {
+    label: 'About Galatea',
+    help: 'Help',
+    api: 'API reference',
+    openapi: 'OpenAPI',
+    use: 'Responsible use',
+    licences: 'Licences',
+  },
+
   navigation: { label: 'Pages', history: 'History', keys: 'Keys', webhooks: 'Webhooks' },
 
   history: {

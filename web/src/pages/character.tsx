@@ -32,9 +32,9 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
   const sending = useSending();
   // another motion has other joints, and other animations
   const move = (motion: Motion): void => alter({ motion, joints: {}, clip: null });
-  useDropsAnywhere((file) => {
-    if (isPicture(file)) setPhoto(file);
-    else if (isMotion(file)) move({ by: 'file', file });
+  useDropsAnywhere(async (file) => {
+    if (await isPicture(file)) setPhoto(file);
+    else if (await isMotion(file)) move({ by: 'file', file });
   });
   useEffect(() => {
     document.title = `${strings.make.character} · ${strings.name}`;

@@ -44,9 +44,9 @@ export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
     return () => clearInterval(timer);
   }, [searching]);
   const sending = useSending();
-  useDropsAnywhere((file) => {
-    if (isPicture(file)) setPortrait(file);
-    else if (isVideo(file)) setPerformance({ by: 'file', file });
+  useDropsAnywhere(async (file) => {
+    if (await isPicture(file)) setPortrait(file);
+    else if (await isVideo(file)) setPerformance({ by: 'file', file });
   });
   useEffect(() => {
     document.title = strings.name;

@@ -34,6 +34,7 @@ export default function SharePanel({ job }: { job: Job }) {
   return (
     <section class="panel share" aria-label={words.title}>
       <p class="hint">{words.hint}</p>
+      {isLoopback(location.hostname) && <p class="hint">{words.here(location.host)}</p>}
       <div class="choose">
         <label class="inline" for={id}>
           <span>{words.term}</span>
@@ -73,6 +74,9 @@ export default function SharePanel({ job }: { job: Job }) {
     </section>
   );
 }
+
+/** Whether an address of this host leads whoever has it to their own machine. */
+export const isLoopback = (host: string): boolean => /^(localhost|.*\.localhost|127(\.\d+){3}|\[::1\])$/.test(host);
 
 /** What a link opens unless it is to open everything: the animation, and the picture that stands for it. */
 const shownTo = (job: Job): string[] =>

@@ -178,6 +178,8 @@ export const job = {
   share: {
     title: 'Share',
     hint: 'Anyone with the link can see the result, without a key. Your uploaded picture and video are not shared.',
+    here: (host: string) =>
+      `You are at ${host}: links work on this computer only. To share them, start the service on an address that others can reach.`,
     term: 'Expires after',
     terms: { day: '1 day', week: '7 days', month: '30 days', open: 'never' },
     everything: 'Include all files',

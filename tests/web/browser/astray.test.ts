@@ -1,0 +1,72 @@
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { complaints, launch, open } from './page';
+
+let browser: Browser;
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  expect(complaints).toEqual([]);
+});
+
+const found = (page: Page) => page.getByRole('heading', { name: 'Page not found' });
+
+describe('an address that means nothing', () => {
+  it.each(['#/jobs/%E0%A4%A', '#/shared/%', '#/nonsense', '#/keys/1/2'])('is told of, and left: %s', async (hash) => {
+    const page = await open(browser, hash);
+    await found(page).waitFor();
+    await page.getByRole('link', { name: 'Go to the start page' }).click();
+    await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
+  });
+
+  it('is told of where the service is asked for it, too', async () => {
+    expect((await fetch(`${inject('address')}/gallery`)).status).toBe(404);
+    const page = await open(browser, 'gallery');
+    await found(page).waitFor();
+    complaints.length = 0; // the browser reports the 404 itself
+  });
+});
+
+describe('help', () => {
+  it.each(['', '#/character', '#/history', '#/keys', '#/webhooks', '#/nonsense', '#/shared/none'])('is at hand on the page %s', async (hash) => {
+    const page = await open(browser, hash);
+    const links = page.getByRole('navigation', { name: 'About Galatea' }).getByRole('link');
+    expect(await links.allInnerTexts()).toEqual(['Help', 'API reference', 'OpenAPI', 'Responsible use', 'Licences']);
+    complaints.length = 0; // a link that opens nothing is a 404
+  });
+
+  it('comes from the service itself, whole', async () => {
+    const seen = new Set<string>();
+    const left = ['/help/index.html', '/help/rest.html', '/help/responsible-use.html', '/help/licences.html', '/v1/openapi.json'];
+    for (let path = left.pop(); path; path = left.pop()) {
+      if (seen.has(path)) continue;
+      seen.add(path);
+      const answer = await fetch(inject('address') + path);
+      expect(answer.status, path).toBe(200);
+      if (!path.endsWith('.html')) continue;
+      for (const [, to = ''] of (await answer.text()).matchAll(/(?:href|src)="([^"#]+)/g)) {
+        if (!/^[a-z]+:/.test(to)) left.push(new URL(to, inject('address') + path).pathname);
+      }
+    }
+    expect(seen.size).toBeGreaterThan(15);
+  });
+});
+
+describe('an upload that the service refuses', () => {
+  it('is told of once, and not offered again', async () => {
+    const page = await open(browser);
+    await page.route('**/v1/uploads', (route) =>
+      route.fulfill({ status: 415, contentType: 'application/problem+json', body: JSON.stringify({ code: 'media_type_unsupported', detail: 'Send a JPEG.' }) }),
+    );
+    await page.getByRole('button', { name: /^Grace Hopper/ }).click();
+    await page.getByRole('button', { name: 'Bring it to life' }).click();
+    await page.getByText('Send a JPEG.').waitFor();
+    await page.reload();
+    await page.getByRole('radio', { name: 'Happy', exact: true, checked: true }).waitFor({ state: 'attached' });
+    expect(await page.getByRole('button', { name: 'Resume upload' }).count()).toBe(0);
+    complaints.length = 0; // the browser reports the 415 itself
+  });
+});

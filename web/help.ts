@@ -1,0 +1,91 @@
+/** The documentation as pages beside the page, under `help/`: whoever runs the service has it without a network. */
+
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { Marked } from 'marked';
+import type { Plugin } from 'vite';
+
+/** What the pages are called in the list beside each of them, in this order; the others are led to from these. */
+const MENU = {
+  index: 'Quick start',
+  portrait: 'Portraits',
+  characters: 'Characters',
+  reactive: 'Interactive portraits',
+  limits: 'Limits',
+  rest: 'REST API',
+  'python-client': 'Python client',
+  webhooks: 'Webhooks',
+  'operations/guide': 'Operation',
+  settings: 'Settings',
+  'responsible-use': 'Responsible use',
+  licences: 'Licences',
+};
+
+export function help(folder: string): Plugin {
+  return {
+    name: 'help',
+    apply: 'build',
+    generateBundle() {
+      for (const path of readdirSync(folder, { recursive: true, encoding: 'utf8' })) {
+        const source = join(folder, path);
+        if (/\.(jpg|png)$/.test(path)) this.emitFile({ type: 'asset', fileName: `help/${path}`, source: readFileSync(source) });
+        if (!path.endsWith('.md')) continue;
+        const name = path.slice(0, -'.md'.length);
+        this.emitFile({ type: 'asset', fileName: `help/${name}.html`, source: page(name, readFileSync(source, 'utf8')) });
+      }
+    },
+  };
+}
+
+function page(name: string, text: string): string {
+  const up = '../'.repeat(name.split('/').length - 1);
+  const title = /^# (.+)$/m.exec(text)?.[1] ?? name;
+  const menu = Object.entries(MENU)
+    .map(([to, word]) => `<li><a href="${up}${to}.html"${to === name ? ' aria-current="page"' : ''}>${word}</a></li>`)
+    .join('\n');
+  return `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<link rel="icon" type="image/svg+xml" href="/favicon.svg">
+<link rel="stylesheet" href="/help.css">
+<title>${escaped(title)} · Galatea</title>
+</head>
+<body>
+<header><a href="/">Galatea</a></header>
+<nav aria-label="Help"><ul>${menu}</ul></nav>
+<main>${rendered(text)}</main>
+</body>
+</html>
+`;
+}
+
+const escaped = (text: string): string => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/"/g, '&quot;');
+
+/** Headings can be linked to, links between documents lead from page to page, and wide tables scroll by themselves. */
+function rendered(text: string): string {
+  const marked = new Marked({
+    renderer: {
+      heading({ tokens, depth, text: heading }) {
+        return `<h${depth} id="${slug(heading)}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
+      },
+      link({ href, tokens }) {
+        const to = /^[a-z]+:/.test(href) ? href : href.replace(/\.md(?=#|$)/, '.html');
+        return `<a href="${escaped(to)}">${this.parser.parseInline(tokens)}</a>`;
+      },
+    },
+  });
+  // `:` blocks of the other renderer's attributes are of no use here
+  const html = marked.parse(text.replace(/\{:? ?[#.][^}\n]*\}/g, ''), { async: false });
+  return html.replace(/<table>/g, '<div class="wide" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
+}
+
+/** As the documentation's other renderer makes them, so that links to a heading fit both. */
+const slug = (heading: string): string =>
+  heading
+    .toLowerCase()
+    .replace(/[^\w\s-]/g, '')
+    .trim()
+    .replace(/[\s-]+/g, '-');

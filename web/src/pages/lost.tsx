@@ -1,0 +1,18 @@
+/** An address at which there is no page. */
+
+import { Heading } from '../components/heading';
+import { strings } from '../strings';
+
+const words = strings.lost;
+
+export function LostPage() {
+  return (
+    <article class="lost">
+      <Heading text={words.title} />
+      <p>{words.detail}</p>
+      <a class="button primary" href="/">
+        {words.home}
+      </a>
+    </article>
+  );
+}
