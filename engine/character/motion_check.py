@@ -34,6 +34,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     """Leaves `motion.json` and `report.json` in `out`. A skeleton that is nobody's is told of, and no failure."""
     from engine.motion.beginning import length_warning  # the service reads KIND alone: it stays light
     from engine.motion.check import check_motion
+    from engine.motion.joint_map import lost_warning
     from engine.motion.reading import motion_clips, read_motion
 
     path = inputs["motion"]
@@ -49,6 +50,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     if checked.refused is not None:
         error = {"code": checked.refused.code, "detail": checked.refused.detail}
         run.warn(checked.refused.code, checked.refused.detail)
+    elif lost := lost_warning(motion, checked.mapping):
+        run.warn("motion_joints_unmapped", lost)
     figures = {"fps": round(checked.fps, 4), "frames": checked.frames, "seconds": round(checked.seconds, 3)}
     document = {
         **figures,

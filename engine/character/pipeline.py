@@ -30,6 +30,7 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.kind import Given
 from engine.media.image import write_image
 from engine.motion.clip import Clip
+from engine.motion.joint_map import lost_warning
 from engine.perception.models import matting_model
 from engine.render.character import film_cast
 from engine.run import Run, write_report
@@ -86,6 +87,8 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         source = motion_in_use(motion, options.motion_clip, options.motion_joints, run.warn)
         for person in people:
             person.act(options, source)
+        if source and (lost := lost_warning(source, people[0].played.joints)):
+            run.warn("motion_joints_unmapped", lost)
         for name, person in zip(character_names(people), people, strict=True):
             write_character(out, name, person, options, run)
         write_findings(out, people)
@@ -132,7 +135,8 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             "people": np.round(figure.people / np.tile(figure.scale, 2), 1).tolist(),
             "person": options.person_index if options.person_index == "all" else figure.index,
         }
-        | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {}),
+        | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {})
+        | ({"motion_skeleton": source.skeletons[0]} if source and source.skeletons else {}),
         quality=quality[0],
         more={
             "woken": [

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.motion import rotation
 from engine.motion.joint_names import SIDED, TARGET_NAMES, match_names
 from engine.motion.source_motion import SourceMotion
 from engine.motion.tree_shape import children_of, common_ancestor, match_shape, path
@@ -17,6 +18,11 @@ REQUIRED = (
     "Hips",
     *(f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
 )
+
+LEAST_TURN = np.radians(3)
+"""A joint that turns by less is held."""
+
+MOST_NAMED = 10
 
 CHAINS = tuple(
     tuple(side + part for part in chain)
@@ -45,7 +51,7 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
     _check(motion, overrides)
     found = _order_holds(motion.parents, match_names(motion.names))
     if any(name not in found for name in REQUIRED):
-        found = _by_shape(motion) or found
+        found = _completed(motion.parents, found, _by_shape(motion))
     chosen = {name: motion.names.index(joint) for name, joint in overrides.items() if joint is not None}
     found = {name: index for name, index in found.items() if name not in overrides} | chosen
     found = _trunk(motion.parents, found)
@@ -60,6 +66,38 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
         )
     _each_its_own(motion, mapping)
     return mapping
+
+
+def _completed(parents: NDArray[np.int32], said: dict[str, int], shape: dict[str, int]) -> dict[str, int]:
+    """What the names said, completed by what the shape tells; where the two are not one person, the shape's limbs with what the
+    names said of the rest, such as fingers."""
+    kept = set(said.values())
+    both = _order_holds(parents, {name: joint for name, joint in shape.items() if joint not in kept} | said)
+    if not shape or all(name in both for name in REQUIRED):
+        return both if shape else said
+    taken = set(shape.values())
+    return _order_holds(parents, {name: joint for name, joint in said.items() if joint not in taken} | shape)
+
+
+def lost_joints(motion: SourceMotion, mapping: Mapping[str, str]) -> tuple[str, ...]:
+    """The joints that turn in the motion and move nothing: they have no counterpart, nor has any joint below them, which would
+    carry on their turns."""
+    used = {joint for joint, name in enumerate(motion.names) if name in set(mapping.values())}
+    for joint in range(len(motion.parents) - 1, -1, -1):
+        if joint in used and motion.parents[joint] >= 0:
+            used.add(int(motion.parents[joint]))
+    change = rotation.multiply(rotation.inverse(motion.rotations[:1]), motion.rotations)
+    turns = rotation.angle(change).max(0) > LEAST_TURN
+    return tuple(name for joint, name in enumerate(motion.names) if turns[joint] and joint not in used)
+
+
+def lost_warning(motion: SourceMotion, mapping: Mapping[str, str]) -> str | None:
+    """What is to be said of joints that move nothing; None where all do."""
+    lost = lost_joints(motion, mapping)
+    if not lost:
+        return None
+    named = ", ".join(name[:60] for name in lost[:MOST_NAMED]) + (", ..." if len(lost) > MOST_NAMED else "")
+    return f"{len(lost)} of the motion's joints move nothing of the character: {named}. Say by motion_joints what they move."
 
 
 def not_humanoid(motion: SourceMotion, mapping: Mapping[str, str], detail: str) -> InputError:

@@ -2,12 +2,14 @@
 
 Known habits: Mixamo (`mixamorig:LeftUpLeg`), MotionBuilder (`Character1_LeftUpLeg`), CMU in two spellings
 (`LeftUpLeg`, `LeftHip`), Bandai (`UpperLeg_L`), MakeHuman (`UpLeg_L`), Blender (`thigh.L`), Unreal (`thigh_l`), 3ds Max
-(`Bip01 L Thigh`), VRM (`J_Bip_L_UpperLeg`), Poser (`lThigh`).
+(`Bip01 L Thigh`), VRM (`J_Bip_L_UpperLeg`), Poser (`lThigh`). What most names of a skeleton have in common before or behind
+the word that tells them apart, such as a program's name, a character's, or a number, says nothing of a joint.
 """
 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -35,60 +37,111 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "Foot": ("foot", "ankle"),
     "ToeBase": ("toebase", "toe", "toes", "ball"),
 }
+_KNOWN = frozenset(word for group in _WORDS.values() for word in group)
+_SIDES = {"left": "Left", "l": "Left", "right": "Right", "r": "Right"}
 _FINGER = re.compile(
-    r"(?:hand)?(thumb|index|middle|mid|ring|pinky|pinkie|little)(?:finger)?(proximal|intermediate|distal)?"
+    r"(?:hand)?f?(thumb|index|middle|mid|ring|pinky|pinkie|little)(?:finger)?(proximal|intermediate|distal)?"
 )
 _FINGER_NAMES = {"mid": "Middle", "pinkie": "Pinky", "little": "Pinky"}
 _PHALANGES = {"proximal": 1, "intermediate": 2, "distal": 3}
 _PREFIX = re.compile(
     r"^(?:.*[:|]|character\d*_|(?:j_)?bip(?:ed)?\d*[ _]|valvebiped_?|def[-_]|org[-_]|bone[-_]|joint_|jnt_|j_)", re.I
 )
+COMMON = 0.6
+"""The share of names that begin or end alike for that to say nothing: neither side of a body has so many joints."""
+FEWEST_ALIKE = 5
+DISTINCT = 0.8
+"""The share of different numbers among those behind names, from which on they count the joints of the file."""
 
 
 @dataclass(frozen=True)
 class Spoken:
-    """What a name says: the side ("Left", "Right" or ""), the words in small letters, and the number behind them."""
+    """What a name says: the side ("Left", "Right" or ""), the words in small letters, the number behind them, and how that is
+    written."""
 
     side: str
     words: str
     number: int
+    digits: str = ""
 
 
 def read_name(name: str) -> Spoken:
     """Take a joint's name apart."""
+    return _spoken(_tokens(name))
+
+
+def _tokens(name: str) -> list[str]:
+    """The words and numbers of a name, in small letters, without what known programs write before it."""
     before = None
     while before != name:
         before, name = name, _PREFIX.sub("", name) or name
     split = re.sub(r"([a-z0-9])([A-Z])|([A-Z])([A-Z][a-z])", r"\1\3 \2\4", name)
-    tokens = [token.lower() for token in re.findall(r"[A-Za-z]+|\d+", split)]
-    number = int(tokens[-1]) if tokens and tokens[-1].isdigit() else 0
-    if not number:
-        number = next((int(token) for token in tokens if token.isdigit() and len(token) < 4), 0)
+    return [token.lower() for token in re.findall(r"[A-Za-z]+|\d+", split)]
+
+
+def _without_common(names: list[list[str]]) -> list[list[str]]:
+    """Names, as their tokens, without what most of them begin with or end in."""
+    names = _without_counts(names)
+    for end in (0, -1):
+        while len(names) >= FEWEST_ALIKE:
+            word, times = Counter(name[end] for name in names if name).most_common(1)[0]
+            if times < COMMON * len(names) or word in _SIDES or word in _KNOWN or _FINGER.fullmatch(word):
+                break
+            alone = [name for name in names if len(name) < 2]
+            if len(alone) == len(names):
+                break
+            names = [
+                (name[1:] if end == 0 else name[:-1]) if len(name) > 1 and name[end] == word else name for name in names
+            ]
+    return names
+
+
+def _without_counts(names: list[list[str]]) -> list[list[str]]:
+    """Without the numbers behind names, where these count through all joints."""
+    numbers = [name[-1] for name in names if len(name) > 1 and name[-1].isdigit()]
+    if len(numbers) < max(COMMON * len(names), FEWEST_ALIKE) or len(set(numbers)) < DISTINCT * len(numbers):
+        return names
+    return [name[:-1] if len(name) > 1 and name[-1].isdigit() else name for name in names]
+
+
+def _spoken(tokens: Sequence[str]) -> Spoken:
+    digits = tokens[-1] if tokens and tokens[-1].isdigit() else ""
+    if not int(digits or 0):
+        digits = next((token for token in tokens if token.isdigit() and len(token) < 4), digits)
+    number = int(digits or 0) if len(digits) < 9 else 0
     words = [word for word in tokens if not word.isdigit() and word != "c"]  # c: centre
     side = ""
-    for token, meaning in (("left", "Left"), ("l", "Left"), ("right", "Right"), ("r", "Right")):
+    for token, meaning in _SIDES.items():
         if token in words:
             side = meaning
             words.remove(token)
             break
     joined = "".join(words)
-    known = {word for group in _WORDS.values() for word in group}
     if not side:
         for start, meaning in (("left", "Left"), ("right", "Right"), ("l", "Left"), ("r", "Right")):
             rest = joined.removeprefix(start)
-            if rest != joined and (rest in known or _FINGER.fullmatch(rest)):
-                return Spoken(meaning, rest, number)
-    return Spoken(side, joined, number)
+            if rest != joined and (rest in _KNOWN or _FINGER.fullmatch(rest)):
+                return Spoken(meaning, rest, number, digits)
+    return Spoken(side, joined, number, digits)
 
 
 def match_names(names: Sequence[str]) -> dict[str, int]:
     """`{our joint: index of the source's joint}` for those whose names are understood; the spine is left out, for
     its names say little about which joint is where."""
-    spoken = [None if name.startswith("__") else read_name(name) for name in names]
+    told = [index for index, name in enumerate(names) if not name.startswith("__")]
+    tokens = _without_common([_tokens(names[index]) for index in told])
+    spoken: list[Spoken | None] = [None] * len(names)
+    for index, of in zip(told, tokens, strict=True):
+        spoken[index] = _spoken(of)
     found: dict[str, int] = {}
     fingers: dict[tuple[str, str], list[tuple[int, int]]] = {}
     for index, said in enumerate(spoken):
         if said is None:
+            continue
+        if said.side and said.words == "finger" and 0 < len(said.digits) < 3 and said.digits[0] in "01234":
+            # 3ds Max: Finger0, Finger01, Finger02 are the thumb, Finger1, Finger11, Finger12 the index finger
+            label, phalanx = FINGERS[int(said.digits[0])], int(said.digits[1:] or 0) + 1
+            fingers.setdefault((said.side, label), []).append((phalanx, index))
             continue
         if said.side and (finger := _FINGER.fullmatch(said.words)):
             label = _FINGER_NAMES.get(finger.group(1), finger.group(1).capitalize())

@@ -14,10 +14,11 @@ from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.bvh import read_bvh
 from engine.motion.clip import Clip
-from engine.motion.joint_map import map_joints
+from engine.motion.joint_map import lost_joints, lost_warning, map_joints
 from engine.motion.joint_names import match_names, read_name
 from engine.motion.library import built_in
 from engine.motion.skeleton import Skeleton
+from engine.motion.source_motion import SourceMotion
 
 Media = Callable[[str], Path]
 
@@ -121,3 +122,121 @@ def test_one_joint_cannot_move_both_legs(skeleton: Skeleton) -> None:
     assert (error.value.code, error.value.correctable) == ("motion_not_humanoid", ("motion_joints", "motion"))
     assert error.value.found["joints"] == list(motion.names)
     assert map_joints(motion, {"Spine1": "Spine2"})["Spine1"] == "Spine2", "the trunk may share"
+
+
+def renamed(motion: SourceMotion, name: Callable[[str, int], str]) -> SourceMotion:
+    return replace(motion, names=tuple(name(one, index) for index, one in enumerate(motion.names)))
+
+
+def unreal(name: str, index: int) -> str:
+    """Our joints as Unreal's mannequin calls them."""
+    side = "_l" if name.startswith("Left") else "_r"
+    part = name.removeprefix("Left").removeprefix("Right")
+    words = {
+        "Hips": "pelvis", "Spine": "spine_01", "Spine1": "spine_02", "Spine2": "spine_03", "Neck": "neck_01", "Head": "head",
+        "Shoulder": "clavicle", "Arm": "upperarm", "ForeArm": "lowerarm", "Hand": "hand", "UpLeg": "thigh", "Leg": "calf",
+        "Foot": "foot", "ToeBase": "ball",
+    }  # fmt: skip
+    told = words.get(part) or f"{part[4:-1].lower()}_0{part[-1]}"
+    return told if name == part else told + side
+
+
+def biped(name: str, index: int) -> str:
+    """As 3ds Max calls them."""
+    side = "L " if name.startswith("Left") else "R "
+    part = name.removeprefix("Left").removeprefix("Right")
+    words = {
+        "Hips": "Pelvis",
+        "Shoulder": "Clavicle",
+        "Arm": "UpperArm",
+        "UpLeg": "Thigh",
+        "Leg": "Calf",
+        "ToeBase": "Toe0",
+    }
+    if part.startswith("Hand") and part != "Hand":
+        digit = ("Thumb", "Index", "Middle", "Ring", "Pinky").index(part[4:-1])
+        part = f"Finger{digit}" + ("" if part[-1] == "1" else str(int(part[-1]) - 1))
+    return "Bip01 " + (side if name.startswith(("Left", "Right")) else "") + words.get(part, part)
+
+
+def rigify(name: str, index: int) -> str:
+    """As Blender's rig does, whose every joint has the number of a copy."""
+    side = ".L" if name.startswith("Left") else ".R"
+    part = name.removeprefix("Left").removeprefix("Right")
+    words = {
+        "Hips": "hips",
+        "Shoulder": "shoulder",
+        "Arm": "upper_arm",
+        "ForeArm": "forearm",
+        "UpLeg": "thigh",
+        "Leg": "shin",
+        "ToeBase": "toe",
+    }
+    if part.startswith("Hand") and part != "Hand":
+        part = f"{'' if part[4:-1] == 'Thumb' else 'f_'}{part[4:-1].lower()}.0{part[-1]}"
+    told = words.get(part, part.lower())
+    return f"DEF-{told}{'' if name in ('Hips', 'Neck', 'Head') or name.startswith('Spine') else side}.001"
+
+
+HABITS: dict[str, Callable[[str, int], str]] = {
+    "as they are": lambda name, index: name,
+    "a colon": lambda name, index: f"mixamorig:{name}",
+    "Collada": lambda name, index: f"mixamorig_{name}",
+    "a number": lambda name, index: f"mixamorig1_{name}",
+    "a longer number": lambda name, index: f"mixamorig12:{name}",
+    "without a colon": lambda name, index: f"mixamorig{name}",
+    "an armature": lambda name, index: f"Armature|{name}",
+    "a program": lambda name, index: f"CC_Base_{name}",
+    "anything": lambda name, index: f"Zoë's_robot-2_{name}",
+    "behind": lambda name, index: f"{name}_jnt",
+    "on both sides": lambda name, index: f"hero_{name}_bind_jnt",
+    "copies": lambda name, index: f"{name}.001",
+    "counted": lambda name, index: f"mixamorig:{name}_{index:02}",
+    "Unreal": unreal,
+    "3ds Max": biped,
+    "rigify": rigify,
+}
+
+
+@pytest.mark.parametrize("habit", HABITS)
+def test_what_all_names_have_in_common_says_nothing(skeleton: Skeleton, habit: str) -> None:
+    """All joints are found, fingers too; beside them stand the nodes that such files have above and below."""
+    walk = built_in("walk", skeleton)
+    turns = rotation.identity(len(skeleton.names))
+    motion = renamed(told_by(skeleton, walk, turns, rotation.IDENTITY, 1.0, prefix=""), HABITS[habit])
+    mapping = map_joints(motion)
+    assert {ours: motion.names.index(theirs) for ours, theirs in mapping.items()} == {
+        ours: index for index, ours in enumerate(skeleton.names)
+    }
+    others = match_names([*motion.names, "Armature", "Body_mesh", "root", "Camera"])
+    assert {ours: others[ours] for ours in others} == match_names(motion.names)
+
+
+def test_what_names_said_is_kept_where_the_shape_has_to_help(skeleton: Skeleton) -> None:
+    walk = built_in("walk", skeleton)
+    motion = told_by(skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY, 1.0, prefix="")
+    nameless = ("UpLeg", "Leg", "Foot", "ToeBase")
+    odd = renamed(motion, lambda name, index: f"bone{index}" if name.endswith(nameless) else name)
+    mapping = map_joints(odd)
+    assert len(mapping) == len(skeleton.names)
+    assert all(odd.names.index(theirs) == skeleton.index(ours) for ours, theirs in mapping.items())
+
+
+def test_joints_that_turn_for_nothing_are_told_of(skeleton: Skeleton) -> None:
+    walk = built_in("walk", skeleton)
+    motion = told_by(skeleton, walk, rotation.identity(len(skeleton.names)), rotation.IDENTITY, 1.0, prefix="")
+    assert lost_warning(motion, map_joints(motion)) is None
+    tails = [f"tail {k}" for k in range(15)]
+    frames = len(motion.rotations)
+    wags = np.repeat(rotation.about("x", np.linspace(0, 1, frames))[:, None], 15, 1)
+    held = np.repeat(rotation.identity(frames)[:, None], 1, 1)
+    longer = replace(
+        motion,
+        names=(*motion.names, *tails, "held"),
+        parents=np.array([*motion.parents, *[0] * 16], np.int32),
+        rotations=np.concatenate([motion.rotations, wags, held], 1),
+        translations=np.concatenate([motion.translations, np.ones((frames, 16, 3))], 1),
+    )
+    assert list(lost_joints(longer, map_joints(motion))) == tails
+    said = lost_warning(longer, map_joints(motion))
+    assert said is not None and said.startswith("15 of") and "tail 9" in said and "tail 10" not in said
