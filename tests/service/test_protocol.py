@@ -10,7 +10,7 @@ from uvicorn.server import ServerState
 
 from service.connections.census import Census
 from service.connections.protocol import Config, Protocol
-from service.connections.turns import SLICE_BYTES
+from service.connections.turns import FINE_SLICE_BYTES, SLICE_BYTES
 
 BODY = bytes(range(251)) * 1000
 HEAD = b"POST / HTTP/1.1\r\nHost: localhost\r\n"
@@ -52,7 +52,7 @@ async def taken(sent: bytes, requests: int) -> list[list[bytes]]:
 def test_a_body_in_chunks_of_any_size(size: int) -> None:
     (pieces,) = asyncio.run(taken(HEAD + b"Transfer-Encoding: chunked\r\n\r\n" + framed(size), 1))
     assert b"".join(pieces) == BODY
-    assert max(map(len, pieces)) <= 2 * SLICE_BYTES
+    assert max(map(len, pieces)) <= 2 * FINE_SLICE_BYTES
 
 
 def test_requests_that_come_one_behind_the_other() -> None:
