@@ -22,6 +22,7 @@ from typing import Any, NoReturn
 from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
 from service.kinds.registry import load_kinds
+from worker import death
 from worker.confinement import Limits, confine, limit, of_the_program
 from worker.rehearsal import kept_in, load_compiled
 from worker.tether import die_with_parent
@@ -29,6 +30,7 @@ from worker.work import Wire, failed, files_of, local, perform
 
 LONGEST_LINE = 1_000_000
 PIECE = 1 << 16
+TIME_LIMIT = "time_limit"
 PASSED_ON = ("progress", "stage", "stored", "artifact")
 """What a job's process may say; the rest is this process's own to say."""
 
@@ -94,15 +96,15 @@ class JobProcess:
         return said if data and whole and len(self._rest) < LONGEST_LINE else None
 
     def end(self, cpu_seconds: int) -> str | None:
-        """Make sure that it has ended. Returns why it did where that was a signal: `time_limit`, or a sentence."""
+        """Make sure that it has ended. Returns why it did where that was not in order: `time_limit`, or how it
+        died (`worker.death`)."""
         _, status, usage = os.wait4(self.pid, 0)
         os.close(self.events)
         os.close(self._orders)
-        if not os.WIFSIGNALED(status):
-            return None if status == 0 else "the job's process ended unexpectedly"
-        if os.WTERMSIG(status) == signal.SIGXCPU or usage.ru_utime + usage.ru_stime > cpu_seconds:
-            return "time_limit"
-        return f"the job's process was ended by signal {os.WTERMSIG(status)}"
+        computed_too_long = usage.ru_utime + usage.ru_stime > cpu_seconds
+        if os.WIFSIGNALED(status) and (os.WTERMSIG(status) == signal.SIGXCPU or computed_too_long):
+            return TIME_LIMIT
+        return death.name(status)
 
 
 def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: int) -> NoReturn:
@@ -148,10 +150,10 @@ def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int
             _await_end(process)
         process.kill()
     why = process.end(cpu_seconds)
-    if why == "time_limit":
+    if why == TIME_LIMIT:
         return failed("time_limit", f"The job computed for more than {cpu_seconds} seconds: send a shorter input.")
     if verdict is None or "outcome" not in verdict:
-        return {"outcome": "crashed", "reason": why or "the job's process ended unexpectedly"}
+        return {"outcome": "crashed", "reason": death.in_words(why), "death": death.of_its_own(why)}
     return verdict
 
 

@@ -1,7 +1,7 @@
 """How an attempt at a job ends: its verdict made true in SQL.
 
 A verdict's `outcome` is `succeeded`; `failed`, with `code` and `detail`; `crashed` or `stopped`, with a `reason`, after
-which the job is given back, a crash counting against it; or `lost`: the job is somebody else's, and nothing is written.
+which the job is given back, a crash counting against it (and more so where it brings the same `death` as the last one); or `lost`: the job is somebody else's, and nothing is written.
 """
 
 from __future__ import annotations
@@ -97,6 +97,7 @@ def _fail(context: Context, lease: Lease, verdict: Mapping[str, Any]) -> None:
 
 def _give_back(context: Context, job: Job, lease: Lease, verdict: Mapping[str, Any]) -> None:
     with context.database.write() as session:
-        status = leases.give_back(session, lease, verdict["reason"], verdict["outcome"] == "crashed")
+        death, crashed = verdict.get("death"), verdict["outcome"] == "crashed"
+        status = leases.give_back(session, lease, verdict["reason"], crashed, death=str(death)[:32] if death else None)
     if status == Status.QUEUED:
         context.queue.send(job.id, job.kind)

@@ -134,19 +134,29 @@ def fail(
 
 
 def give_back(
-    session: Session, lease: Lease, reason: str, counts: bool = True, only_expired: bool = False
+    session: Session,
+    lease: Lease,
+    reason: str,
+    counts: bool = True,
+    only_expired: bool = False,
+    death: str | None = None,
 ) -> Status | None:
     """End an attempt that did not end by itself: the job is queued again, or fails after three fruitless ones.
 
-    `counts=False` where the attempt is not to blame (the worker was told to stop); `only_expired` where the worker
+    `death` is how its process died where it did so by itself: one that dies a second time in the same way, and got no
+    further, would do so a third time. `counts=False` where the attempt is not to blame (the worker was told to stop); `only_expired` where the worker
     may have renewed its lease in the meantime. Returns the job's new status, None if the lease was lost (or stands).
     """
-    mine = select(Job.fruitless_attempts).where(Job.id == lease.job_id, Job.lease_token == lease.token)
+    mine = select(Job.fruitless_attempts, Job.last_death).where(Job.id == lease.job_id, Job.lease_token == lease.token)
     if only_expired:
         mine = mine.where(_over())
-    fruitless = session.scalar(mine.with_for_update())
-    if fruitless is None:
+    found = session.execute(mine.with_for_update()).one_or_none()
+    if found is None:
         return None
+    fruitless, last_death = found
+    if counts and fruitless and death is not None and death == last_death:
+        detail = f"Tried twice, and it ended in the same way: {reason}. Send another file, or the same one saved anew."
+        return Status.FAILED if fail(session, lease, "process_died", detail) else None
     if counts and fruitless >= MOST_FRUITLESS_ATTEMPTS:
         detail = f"Tried {fruitless} times without getting any further. The last time: {reason}"
         return Status.FAILED if fail(session, lease, "attempts_exhausted", detail) else None
@@ -158,6 +168,7 @@ def give_back(
         lease_owner=None,
         lease_expires_at=None,
         fruitless_attempts=fruitless if counts else max(fruitless - 1, 0),
+        last_death=death if counts else last_death,
     )
     if not requeued:
         return None

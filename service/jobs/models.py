@@ -95,6 +95,8 @@ class Job(Base):
     attempts: Mapped[int] = mapped_column(default=0)
     fruitless_attempts: Mapped[int] = mapped_column(default=0)
     """Attempts in a row that stored no new stage."""
+    last_death: Mapped[str | None] = mapped_column(String(32))
+    """How the process of the last attempt died where it did so by itself (`SIGABRT`)."""
 
 
 class JobFile(Base):

@@ -32,7 +32,7 @@ class TinyOptions(BaseModel):
     """Whether it looks for cancellation meanwhile."""
     level: float = 0.0
     """Added to what is measured; a correction."""
-    crash: Literal["segv", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"] | None = None
+    crash: Literal["segv", "abort", "kill", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"] | None = None
     crash_once: bool = False
     """Crash at the first attempt only (there is a file in the stages' folder from then on)."""
 
@@ -63,6 +63,10 @@ def misbehave(how: str | None, out: Path) -> None:
     match how:
         case "segv":
             os.kill(os.getpid(), signal.SIGSEGV)
+        case "abort":
+            os.abort()
+        case "kill":
+            os.kill(os.getpid(), signal.SIGKILL)
         case "exit":
             os._exit(3)
         case "memory":

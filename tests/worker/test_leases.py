@@ -102,6 +102,28 @@ def test_three_fruitless_attempts_in_a_row_fail_the_job(context: Context, job_id
     assert job.error["code"] == "attempts_exhausted" and "it died" in job.error["detail"]
 
 
+def test_a_process_that_dies_twice_alike_without_getting_further_is_not_tried_again(
+    context: Context, job_id: str
+) -> None:
+    def ends(death: str | None, fruit: bool = False, counts: bool = True) -> Status | None:
+        lease = claim(context, job_id)
+        assert lease is not None
+        with context.database.write() as session:
+            if fruit:
+                leases.bear_fruit(session, lease)
+            return leases.give_back(session, lease, "a library gave up", counts, death=death)
+
+    assert ends("SIGABRT") == Status.QUEUED
+    assert ends("SIGSEGV") == Status.QUEUED, "another death"
+    assert ends("SIGSEGV", fruit=True) == Status.QUEUED, "it got further"
+    assert ends(None, counts=False) == Status.QUEUED, "the worker was told to stop: that changes nothing"
+    assert ends("SIGSEGV") == Status.FAILED
+    with context.database.read() as session:
+        job = repository.get(session, job_id)
+    assert job is not None and job.error is not None
+    assert job.error["code"] == "process_died" and "a library gave up" in job.error["detail"]
+
+
 def test_a_stored_stage_begins_the_count_anew(context: Context, job_id: str) -> None:
     for _ in range(6):
         lease = claim(context, job_id)

@@ -72,6 +72,7 @@ export const failures = {
     time_limit: 'This takes too long',
     file_limit: 'The result would be too large',
     not_permitted: 'Stopped for security reasons',
+    process_died: 'This file could not be worked on',
     attempts_exhausted: 'This could not be finished',
     camera_refused: 'Camera access is blocked',
     camera_missing: 'No camera was found',
