@@ -66,6 +66,21 @@ AUTO = "auto"
 
 
 @dataclass(frozen=True)
+class Needs:
+    """What a kind's work takes at the most. The operator's settings cap all of it, and None leaves it to them.
+
+    seconds : of work, on a machine that is slow or has other things to do; longer is a fault, or a hostile input.
+    memory_mb : in millions of bytes. cores : that it can make use of.
+    """
+
+    seconds: float | None = None
+    memory_mb: float | None = None
+    cores: int | None = None
+    short: bool = False
+    """Whether a job usually takes seconds: it does not wait behind those that take minutes then."""
+
+
+@dataclass(frozen=True)
 class Kind:
     """A job kind. `work(inputs, options, out, run)` leaves its artifacts in the existing folder `out`.
 
@@ -85,3 +100,4 @@ class Kind:
     rehearse: Callable[[Path], None] | None = None
     """Does the work once in an empty folder, on media of the project's own, so that all that is compiled at its first
     use is compiled and kept."""
+    needs: Needs = Needs()

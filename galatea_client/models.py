@@ -86,8 +86,16 @@ class Input(Model):
     corrects: bool
 
 
+class KindLimits(Model):
+    """The most that a job may take: seconds of work, millions of bytes of memory, cores (None: all that there are)."""
+
+    seconds: float
+    memory_mb: float
+    cores: int | None
+
+
 class Kind(Model):
-    """A job kind: its inputs, and the JSON schemas of inputs and options."""
+    """A job kind: its inputs, the JSON schemas of inputs and options, and whether a job usually takes seconds."""
 
     name: str
     summary: str
@@ -95,6 +103,8 @@ class Kind(Model):
     inputs_schema: dict[str, Any]
     options_schema: dict[str, Any]
     correctable: list[str]
+    short: bool
+    limits: KindLimits
 
 
 class Moment(Model):

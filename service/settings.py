@@ -98,6 +98,11 @@ class Settings(BaseSettings):
         True, description="Whether results say of themselves, for machines to read, that they are synthetic."
     )
     concurrency: int = Field(1, ge=1, description="Jobs that one worker runs at once.")
+    short_concurrency: int = Field(
+        1,
+        ge=0,
+        description="Jobs of kinds that take seconds that it runs beside them; 0 lets those wait for their turn.",
+    )
     job_seconds: float = Field(3600, gt=0, description="The longest a job may work.")
     job_memory_mb: float = Field(6000, gt=0, description="The most memory of a job.")
     job_file_mb: float = Field(4000, gt=0, description="The largest file a job may write.")

@@ -30,6 +30,7 @@ from worker.children import Child, WarmChildren
 from worker.housekeeping import keep_house
 from worker.privileges import user_id
 from worker.rehearsal import rehearse, rehearsed
+from worker.short_lane import ShortLane
 from worker.spans import AttemptSpans
 from worker.sweep import sweep
 from worker.webhooks import Courier
@@ -49,6 +50,7 @@ class Worker:
         self.stopping = threading.Event()
         self.user = user_id(context.settings.job_user)
         self.children: WarmChildren
+        self.lane: ShortLane | None = None
         self.courier = Courier(context)
         self.owner = f"{socket.gethostname()}:{os.getpid()}"
         context.queue.celery.task(name=TASK)(self.run_job)
@@ -56,16 +58,19 @@ class Worker:
     def run_job(self, job_id: str, kind: str) -> None:
         """Run the job of this kind whose turn it is: mostly not the one that the message tells of. The message may be
         late, or come twice: then there may be none."""
-        if self.stopping.is_set():
-            return
-        child = self.children.take()  # before the lease, which would run while a process starts
+        if not self.stopping.is_set():
+            self._run_next(kind, self.children)
+
+    def _run_next(self, kind: str, children: WarmChildren) -> None:
+        """Run the job of this kind whose turn it is, if there is one, in one of these processes."""
+        child = children.take()  # before the lease, which would run while a process starts
         reuse = True
         try:
             if (claimed := self._claim(kind)) is not None:
                 reuse = False
                 reuse = self._attempt(*claimed, child)
         finally:
-            self.children.give_back(child, reuse)
+            children.give_back(child, reuse)
 
     def _attempt(self, job: Job, lease: Lease, child: Child) -> bool:
         """Attempt a job; all that is logged meanwhile names it. Returns whether the process may be used again."""
@@ -93,7 +98,9 @@ class Worker:
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
         kinds = self.context.settings.worker_kinds or list(self.context.kinds)
         self._rehearse(kinds)
-        self.children = WarmChildren(self.context.settings, self.user)
+        settings = self.context.settings
+        self.children = WarmChildren(settings, settings.concurrency, settings.worker_kinds, self.user)
+        self.lane = self._short_lane(kinds)
         queues = [queue_name(kind) for kind in kinds]
         structlog.get_logger().info("worker_started", kinds=kinds, owner=self.owner)
         worker = self.context.queue.celery.Worker(
@@ -101,7 +108,18 @@ class Worker:
         )
         worker.start()
         self._stop()
+        if self.lane is not None:
+            self.lane.close(LONGEST_FAREWELL)
         self.children.close()
+
+    def _short_lane(self, kinds: Sequence[str]) -> ShortLane | None:
+        """The lane for the short ones of these kinds; None where there are none, or nothing else that could hold them up."""
+        short = [kind for kind in kinds if self.context.kinds[kind].needs.short]
+        places = self.context.settings.short_concurrency
+        if not short or len(short) == len(kinds) or not places:
+            return None
+        children = WarmChildren(self.context.settings, places, short, self.user)
+        return ShortLane(self.context, short, places, children, self._run_next, self._repeat)
 
     def _rehearse(self, kinds: Sequence[str]) -> None:
         """Have the engine compiled where it is not, and tell the jobs that wait for it. No message is taken meanwhile:

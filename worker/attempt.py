@@ -24,6 +24,7 @@ from service.disk import free_mb
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.jobs.models import Job
+from service.kinds.allowance import Allowance
 from service.traces.tracer import fail
 from worker import inputs
 from worker.children import Child, ChildLost
@@ -77,6 +78,7 @@ class Attempt:
         """`user` is who the process works as, None for the worker's own."""
         self._user = user
         self._context = context
+        self._allowance = Allowance.of(context.kinds[job.kind], context.settings)
         self._job = job
         self._lease = lease
         self._child = child
@@ -90,8 +92,8 @@ class Attempt:
         self._progress: dict[str, Any] | None = None
         self._stage: str | None = None
         """The stage that was told of last."""
-        self._working = False
-        """Whether the process has been told what to do."""
+        self._working: float | None = None
+        """Since when the process has been told what to do."""
         self._fetched = 0.0
         """The part of the progress that fetching took."""
         self._published: dict[str, tuple[int, int]] = {}
@@ -103,8 +105,8 @@ class Attempt:
         try:
             self._fetch_inputs()
             with beating(self._context, self._lease):
-                told = prepare(self._context, self._job, self._folders, self._mirror, self._user)
-            self._working = True
+                told = prepare(self._context, self._job, self._folders, self._mirror, self._allowance, self._user)
+            self._working = time.monotonic()
             self._child.send(told)
             verdict = self._watch()
         except Stop as stop:
@@ -246,12 +248,13 @@ class Attempt:
 
     def _check_limits(self) -> None:
         settings = self._context.settings
-        seconds = time.monotonic() - self._started
-        if self._child.memory_mb() > settings.job_memory_mb:
+        moment = time.monotonic()
+        if self._child.memory_mb() > self._allowance.memory_mb:
             detail = "The job needs more memory than a job may use: send a smaller input."
             raise Stop({"outcome": "failed", "code": "out_of_memory", "detail": detail})
-        if seconds > settings.job_seconds:
-            detail = f"The job took longer than {settings.job_seconds:g} seconds: send a shorter input."
+        working = moment - self._working if self._working is not None else 0.0
+        if working > self._allowance.seconds or moment - self._started > settings.job_seconds:
+            detail = self._allowance.too_long()
             raise Stop({"outcome": "failed", "code": "time_limit", "detail": detail})
         if free_mb(settings) < settings.disk_reserve_mb * RESERVE_FOR_JOBS:
             raise Stop({"outcome": "failed", "code": "disk_full", "detail": DISK_FULL})
@@ -269,7 +272,7 @@ class Attempt:
 
     def _let_stop(self) -> bool:
         """Tell the process to stop and give it a moment to do so. Returns whether it did, and cleanly."""
-        if not self._working:
+        if self._working is None:
             return True
         self._child.send({"command": "cancel"})
         deadline = time.monotonic() + GRACE_SECONDS

@@ -15,7 +15,7 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -23,7 +23,7 @@ from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
 from service.kinds.registry import load_kinds
 from worker import death
-from worker.confinement import Limits, confine, limit, of_the_program
+from worker.confinement import Limits, confine, keep_to_cores, limit, of_the_program
 from worker.rehearsal import kept_in, load_compiled
 from worker.tether import die_with_parent
 from worker.work import Wire, failed, files_of, local, perform
@@ -114,7 +114,9 @@ def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: 
         wire = Wire(os.fdopen(told, "wb"))
         readable = [path for source in job["inputs"].values() for path in files_of(local(source))]
         changeable = [Path(job[name]) for name in ("out", "temporary", "stages", "shared")]
-        confine(parent, ready.limits, [*ready.program, *readable], changeable)
+        keep_to_cores(job["cores"])
+        limits = replace(ready.limits, memory_bytes=min(ready.limits.memory_bytes, job["memory_bytes"]))
+        confine(parent, limits, [*ready.program, *readable], changeable)
         wire.send("end", **perform(job, ready.kinds, wire, orders))
         code = 0
     finally:
@@ -151,7 +153,8 @@ def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int
         process.kill()
     why = process.end(cpu_seconds)
     if why == TIME_LIMIT:
-        return failed("time_limit", f"The job computed for more than {cpu_seconds} seconds: send a shorter input.")
+        most = f"more than {cpu_seconds} seconds, all cores together, the most that a job may (GALATEA_JOB_CPU_SECONDS)"
+        return failed("time_limit", f"The job computed for {most}: send a shorter input.")
     if verdict is None or "outcome" not in verdict:
         return {"outcome": "crashed", "reason": death.in_words(why), "death": death.of_its_own(why)}
     return verdict

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
 from signal import SIGKILL
@@ -34,8 +34,9 @@ class ChildLost(Exception):
 class Child:
     """One process that forks another for each job, one after another (see `worker.child`)."""
 
-    def __init__(self, settings: Settings, user: int | None = None, turn: int = 0):
-        """`user` is who its jobs work as; by its `turn` several processes share the cores evenly."""
+    def __init__(self, settings: Settings, user: int | None = None, turn: int = 0, kinds: Sequence[str] = ()):
+        """`user` is who its jobs work as; by its `turn` several processes share the cores evenly; `kinds` are those that
+        it is to be ready for, all if there are none."""
         self._ended = False
         self._job: int | None = None
         self._log = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115  (open as long as the process lives)
@@ -47,7 +48,7 @@ class Child:
                     str(os.getpid()),
                     str(write_end),
                     json.dumps(asdict(_limits(settings, user))),
-                    ",".join(settings.worker_kinds),
+                    ",".join(kinds),
                     *settings.kinds,
                 ),
                 stdin=subprocess.PIPE,
@@ -164,14 +165,16 @@ class Child:
 
 
 class WarmChildren:
-    """Keeps as many processes ready as jobs may run at once: importing the engine takes seconds.
+    """Keeps as many processes ready as jobs of these kinds may run at once: importing the engine takes seconds.
 
     One thread starts them all and lives as long as the worker, because a tethered process ends with the thread
     that started it.
     """
 
-    def __init__(self, settings: Settings, user: int | None = None):
+    def __init__(self, settings: Settings, count: int, kinds: Sequence[str], user: int | None = None):
         self._settings = settings
+        self._count = count
+        self._kinds = kinds
         self._user = user
         self._changed = threading.Condition()
         self._idle: list[Child] = []
@@ -220,13 +223,11 @@ class WarmChildren:
     def _keep_warm(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(
-                    lambda: self._closed or len(self._idle) + len(self._busy) < self._settings.concurrency
-                )
+                self._changed.wait_for(lambda: self._closed or len(self._idle) + len(self._busy) < self._count)
                 if self._closed:
                     break
             try:
-                child = Child(self._settings, self._user, self._started)
+                child = Child(self._settings, self._user, self._started, self._kinds)
                 self._started += 1
             except OSError:
                 structlog.get_logger().exception("child_not_started")

@@ -58,6 +58,7 @@ def limit(limits: Limits) -> None:
 
 def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: Iterable[Path]) -> None:
     """Give up, for good and while this process has one thread, all that a job does not need. It ends with `parent`."""
+    resource.setrlimit(resource.RLIMIT_DATA, (limits.memory_bytes, limits.memory_bytes))
     resource.setrlimit(resource.RLIMIT_CPU, (limits.cpu_seconds, limits.cpu_seconds + CPU_GRACE))
     files_kept = landlock.version() > 0
     if files_kept:
@@ -68,6 +69,13 @@ def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: I
     die_with_parent(parent)  # a change of user would undo it
     if seccomp.available():
         seccomp.refuse()
+
+
+def keep_to_cores(cores: int) -> None:
+    """Keep to so many of the cores that this process may use, by its number to others than its neighbour; 0 is all."""
+    there = sorted(os.sched_getaffinity(0))
+    if 0 < cores < len(there):
+        os.sched_setaffinity(0, {there[(os.getpid() + i) % len(there)] for i in range(cores)})
 
 
 def _step_down(user: int | None) -> None:

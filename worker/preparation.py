@@ -15,6 +15,8 @@ from service.files import analyses
 from service.files import repository as files
 from service.jobs.leases import Lease
 from service.jobs.models import Job
+from service.kinds.allowance import Allowance
+from service.settings import MEGABYTE
 from worker.mirror import Mirror
 
 
@@ -49,7 +51,9 @@ class Folders:
         return self.attempt / "fetched"
 
 
-def prepare(context: Context, job: Job, folders: Folders, mirror: Mirror, user: int | None) -> dict[str, Any]:
+def prepare(
+    context: Context, job: Job, folders: Folders, mirror: Mirror, allowance: Allowance, user: int | None
+) -> dict[str, Any]:
     """Lay out the folders, fetch what lies elsewhere, and let `user`, who works, change what is theirs.
 
     Returns the command for the process. Takes as long as the storage does: the lease must be kept meanwhile.
@@ -77,6 +81,8 @@ def prepare(context: Context, job: Job, folders: Folders, mirror: Mirror, user: 
         "shared": str(shared),
         "mark_synthetic": context.settings.mark_synthetic,
         "limits": asdict(context.settings.limits),
+        "memory_bytes": int(allowance.memory_mb * MEGABYTE),
+        "cores": allowance.cores,
     }
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict
 
 from engine.character.options import MotionClip, MotionJoints
-from engine.kind import Given, Input, Kind
+from engine.kind import Given, Input, Kind, Needs
 from engine.run import Run, write_report
 
 STAGES = {"read": 4.0, "map_joints": 1.0}
@@ -84,4 +84,5 @@ KIND = Kind(
     work=_work,
     correctable=("motion_joints", "motion_clip"),
     prepare=_prepare,
+    needs=Needs(seconds=180, memory_mb=3000, cores=1, short=True),
 )

@@ -14,4 +14,4 @@ router = APIRouter(prefix="/kinds", tags=["kinds"])
 @router.get("", operation_id="list_kinds")
 def list_kinds(caller: Reader, context: InContext) -> KindList:
     """The job kinds, with the JSON schemas of their inputs and options."""
-    return KindList(items=[KindOut.of(kind) for kind in context.kinds.values()])
+    return KindList(items=[KindOut.of(kind, context.settings) for kind in context.kinds.values()])

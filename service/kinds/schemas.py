@@ -8,6 +8,8 @@ from pydantic import BaseModel
 
 from engine.kind import Kind
 from service.jobs.inputs import correctable
+from service.kinds.allowance import Allowance
+from service.settings import Settings
 
 
 class InputOut(BaseModel):
@@ -29,6 +31,15 @@ class InputOut(BaseModel):
     """Whether a revision may give it as a correction."""
 
 
+class KindLimits(BaseModel):
+    """The most that a job may take."""
+
+    seconds: float
+    memory_mb: float
+    cores: int | None
+    """Null: all that there are."""
+
+
 class KindOut(BaseModel):
     """A job kind."""
 
@@ -41,9 +52,13 @@ class KindOut(BaseModel):
     """JSON Schema of a job's `options`."""
     correctable: list[str]
     """Names of options and inputs that a revision may give as `corrections`."""
+    short: bool
+    """Whether a job usually takes seconds: it does not wait behind those that take minutes."""
+    limits: KindLimits
 
     @classmethod
-    def of(cls, kind: Kind) -> KindOut:
+    def of(cls, kind: Kind, settings: Settings) -> KindOut:
+        allowed = Allowance.of(kind, settings)
         properties: dict[str, Any] = {}
         for item in kind.inputs:
             one = {"type": "string", "description": item.description}
@@ -60,6 +75,8 @@ class KindOut(BaseModel):
             },
             options_schema=kind.options.model_json_schema(),
             correctable=correctable(kind),
+            short=kind.needs.short,
+            limits=KindLimits(seconds=allowed.seconds, memory_mb=allowed.memory_mb, cores=allowed.cores or None),
         )
 
 

@@ -21,6 +21,7 @@ SCHEMAS: dict[type[BaseModel], str] = {
     models.Artifact: "ArtifactOut",
     models.File: "FileOut",
     models.Kind: "KindOut",
+    models.KindLimits: "KindLimits",
     models.Input: "InputOut",
     models.Driver: "DriverOut",
     models.Moment: "MomentOut",

@@ -42,7 +42,7 @@ def test_kinds_describe_their_inputs_and_options(running: Running) -> None:
 
 
 def test_the_engines_kinds_have_the_names_and_inputs_of_the_contract() -> None:
-    offered = {kind.name: KindOut.of(kind) for kind in load_kinds(Settings().kinds).values()}
+    offered = {kind.name: KindOut.of(kind, Settings()) for kind in load_kinds(Settings().kinds).values()}
     assert [item.name for item in offered["portrait"].inputs][:2] == ["image", "driver"]
     fixed = {"size", "fps", "format", "strength", "follow", "crop", "loop", "sound", "neutral_frame", "face_index"}
     assert set(offered["portrait"].options_schema["properties"]) >= fixed

@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from engine.errors import InputError
-from engine.kind import Candidates, Given, Input, Kind
+from engine.kind import Candidates, Given, Input, Kind, Needs
 from engine.run import Run, write_report
 
 
@@ -32,7 +32,10 @@ class TinyOptions(BaseModel):
     """Whether it looks for cancellation meanwhile."""
     level: float = 0.0
     """Added to what is measured; a correction."""
-    crash: Literal["segv", "abort", "kill", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"] | None = None
+    crash: (
+        Literal["segv", "abort", "kill", "exit", "memory", "disk", "file", "bug", "refuse", "hostile_name", "link"]
+        | None
+    ) = None
     crash_once: bool = False
     """Crash at the first attempt only (there is a file in the stages' folder from then on)."""
 
@@ -113,6 +116,7 @@ def work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -
         asked = {"bytes": size, "driver": driver.name if isinstance(driver, Path) else None}
         if isinstance(mask := inputs.get("mask"), Path):
             asked["mask"] = mask.stat().st_size
+        asked["cores"] = len(os.sched_getaffinity(0))
         if isinstance(driver, Candidates):
             asked["candidates"] = {name: path.stat().st_size for name, path in driver.files.items()}
         write_report(
@@ -134,3 +138,5 @@ KIND = Kind(
 )
 
 OTHER = replace(KIND, name="other")
+SHORT = replace(KIND, name="short", needs=Needs(seconds=600, memory_mb=400, cores=1, short=True))
+BRIEF = replace(KIND, name="brief", needs=Needs(seconds=4, short=True))

@@ -65,7 +65,7 @@ def test_its_end_is_noticed_and_explained(settings: Settings) -> None:
 
 
 def test_one_is_used_again_unless_something_is_wrong_with_it(settings: Settings) -> None:
-    children = WarmChildren(settings)
+    children = WarmChildren(settings, 1, [])
     try:
         first = children.take()
         children.give_back(first, reuse=True)

@@ -1151,6 +1151,12 @@ export interface components {
             revoked_at: string | null;
             last_used_at: string | null;
         };
+        /** @description The most that a job may take. */
+        KindLimits: {
+            seconds: number;
+            memory_mb: number;
+            cores: number | null;
+        };
         /** @description All job kinds. */
         KindList: {
             items: components["schemas"]["KindOut"][];
@@ -1167,6 +1173,8 @@ export interface components {
                 [key: string]: unknown;
             };
             correctable: string[];
+            short: boolean;
+            limits: components["schemas"]["KindLimits"];
         };
         /** @description A link to be made. */
         LinkIn: {

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import BaseModel
 
-from engine.kind import Given, Input, Kind
+from engine.kind import Given, Input, Kind, Needs
 from engine.media.limits import Limits
 from engine.portrait.moments.options import MomentsOptions
 from engine.run import Run
@@ -44,6 +44,7 @@ KIND = Kind(
     options=MomentsOptions,
     work=_work,
     prepare=_prepare,
+    needs=Needs(seconds=900, memory_mb=3000, short=True),
 )
 
 
