@@ -6,6 +6,7 @@ A message makes a worker look, and no more: which job of that kind it takes is d
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import redis
 import structlog
@@ -14,6 +15,7 @@ from kombu import Exchange
 from kombu import Queue as KombuQueue
 from kombu.exceptions import OperationalError
 
+from service.breaker import Breaker
 from service.redis_server import socket_path
 from service.settings import Settings
 
@@ -21,6 +23,9 @@ TASK = "galatea.run_job"
 VISIBILITY_MARGIN = 120.0
 """Seconds by which an unacknowledged message outlives the longest job: the job is asked to stop, then its process is
 killed, and only then may the message come back."""
+
+SENDING = {"socket_timeout": 2, "socket_connect_timeout": 1}
+"""Seconds that sending waits for a Redis that does not answer: a client waits meanwhile, and the sweep sends again."""
 
 
 def queue_name(kind: str) -> str:
@@ -34,13 +39,22 @@ def _queue(kind: str) -> KombuQueue:
     return KombuQueue(queue_name(kind), Exchange(""), routing_key=queue_name(kind))
 
 
+class _Hints(Celery):
+    """Sends with less patience than it listens."""
+
+    def connection_for_write(self, url: str | None = None, **more: Any) -> Any:
+        return super().connection_for_write(url, **{**more, "transport_options": SENDING})
+
+
 class Queue:
-    """Sends messages that carry a job's id and kind, and nothing else."""
+    """Sends messages that carry a job's id and kind, and nothing else. While Redis is known not to answer, nobody waits
+    for it."""
 
     def __init__(self, settings: Settings, kinds: Iterable[str]):
         url = settings.redis_url or f"unix://{socket_path(settings.data_dir)}"
-        self.redis = redis.Redis.from_url(url, socket_timeout=5, socket_connect_timeout=2)
-        self.celery = Celery("galatea", broker=url.replace("unix://", "redis+socket://"))
+        self.redis = redis.Redis.from_url(url, **SENDING)
+        self._breaker = Breaker("redis", self._answers)
+        self.celery = _Hints("galatea", broker=url.replace("unix://", "redis+socket://"))
         self.celery.conf.update(
             task_queues=[_queue(kind) for kind in kinds],
             task_create_missing_queues=False,
@@ -70,24 +84,41 @@ class Queue:
 
     def send(self, job_id: str, kind: str) -> bool:
         """Tell the workers that a job waits; False if the queue cannot be reached now."""
+        if self._breaker.open:
+            return False
         try:
             self.celery.send_task(TASK, args=[job_id, kind], queue=_queue(kind), retry=False, ignore_result=True)
         except (OperationalError, redis.RedisError, OSError) as error:
+            self._breaker.trip()
             structlog.get_logger().warning("message_not_sent", job=job_id, reason=str(error))
             return False
         return True
 
     def waiting(self, kind: str) -> int:
         """How many messages of a kind wait. Raises `redis.RedisError` if the queue cannot be reached."""
-        return int(self.redis.llen(queue_name(kind)))
+        if self._breaker.open:
+            raise redis.ConnectionError("Redis does not answer")
+        try:
+            return int(self.redis.llen(queue_name(kind)))
+        except redis.RedisError:
+            self._breaker.trip()
+            raise
 
     def reachable(self) -> bool:
         """Whether Redis answers."""
+        if self._breaker.open:
+            return False
+        if not (answers := self._answers()):
+            self._breaker.trip()
+        return answers
+
+    def _answers(self) -> bool:
         try:
             return bool(self.redis.ping())
         except redis.RedisError:
             return False
 
     def close(self) -> None:
+        self._breaker.end()
         self.redis.close()
         self.celery.close()

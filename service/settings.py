@@ -107,6 +107,9 @@ class Settings(BaseSettings):
     job_memory_mb: float = Field(6000, gt=0, description="The most memory of a job.")
     job_file_mb: float = Field(4000, gt=0, description="The largest file a job may write.")
     worker: bool = Field(True, description="Whether `galatea serve` keeps a worker of its own.")
+    silent_seconds: float = Field(
+        20, ge=3, description="How long that worker, or the embedded Redis, may be silent before it is started again."
+    )
     worker_kinds: Annotated[list[str], NoDecode] = Field(
         [], description="The job kinds that this machine's worker serves, separated by commas; all if not set."
     )

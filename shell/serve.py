@@ -8,6 +8,7 @@ import signal
 import socket
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import IO
@@ -26,6 +27,7 @@ from service.connections.stopping import Stopping
 from service.context import Context
 from service.logs import configure
 from service.page import NOT_BUILT, built
+from service.pulse import BEAT_SECONDS, owner, silence
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
 from shell.complaint import Complaint
@@ -36,6 +38,12 @@ from worker.interpreter import module_command
 PATIENCE_SECONDS = 10.0
 STOP_SECONDS = 3
 """How long requests may take to end once the service is to end; `Stopping` has told them."""
+
+REDIS_SECONDS = 2.0
+"""How long the embedded Redis may take to say that it lives."""
+
+WORKER_SECONDS = 3 * BEAT_SECONDS
+"""How old a sign of life of the worker may be that counts as one of now."""
 
 SWITCH_SECONDS = 0.0005
 """How long one thread may keep Python to itself: a request passes from thread to thread several times, and would wait
@@ -49,7 +57,7 @@ def serve(settings: Settings) -> None:
         signal.signal(number, _interrupt)
     listening = _listen(settings)
     with listening, _lock(settings.data_dir) as lock:
-        supervisor = Supervisor([lock.fileno()])
+        supervisor = Supervisor(settings.silent_seconds, [lock.fileno()])
         try:
             _serve(settings, supervisor, listening)
         except KeyboardInterrupt:
@@ -62,13 +70,14 @@ def serve(settings: Settings) -> None:
 
 def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket) -> None:
     if settings.redis_url is None:
-        supervisor.keep("redis", redis_command(settings.data_dir), stop_seconds=5)
+        supervisor.keep("redis", redis_command(settings.data_dir), 5, partial(_redis_lives, _redis(settings)))
         _await_redis(settings)
     sys.setswitchinterval(SWITCH_SECONDS)
     context = open_context(settings, "api")
     _require_a_key(context)
     if settings.worker:
-        supervisor.keep("worker", module_command("shell.main", "worker"), stop_seconds=10)
+        command = module_command("shell.main", "worker")
+        supervisor.keep("worker", command, 10, partial(_worker_lives, settings.data_dir))
     app = make_app(context)
     if not built(settings.web_dir):
         click.echo(NOT_BUILT, err=True)
@@ -154,7 +163,7 @@ def _lock(data_dir: Path) -> IO[str]:
 
 
 def _await_redis(settings: Settings) -> None:
-    client = redis.Redis(unix_socket_path=str(socket_path(settings.data_dir)))
+    client = _redis(settings)
     deadline = time.monotonic() + PATIENCE_SECONDS
     while True:
         try:
@@ -171,6 +180,23 @@ def _await_redis(settings: Settings) -> None:
         else:
             client.close()
             return
+
+
+def _redis(settings: Settings) -> redis.Redis:
+    return redis.Redis(unix_socket_path=str(socket_path(settings.data_dir)), socket_timeout=REDIS_SECONDS)
+
+
+def _redis_lives(client: redis.Redis, process: int) -> bool:
+    try:
+        return bool(client.ping())
+    except redis.BusyLoadingError:
+        return True
+    except redis.RedisError:
+        return False
+
+
+def _worker_lives(data_dir: Path, process: int) -> bool:
+    return silence(data_dir, owner(socket.gethostname(), process)) < WORKER_SECONDS
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

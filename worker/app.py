@@ -21,6 +21,7 @@ from service.database import database_unavailable
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
 from service.jobs.models import Job
+from service.pulse import BEAT_SECONDS, Pulse, owner
 from service.queue import TASK, queue_name
 from service.storage import StorageUnavailable
 from service.traces.current import origin_logged
@@ -52,7 +53,8 @@ class Worker:
         self.children: WarmChildren
         self.lane: ShortLane | None = None
         self.courier = Courier(context)
-        self.owner = f"{socket.gethostname()}:{os.getpid()}"
+        self.owner = owner(socket.gethostname(), os.getpid())
+        self.pulse = Pulse(context.settings.data_dir, self.owner)
         context.queue.celery.task(name=TASK)(self.run_job)
 
     def run_job(self, job_id: str, kind: str) -> None:
@@ -94,7 +96,8 @@ class Worker:
         signals.setup_logging.connect(_leave_logging_alone, weak=False)
         # Running as root is the operator's choice; what is warned of (pickled messages) is not accepted here.
         warnings.simplefilter("ignore", SecurityWarning)
-        for task in (self._sweep, self._keep_house, self._deliver_webhooks):
+        self.pulse.beat()
+        for task in (self._beat, self._sweep, self._keep_house, self._deliver_webhooks):
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
         kinds = self.context.settings.worker_kinds or list(self.context.kinds)
         self._rehearse(kinds)
@@ -141,6 +144,10 @@ class Worker:
             last = threading.Timer(LONGEST_FAREWELL, os._exit, [0])
             last.daemon = True
             last.start()
+
+    def _beat(self) -> None:
+        self._repeat(self.pulse.beat, BEAT_SECONDS)
+        self.pulse.end()
 
     def _sweep(self) -> None:
         self._repeat(lambda: sweep(self.context), self.context.settings.sweep_seconds)

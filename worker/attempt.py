@@ -41,6 +41,9 @@ from worker.spans import AttemptSpans
 TICK_SECONDS = 0.1
 LOOK_SECONDS = 0.4
 REPORT_SECONDS = 0.4
+STOPPED_SECONDS = 10.0
+"""How long a process may stand still that a signal has stopped."""
+
 GRACE_SECONDS = 1.0
 """How long a process may take to stop by itself."""
 
@@ -86,7 +89,7 @@ class Attempt:
         self._spans = spans
         self._folders = Folders.of(context, job, lease)
         self._mirror = Mirror(context.storage, job.tree, self._folders.stages, self._folders.mirrored)
-        self._started = self._renewed = self._looked = time.monotonic()
+        self._started = self._renewed = self._looked = self._went_on = time.monotonic()
         self._reported = self._started - 1
         self._eta = Eta()
         self._progress: dict[str, Any] | None = None
@@ -184,6 +187,7 @@ class Attempt:
         if moment - self._looked > LOOK_SECONDS:
             self._looked = moment
             self._check_orders()
+            self._check_going_on(moment)
         if self._progress is not None and moment - self._reported > REPORT_SECONDS:
             self._report()
         elif moment - self._renewed > self._lease.seconds / 4:
@@ -258,6 +262,13 @@ class Attempt:
             raise Stop({"outcome": "failed", "code": "time_limit", "detail": detail})
         if free_mb(settings) < settings.disk_reserve_mb * RESERVE_FOR_JOBS:
             raise Stop({"outcome": "failed", "code": "disk_full", "detail": DISK_FULL})
+
+    def _check_going_on(self, moment: float) -> None:
+        """A process that somebody has stopped is waited for a while, and then replaced."""
+        if not self._child.stopped():
+            self._went_on = moment
+        elif moment - self._went_on > STOPPED_SECONDS:
+            raise Stop({"outcome": "crashed", "reason": "the job's process was stopped and did not go on"})
 
     def _check_orders(self) -> None:
         if self._stopping.is_set():

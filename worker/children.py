@@ -12,6 +12,7 @@ import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict
+from pathlib import Path
 from signal import SIGKILL
 from typing import Any
 
@@ -77,8 +78,12 @@ class Child:
         return self._process.pid
 
     def lives(self) -> bool:
-        """Whether it has not ended."""
-        return self._process.poll() is None
+        """Whether it has not ended, nor been stopped."""
+        return self._process.poll() is None and not self.stopped()
+
+    def stopped(self) -> bool:
+        """Whether it, or the process of its job, was stopped by a signal and does not go on."""
+        return any(_state(process) in ("T", "t") for process in {self.pid, self._job or self.pid})
 
     def send(self, command: Mapping[str, Any]) -> None:
         """Give it a command. Raises `ChildLost`."""
@@ -240,6 +245,14 @@ class WarmChildren:
                 self._idle.append(child)
                 self._changed.notify_all()
         threading.Event().wait()  # the processes that are still busy are tethered to this thread
+
+
+def _state(process: int) -> str | None:
+    """How Linux calls what a process does (proc_pid_stat(5)); None where it is gone."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except (OSError, IndexError):
+        return None
 
 
 def _limits(settings: Settings, user: int | None) -> Limits:

@@ -51,7 +51,7 @@ def test_the_engines_kinds_have_the_names_and_inputs_of_the_contract() -> None:
 def test_health_and_figures(running: Running) -> None:
     assert running.client.get("/healthz").json() == {"status": "ok"}
     assert running.client.get("/readyz").json()["checks"] == {
-        **{"database": True, "redis": True, "storage": True, "disk": True}
+        **{"database": True, "redis": True, "storage": True, "disk": True, "worker": True}
     }
     figures = running.client.get("/metrics").text
     assert re.search(r'^galatea_jobs\{kind="tiny",status="succeeded"\} \d', figures, re.MULTILINE)

@@ -1,0 +1,60 @@
+"""Signs of life of the workers on this machine: each touches a file of its own, and who watches looks how long ago.
+
+The files carry moments of the machine's monotonic clock, which is the same in all its processes: the time of day may jump.
+A process that is frozen is known by its silence, and by nothing else: it has not ended, and says so little as one at work.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+FOLDER = "workers"
+BEAT_SECONDS = 1.0
+FORGOTTEN_SECONDS = 3600.0
+
+
+def owner(host: str, process: int) -> str:
+    """The name of a worker, unique among all machines."""
+    return f"{host}:{process}"
+
+
+class Pulse:
+    """A worker's own sign of life."""
+
+    def __init__(self, data_dir: Path, name: str):
+        self._file = data_dir / FOLDER / name
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        for left in self._file.parent.iterdir():  # by workers that were killed
+            if not 0 <= _silence(left) < FORGOTTEN_SECONDS:
+                left.unlink(missing_ok=True)
+
+    def beat(self) -> None:
+        self._file.touch()
+        moment = time.monotonic_ns()
+        os.utime(self._file, ns=(moment, moment))
+
+    def end(self) -> None:
+        """There is nothing more to hear."""
+        self._file.unlink(missing_ok=True)
+
+
+def silence(data_dir: Path, name: str) -> float:
+    """For how many seconds nothing was heard of a worker; infinite where it was never heard."""
+    return _silence(data_dir / FOLDER / name)
+
+
+def least_silence(data_dir: Path) -> float:
+    """The same of that worker on this machine which was heard last."""
+    folder = data_dir / FOLDER
+    return min(map(_silence, folder.iterdir()), default=float("inf")) if folder.is_dir() else float("inf")
+
+
+def _silence(file: Path) -> float:
+    try:
+        beaten = file.stat().st_mtime_ns
+    except FileNotFoundError:
+        return float("inf")
+    seconds = (time.monotonic_ns() - beaten) / 1e9
+    return seconds if seconds >= 0 else float("inf")  # from before the machine was started anew
