@@ -27,6 +27,7 @@ class Job(Model):
     title: str | None = None
     status: Status
     progress: Progress
+    queue_position: int | None
     inputs: dict[str, str | list[str]]
     options: dict[str, Any]
     artifacts: dict[str, Artifact]

@@ -45,12 +45,14 @@ class File(Model):
 
 
 class Progress(Model):
-    """How far a job is: the stage's name, the fraction of all [0, 1], and the seconds left where they are known."""
+    """How far a job is: the stage's name, the fraction of all [0, 1], the seconds left where they are known, and the
+    stages that have begun so far."""
 
     stage: str | None = None
     fraction: float = 0.0
     message: str = ""
     eta_seconds: float | None = None
+    stages: list[str] = []
 
 
 class JobError(Model):

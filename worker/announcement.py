@@ -71,6 +71,6 @@ def _told(job: Job) -> bool:
 
 def _note(context: Context, jobs: Sequence[Job], stage: str | None, message: str) -> None:
     for job in jobs:
-        progress = {"stage": stage, "fraction": job.progress.get("fraction", 0.0), "message": message}
+        progress = job.progress | {"stage": stage, "fraction": job.progress.get("fraction", 0.0), "message": message}
         with context.database.write() as session:
             leases.note(session, job.id, progress | {"eta_seconds": None})

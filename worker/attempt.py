@@ -37,6 +37,7 @@ from worker.plain_files import Refused
 from worker.preparation import Folders, prepare
 from worker.publish import publish
 from worker.spans import AttemptSpans
+from worker.stage_order import Stages
 
 TICK_SECONDS = 0.1
 LOOK_SECONDS = 0.4
@@ -91,10 +92,12 @@ class Attempt:
         self._mirror = Mirror(context.storage, job.tree, self._folders.stages, self._folders.mirrored)
         self._started = self._renewed = self._looked = self._went_on = time.monotonic()
         self._reported = self._started - 1
-        self._eta = Eta()
+        self._eta = Eta(cold=job.kind not in child.worked_on)
+        child.worked_on.add(job.kind)
         self._progress: dict[str, Any] | None = None
         self._stage: str | None = None
         """The stage that was told of last."""
+        self._stages = Stages(job.progress.get("stages", ()))
         self._working: float | None = None
         """Since when the process has been told what to do."""
         self._fetched = 0.0
@@ -176,6 +179,7 @@ class Attempt:
         while True:
             for event in self._child.receive(TICK_SECONDS):
                 if event["event"] == "end":
+                    self._report()
                     return event
                 self._note(event)
             self._tend()
@@ -209,7 +213,8 @@ class Attempt:
 
     def _tell(self, stage: str, fraction: float, message: str) -> None:
         """Take note of progress, to be reported soon; the beginning of a stage at once."""
-        eta = self._eta.after(fraction)
+        eta = self._eta.after(fraction, stage)
+        self._stages.begin(stage)
         changed, self._stage = stage != self._stage, stage
         self._progress = {"stage": stage, "fraction": fraction, "message": message, "eta_seconds": eta}
         if changed and time.monotonic() - self._reported > TICK_SECONDS:
@@ -219,7 +224,8 @@ class Attempt:
         progress, self._progress = self._progress, None
         self._reported = time.monotonic()
         if progress is not None:
-            self._write(lambda session: leases.report(session, self._lease, progress))
+            begun = self._stages.news()
+            self._write(lambda session: leases.report(session, self._lease, progress, self._stages.names, begun))
 
     def _publish(self, path: Path) -> None:
         try:

@@ -40,6 +40,8 @@ class Child:
         it is to be ready for, all if there are none."""
         self._ended = False
         self._job: int | None = None
+        self.worked_on: set[str] = set()
+        """The kinds of the jobs that it has had."""
         self._log = tempfile.TemporaryFile(mode="a+b")  # noqa: SIM115  (open as long as the process lives)
         read_end, write_end = os.pipe()
         try:

@@ -181,7 +181,8 @@ async def _accepted(
         response.headers["Idempotent-Replayed"] = "true"
     wait = re.search(r"(?:^|[\s,;])wait\s*=\s*\"?(\d{1,6})", prefer or "")
     if wait is None and not replayed:
-        return JobOut.of(job, [])  # it has only just been written
+        place = await run_sync(service.place, context, job)
+        return JobOut.of(job, [], queue_position=place)  # it has only just been written
     if wait is None:
         return await run_sync(service.shown, context, owner, job.id)
     seconds = min(float(wait[1]), context.settings.wait_seconds)

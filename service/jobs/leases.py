@@ -94,11 +94,14 @@ def change(session: Session, lease: Lease, **values: Any) -> bool:
     return bool(changed.rowcount)  # type: ignore[attr-defined]
 
 
-def report(session: Session, lease: Lease, progress: dict[str, Any]) -> bool:
-    """Record progress."""
-    if not change(session, lease, progress=progress, progress_at=moment_in()):
+def report(
+    session: Session, lease: Lease, progress: dict[str, Any], stages: Sequence[str] = (), begun: bool = False
+) -> bool:
+    """Record progress, and the stages so far in their order; who follows is told of these when one more has `begun`."""
+    whole = progress | {"stages": list(stages)}
+    if not change(session, lease, progress=whole, progress_at=moment_in()):
         return False
-    events.append(session, lease.job_id, "progress", progress)
+    events.append(session, lease.job_id, "progress", whole if begun else progress)
     return True
 
 
@@ -117,7 +120,9 @@ def bear_fruit(session: Session, lease: Lease) -> bool:
 
 
 def succeed(session: Session, lease: Lease) -> bool:
+    before = session.scalar(select(Job.progress).where(Job.id == lease.job_id)) or {}
     progress = {"stage": None, "fraction": 1.0, "message": "", "eta_seconds": None}
+    progress["stages"] = before.get("stages", [])
     return _finish(session, lease, Status.SUCCEEDED, progress=progress, error=None)
 
 

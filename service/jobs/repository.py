@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 from typing import Any
 
 from sqlalchemy import delete, func, or_, select, update
-from sqlalchemy.orm import Session
+from sqlalchemy.orm import Session, aliased
 
 from service.clock import now
 from service.database import SET_BACK_SECONDS, moment_in
@@ -109,6 +109,32 @@ def queued(session: Session, kind: str, seconds: float) -> Sequence[Job]:
 def running(session: Session, ids: Sequence[str]) -> set[str]:
     """Those of these jobs that a worker has."""
     return set(session.scalars(select(Job.id).where(Job.id.in_(ids), Job.status == Status.RUNNING)))
+
+
+def places(session: Session, jobs: Sequence[Job]) -> dict[str, int]:
+    """The places of these jobs among those of their kind that are queued, counted from 1, as `leases.claim_next` takes
+    them: by priority; then one of each key in turn, those first of which fewer jobs run; then by age."""
+    if not jobs:
+        return {}
+    other = aliased(Job)
+    running = (
+        select(other.owner, func.count().label("jobs"))
+        .where(other.status == Status.RUNNING)
+        .group_by(other.owner)
+        .subquery()
+    )
+    own = func.row_number().over(partition_by=(Job.kind, Job.owner), order_by=(Job.priority, Job.id))
+    waiting = (
+        select(Job.id, Job.kind, Job.priority, (own + func.coalesce(running.c.jobs, 0)).label("round"))
+        .outerjoin(running, running.c.owner == Job.owner)
+        .where(Job.status == Status.QUEUED, Job.kind.in_({job.kind for job in jobs}))
+        .subquery()
+    )
+    order = (waiting.c.priority, waiting.c.round, waiting.c.id)
+    place = func.row_number().over(partition_by=waiting.c.kind, order_by=order)
+    placed = select(waiting.c.id, place.label("place")).subquery()
+    query = select(placed.c.id, placed.c.place).where(placed.c.id.in_([job.id for job in jobs]))
+    return {row.id: row.place for row in session.execute(query)}
 
 
 def count_queued(session: Session, kind: str) -> int:

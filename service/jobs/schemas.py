@@ -77,6 +77,8 @@ class Progress(BaseModel):
     fraction: float = 0.0
     message: str = ""
     eta_seconds: float | None = None
+    stages: list[str] = []
+    """The stages that have begun so far, in the order of the work."""
 
 
 class JobError(BaseModel):
@@ -100,6 +102,9 @@ class JobOut(BaseModel):
     status: Status
     priority: PriorityName
     progress: Progress
+    queue_position: int | None
+    """Of a job that is queued: 1 where it is the next of its kind. Others may still come before it: those of a higher
+    priority, and of keys of which fewer jobs run."""
     inputs: dict[str, str | list[str]]
     options: dict[str, JsonValue]
     artifacts: dict[str, ArtifactOut]
@@ -115,7 +120,9 @@ class JobOut(BaseModel):
     that job is erased."""
 
     @classmethod
-    def of(cls, job: Job, artifacts: Sequence[Artifact], signer: Signer | None = None) -> JobOut:
+    def of(
+        cls, job: Job, artifacts: Sequence[Artifact], signer: Signer | None = None, queue_position: int | None = None
+    ) -> JobOut:
         return cls(
             id=job.id,
             kind=job.kind,
@@ -123,6 +130,7 @@ class JobOut(BaseModel):
             status=Status(job.status),
             priority=cast(PriorityName, Priority(job.priority).name.lower()),
             progress=_progress(job),
+            queue_position=queue_position,
             inputs=job.inputs,
             options=job.options,
             artifacts={artifact.name: ArtifactOut.of(artifact, signer) for artifact in artifacts},

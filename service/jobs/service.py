@@ -203,7 +203,14 @@ def views(context: Context, session: Session, owner: str, jobs: Sequence[Job]) -
     made = artifacts.of_jobs(session, [job.id for job in jobs])
     key = keys.get(session, owner) if any(made.values()) else None  # which signs the links
     signer = Signer.of(key, context.settings) if key is not None else None
-    return [JobOut.of(job, made[job.id], signer) for job in jobs]
+    places = repository.places(session, [job for job in jobs if job.status == Status.QUEUED])
+    return [JobOut.of(job, made[job.id], signer, places.get(job.id)) for job in jobs]
+
+
+def place(context: Context, job: Job) -> int:
+    """The place in the queue of a job that was accepted just now; of one that a worker has by now, it was the first."""
+    with context.database.read() as session:
+        return repository.places(session, [job]).get(job.id, 1)
 
 
 def _shown(kind: Kind, given: Mapping[str, Value]) -> dict[str, str | list[str]]:

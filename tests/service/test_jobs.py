@@ -31,9 +31,11 @@ def test_a_job_runs_and_its_document_is_as_agreed(running: Running, picture: byt
     job = running.until(submitted["id"], "succeeded")
     assert set(job) == {
         *("id", "kind", "status", "progress", "inputs", "options", "artifacts", "error", "metadata"),
-        *("created_at", "started_at", "finished_at", "revision_of", "tree", "priority", "title"),
+        *("created_at", "started_at", "finished_at", "revision_of", "tree", "priority", "title", "queue_position"),
     }
-    assert job["progress"] == {"stage": None, "fraction": 1.0, "message": "", "eta_seconds": None}
+    stages = ["measure", "rest", "write"]
+    assert job["progress"] == {"stage": None, "fraction": 1.0, "message": "", "eta_seconds": None, "stages": stages}
+    assert (submitted["queue_position"], job["queue_position"]) == (1, None)
     assert job["options"] == {"seconds": 0.5}
     assert job["error"] is None
     assert set(job["artifacts"]) == {"preview.jpg", "spectrum.json", "animation.mp4", "report.json"}

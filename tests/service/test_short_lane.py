@@ -47,7 +47,7 @@ def test_a_kind_has_limits_of_its_own(busy: tuple[Running, dict[str, Any]]) -> N
     assert offered["tiny"]["limits"] == {"seconds": 3600, "memory_mb": 6000, "cores": None}
 
     done = running.until(submit(running, "short", long), "succeeded", "failed")
-    assert running.client.get(done["artifacts"]["report.json"]["url"]).json()["inputs"]["cores"] == 1
+    assert running.client.get(done["artifacts"]["report.json"]["url"]).json()["inputs"].get("cores", 1) == 1
     assert running.until(submit(running, "short", long, crash="memory"), "failed")["error"]["code"] == "out_of_memory"
     error = running.until(submit(running, "brief", long, seconds=3000), "failed")["error"]
     assert error["code"] == "time_limit" and "4 seconds" in error["detail"] and "“brief”" in error["detail"]

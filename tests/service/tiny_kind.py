@@ -116,7 +116,8 @@ def work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -
         asked = {"bytes": size, "driver": driver.name if isinstance(driver, Path) else None}
         if isinstance(mask := inputs.get("mask"), Path):
             asked["mask"] = mask.stat().st_size
-        asked["cores"] = len(os.sched_getaffinity(0))
+        if (cores := len(os.sched_getaffinity(0))) < (os.cpu_count() or 1):
+            asked["cores"] = cores
         if isinstance(driver, Candidates):
             asked["candidates"] = {name: path.stat().st_size for name, path in driver.files.items()}
         write_report(

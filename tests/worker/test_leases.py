@@ -10,6 +10,7 @@ import pytest
 from service.auth.models import Key
 from service.clock import now
 from service.context import Context
+from service.events import repository as events
 from service.ids import new_id
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
@@ -100,6 +101,45 @@ def test_three_fruitless_attempts_in_a_row_fail_the_job(context: Context, job_id
         job = repository.get(session, job_id)
     assert job is not None and job.error is not None
     assert job.error["code"] == "attempts_exhausted" and "it died" in job.error["detail"]
+
+
+def places(context: Context, *jobs: str) -> list[int | None]:
+    with context.database.read() as session:
+        found = repository.places(session, [job for one in jobs if (job := repository.get(session, one)) is not None])
+    return [found.get(one) for one in jobs]
+
+
+def test_the_place_in_the_queue_is_the_order_in_which_jobs_are_taken(context: Context, job_id: str) -> None:
+    with context.database.write() as session:
+        for name in ("key1", "key2"):
+            secrets = {"token_hash": name, "signing_secret": name, "link_secret": name}
+            session.add(Key(id=name, name=name, hint="", scopes=[], created_at=now(), **secrets))
+    assert claim(context, job_id) is not None  # one of `local` runs
+    jobs = [waiting(context, owner=owner) for owner in ("local", "local", "key1", "key1", "key1", "key2")]
+    jobs += [waiting(context, Priority.LOW, "key2"), waiting(context, Priority.HIGH, "local")]
+    other = waiting(context, kind="other")
+    told = places(context, *jobs, other, job_id)
+    assert (told.pop(), told.pop()) == (None, 1), "one that runs has none; another kind has a queue of its own"
+    assert sorted(told, key=lambda place: place or 0) == list(range(1, 9))
+    with context.database.write() as session:
+        taken = [leases.claim_next(session, "tiny", "somebody", 30) for _ in jobs]
+    order = [lease.job_id for lease in taken if lease is not None]
+    assert told == [order.index(job) + 1 for job in jobs]
+
+
+def test_progress_keeps_the_stages_and_tells_who_follows_of_each_once(context: Context, job_id: str) -> None:
+    lease = claim(context, job_id)
+    assert lease is not None
+    with context.database.write() as session:
+        leases.report(session, lease, {"stage": "a", "fraction": 0.1}, ["a"], begun=True)
+        leases.report(session, lease, {"stage": "a", "fraction": 0.2}, ["a"])
+        leases.report(session, lease, {"stage": "b", "fraction": 0.3}, ["a", "b"], begun=True)
+        assert leases.succeed(session, lease)
+    with context.database.read() as session:
+        job = repository.get(session, job_id)
+        told = [event.data.get("stages") for event in events.after(session, job_id, 0) if event.type == "progress"]
+    assert job is not None and job.progress["stages"] == ["a", "b"]
+    assert told == [["a"], None, ["a", "b"]]
 
 
 def test_a_process_that_dies_twice_alike_without_getting_further_is_not_tried_again(

@@ -31,13 +31,13 @@ export function follow(state: Followed, change: Change): Followed {
         job: change.job,
         problem: null,
         interrupted: false,
-        stages: withStage(state.stages, change.job.progress.stage),
+        stages: withStages(state.stages, change.job.progress),
       };
     case 'progress':
       return {
         ...state,
         job: state.job && !finished(state.job) ? { ...state.job, progress: change.progress } : state.job,
-        stages: withStage(state.stages, change.progress.stage),
+        stages: withStages(state.stages, change.progress),
         interrupted: false,
       };
     case 'interrupted':
@@ -47,7 +47,9 @@ export function follow(state: Followed, change: Change): Followed {
   }
 }
 
-function withStage(stages: string[], stage: string | null | undefined): string[] {
+/** The stages with what is told of them: all in their order, or the one that goes on. */
+function withStages(stages: string[], { stages: told, stage }: Progress): string[] {
+  if (told && told.length >= stages.length) return told;
   return stage && !stages.includes(stage) ? [...stages, stage] : stages;
 }
 

@@ -1083,6 +1083,7 @@ export interface components {
             /** @enum {string} */
             priority: "high" | "normal" | "low";
             progress: components["schemas"]["Progress"];
+            queue_position: number | null;
             inputs: {
                 [key: string]: string | string[];
             };
@@ -1306,6 +1307,8 @@ export interface components {
             /** @default  */
             message?: string;
             eta_seconds?: number | null;
+            /** @default [] */
+            stages?: string[];
         };
         /** @description How an endpoint's secret is replaced. */
         RotationIn: {

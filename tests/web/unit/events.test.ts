@@ -21,6 +21,12 @@ describe('following a job', () => {
     expect(state.job?.progress).toMatchObject({ stage: 'target', fraction: 0.5 });
   });
 
+  it('keeps the order of the work where the service tells it, whenever the page was loaded', () => {
+    const whole = aJob({ progress: { stage: 'render', fraction: 0.6, message: '', stages: ['target', 'driver', 'render'] } });
+    const state = after({ type: 'job', job: whole }, progress('target', 0.1), progress('driver', 0.2), progress('render', 0.7));
+    expect(state.stages).toEqual(['target', 'driver', 'render']);
+  });
+
   it('is not moved by old progress once the job is finished', () => {
     const done = aJob({ status: 'succeeded', progress: { stage: null, fraction: 1, message: '', eta_seconds: null } });
     const state = after({ type: 'job', job: done }, progress('target', 0.1));

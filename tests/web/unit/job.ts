@@ -9,6 +9,7 @@ export function aJob(differs: Partial<Job> = {}): Job {
     status: 'running',
     priority: 'normal',
     progress: { stage: null, fraction: 0, message: '', eta_seconds: null },
+    queue_position: null,
     inputs: { image: '0198c1d2-7b1a-7c3e-9c6d-000000000001', driver: 'happy' },
     options: {},
     artifacts: {},
