@@ -42,8 +42,8 @@ class Running:
         self.start()
 
     def start(self) -> None:
-        environment = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
-        environment |= {
+        kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+        self.environment = kept | {
             "GALATEA_DATA_DIR": str(self.data_dir),
             "GALATEA_KINDS": "tiny_kind:KIND",
             "GALATEA_DISK_RESERVE_MB": "1",
@@ -53,7 +53,7 @@ class Running:
         with self.output.open("wb") as output:
             self.process = subprocess.Popen(
                 [*self.command, "serve", "--port", "0"],
-                env=environment,
+                env=self.environment,
                 stdout=output,
                 stderr=output,
                 cwd=self.cwd,
