@@ -115,6 +115,9 @@ class Settings(BaseSettings):
     )
     job_cpu_seconds: float = Field(7200, ge=1, description="The most computing of a job, all cores together.")
     job_cores: int = Field(0, ge=0, description="Cores that a job may use; 0 is all.")
+    job_niceness: int = Field(
+        3, ge=0, le=19, description="How far jobs give way to what else computes; 0 not at all, 19 wholly."
+    )
     job_user: str = Field("nobody", description="Who jobs work as where the worker is root; empty: root.")
     lease_seconds: float = Field(30, ge=2, le=900, description="How long a silent worker keeps its job.")
     sweep_seconds: float = Field(5, gt=0, description="How often lost messages and expired leases are looked for.")

@@ -61,7 +61,7 @@ class Child:
                 env=_environment(settings),
                 start_new_session=True,
             )
-            give_way(self._process.pid)  # from its first import on
+            give_way(self._process.pid, settings.job_niceness)  # from its first import on
             if settings.job_cores:
                 os.sched_setaffinity(self._process.pid, _cores(settings, turn))
         except BaseException:

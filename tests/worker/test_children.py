@@ -14,7 +14,6 @@ import pytest
 
 from service.settings import Settings
 from worker.children import Child, ChildLost, WarmChildren
-from worker.niceness import NICENESS
 from worker.tether import tethered
 
 ROOT = Path(__file__).parent.parent.parent
@@ -25,7 +24,7 @@ def settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Settings:
     monkeypatch.syspath_prepend(str(ROOT / "tests" / "service"))
     monkeypatch.syspath_prepend(str(ROOT))
     monkeypatch.setenv("GALATEA_REDIS_URL", "redis://user:password@example.org")
-    return Settings(data_dir=tmp_path, kinds=["tiny_kind:KIND"])
+    return Settings(data_dir=tmp_path, kinds=["tiny_kind:KIND"], job_niceness=7)
 
 
 def ready(child: Child) -> None:
@@ -45,9 +44,9 @@ def test_it_is_confined_and_knows_no_secrets(settings: Settings) -> None:
         assert process.rlimit(psutil.RLIMIT_FSIZE)[0] == settings.job_file_mb * 1e6
         assert process.rlimit(psutil.RLIMIT_CORE) == (0, 0)
         assert Path(f"/proc/{child.pid}/oom_score_adj").read_text().strip() == "1000"
-        assert process.nice() == NICENESS
+        assert process.nice() == settings.job_niceness
         session = Path(f"/proc/{child.pid}/autogroup")  # where the kernel has groups, they count, and not its processes
-        assert not session.exists() or session.read_text().split()[-1] == str(NICENESS)
+        assert not session.exists() or session.read_text().split()[-1] == str(settings.job_niceness)
         assert 5 < child.memory_mb() < 500
     finally:
         child.kill()
