@@ -22,7 +22,7 @@ class Stages:
         if name not in self.names and len(self.names) < MOST:
             self.names.insert(self._place, name)
         if name in self.names:
-            self._place = self.names.index(name) + 1
+            self._place = max(self._place, self.names.index(name) + 1)
 
     def news(self) -> bool:
         """Whether there are more than when this was asked last."""

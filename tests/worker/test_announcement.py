@@ -78,5 +78,5 @@ def test_what_others_serve_and_what_runs_is_left_alone(context: Context) -> None
         assert lease is not None and leases.report(session, lease, {"stage": "rest", "fraction": 0.5})
         assert not leases.note(session, taken, {})
     take_back(context, ["tiny"])
-    assert progress(context, taken) == {"stage": "rest", "fraction": 0.5}
+    assert progress(context, taken) == {"stage": "rest", "fraction": 0.5, "stages": []}
     assert progress(context, others) == {}
