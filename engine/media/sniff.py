@@ -60,7 +60,7 @@ def sniff_bytes(head: bytes) -> str | None:
     if head[:4] == b"glTF":
         return "model/gltf-binary"
     text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-    if text.startswith(b"HIERARCHY"):
+    if text[:9].upper() == b"HIERARCHY":
         return "text/x-bvh"
     if _GLTF.match(text):
         return "model/gltf+json"

@@ -1,17 +1,16 @@
 """Motion capture in BVH files, from any skeleton.
 
-The hierarchy is read by `bvhio`, from a text whose size and depth were checked first (its parser recurses, and does
-not end where the file does); the numbers of the frames by numpy.
+Programs do not agree on capitals, tabs and empty lines: words mean the same however they are spelt and spaced. The joints
+are read line by line, after size and depth were looked at; the numbers of the frames by numpy.
 """
 
 from __future__ import annotations
 
 import re
-import tempfile
 import warnings
+from dataclasses import dataclass, field
 from pathlib import Path
 
-import bvhio
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,7 +39,11 @@ MAX_HIERARCHY = 1 << 20
 HUGE = 1e7
 """No number of a BVH file is larger: ten kilometres in millimetres."""
 
-_MOTION = re.compile(r"^[^\S\n]*MOTION\s+Frames\s*:\s*(\S+)\s+Frame Time\s*:\s*(\S+)[^\S\n]*$", re.MULTILINE)
+_MOTION = re.compile(
+    r"^[^\S\n]*+(?:MOTION\s++)?+Frames[\s:]*+(\S++)\s++Frame\s*+Time[\s:]*+(\S++)[^\S\n]*+$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""The word itself is missing in some files; nothing is tried twice, however long it is."""
 
 
 def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
@@ -65,6 +68,7 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
     _require_few_numbers(frames, len(joints), len(channels))
     offsets = np.array([joint.offset for joint in joints], np.float64)
     ends = np.array([joint.end for joint in joints], np.float64)
+    ends[parents[parents >= 0]] = np.nan
     values = _read_frames(text[found.end() :], frames, len(channels))
     rotations, translations = _to_local(values, channels, offsets)
     if not all((np.abs(numbers) < HUGE).all() for numbers in (values, offsets)):  # false for NaN as well
@@ -119,16 +123,15 @@ def _longest_way(parents: NDArray[np.integer], offsets: Array, ends: Array) -> f
     return longest
 
 
+@dataclass
 class _Joint:
     """A joint as the hierarchy lists it."""
 
-    def __init__(self, joint: bvhio.BvhJoint, parent: int):
-        self.name: str = joint.Name
-        self.parent = parent
-        self.offset = tuple(joint.Offset)
-        self.channels: list[str] = joint.Channels
-        # bvhio's own default where a joint has no end site is (0, 1, 0): only leaves carry one
-        self.end = (float("nan"),) * 3 if joint.Children else tuple(joint.EndSite)
+    name: str
+    parent: int
+    offset: tuple[float, ...] | None = None
+    channels: list[str] = field(default_factory=list)
+    end: tuple[float, ...] = (float("nan"),) * 3
 
 
 def _read_text(source: Path | bytes) -> str:
@@ -136,59 +139,85 @@ def _read_text(source: Path | bytes) -> str:
     if size > MAX_BYTES:
         raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
     data = source.read_bytes() if isinstance(source, Path) else source
-    if b"\0" in data[:4096] or not re.match(rb"(\xef\xbb\xbf)?\s*HIERARCHY\b", data[:4096]):
+    if b"\0" in data[:4096] or not re.match(rb"(\xef\xbb\xbf)?\s*HIERARCHY\b", data[:4096], re.I):
         raise InputError("motion_unreadable", "This is no BVH file: it must begin with the word HIERARCHY.")
     text = data.decode("utf-8-sig", errors="replace")
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _refuse_text(text: str) -> None:
-    if len(text) > MAX_HIERARCHY and not re.search(r"^[^\S\n]*MOTION\b", text[:MAX_HIERARCHY], re.MULTILINE):
+    if len(text) > MAX_HIERARCHY and not re.search(
+        r"^[^\S\n]*+(?:MOTION|Frames)\b", text[:MAX_HIERARCHY], re.MULTILINE | re.IGNORECASE
+    ):
         raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
     raise InputError("motion_truncated", "The BVH file ends before its frames begin: export or upload it again.")
 
 
 def _read_hierarchy(text: str) -> list[_Joint]:
     """The joints, parents before children."""
-    lines = [
-        _joined_name(line) for line in text.replace("{", "\n{\n").replace("}", "\n}\n").split("\n") if line.strip()
-    ]
-    heads = [line.split(maxsplit=1)[0] for line in lines]
+    lines = [line.split() for line in text.replace("{", "\n{\n").replace("}", "\n}\n").split("\n")]
+    lines = [line for line in lines if line]
+    heads = [line[0].upper() for line in lines]
     depths = np.cumsum([(head == "{") - (head == "}") for head in heads])
     if heads.count("JOINT") >= MAX_JOINTS or depths.max(initial=0) > MAX_DEPTH:
         raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
     if heads.count("ROOT") > 1:
         raise InputError("motion_unreadable", "The BVH file holds several skeletons: export each to a file of its own.")
-    with tempfile.NamedTemporaryFile("w", suffix=".bvh", encoding="utf-8", delete=False) as file:
-        # the parser reads on for ever at the end of a file: these lines end whatever comes before them
-        file.write("\n".join([*lines, "MOTION", "Frames: 0", "Frame Time: 0.1", ""]))
-    try:
-        root = bvhio.readAsBvh(file.name).Root
-    except (SyntaxError, ValueError, IndexError, TypeError, UnicodeError) as error:
-        raise InputError("motion_unreadable", "The BVH file's skeleton cannot be read: export it again.") from error
-    finally:
-        Path(file.name).unlink()
-    joints: list[_Joint] = []
-    _list_joints(root, -1, joints)
+    joints = _list_joints(lines, heads)
     unknown = sorted({name for joint in joints for name in joint.channels if name.lower() not in CHANNELS})
     if unknown:
         raise InputError(
-            "motion_channels", f"The BVH file has channels that BVH does not know, such as {unknown[0]!r}."
+            "motion_channels", f"The BVH file has channels that BVH does not know, such as {unknown[0][:40]!r}."
         )
     return joints
 
 
-def _joined_name(line: str) -> str:
-    """The line; a joint's name of several words, of which bvhio would keep the first alone, as one."""
-    words = line.split()
-    return f"{words[0]} {'_'.join(words[1:])}" if words[0] in ("ROOT", "JOINT") and len(words) > 2 else line
+_END = -1
+"""In the place of a joint's number: where a bone ends."""
 
 
-def _list_joints(joint: bvhio.BvhJoint, parent: int, found: list[_Joint]) -> None:
-    found.append(_Joint(joint, parent))
-    index = len(found) - 1
-    for child in joint.Children:
-        _list_joints(child, index, found)
+def _list_joints(lines: list[list[str]], heads: list[str]) -> list[_Joint]:
+    """The joints of lines, which begin with `heads`."""
+    joints: list[_Joint] = []
+    open_: list[int] = []
+    named: int | None = None
+    for line, head in zip(lines, heads, strict=True):
+        inside = open_[-1] if open_ else None
+        if (named is None) == (head == "{"):
+            raise _broken()
+        if head == "{":
+            open_.append(named if named is not None else _END)
+            named = None
+        elif head == "}" and inside is not None:
+            open_.pop()
+        elif head in ("END", "ENDSITE") and inside not in (None, _END):
+            named = _END
+        elif head in ("ROOT", "JOINT") and (inside is None) == (head == "ROOT") and inside != _END and len(line) > 1:
+            named = len(joints)
+            joints.append(_Joint("_".join(line[1:]), -1 if inside is None else inside))
+        elif head == "OFFSET" and inside == _END:
+            joints[open_[-2]].end = _offset(line)
+        elif head == "OFFSET" and inside is not None:
+            joints[inside].offset = _offset(line)
+        elif head == "CHANNELS" and inside not in (None, _END) and line[1:2] == [str(len(line) - 2)]:
+            joints[inside].channels = line[2:]
+        elif head != "HIERARCHY" or joints:
+            raise _broken()
+    if open_ or named is not None or not joints or any(joint.offset is None for joint in joints):
+        raise _broken()
+    return joints
+
+
+def _offset(line: list[str]) -> tuple[float, ...]:
+    try:
+        x, y, z = (float(word) for word in line[1:])
+    except ValueError:
+        raise _broken() from None
+    return x, y, z
+
+
+def _broken() -> InputError:
+    return InputError("motion_unreadable", "The BVH file's skeleton cannot be read: export it again.")
 
 
 def _frame_header(count: str, seconds: str) -> tuple[int, float]:

@@ -64,6 +64,7 @@ def test_animations_are_told_from_stills(tmp_path: Path) -> None:
         (b"", None),
         (b"\xff", None),
         (b"hello world, this is a text", None),
+        (b"Hierarchy\nroot Hips\n{", "text/x-bvh"),
         (b"HIERARCHY\nROOT Hips\n{", "text/x-bvh"),
         (b"\xef\xbb\xbf \r\nHIERARCHY\r\nROOT Hips", "text/x-bvh"),
         (b"a HIERARCHY of ranks", None),

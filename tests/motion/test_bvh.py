@@ -121,6 +121,53 @@ def test_channels_mean_the_same_however_they_are_spelt(spelt: Callable[[str], st
     assert np.array_equal(read.rotations, known.rotations) and np.array_equal(read.translations, known.translations)
 
 
+SPELT = {
+    "PyMO's end sites": ("End Site", "End site"),
+    "large end sites": ("End Site", "END SITE"),
+    "end sites in one word": ("End Site", "EndSite"),
+    "ends without a site": ("End Site", "End"),
+    "tabs": (" ", "\t"),
+    "small words": ("OFFSET", "offset"),
+    "small joints": ("JOINT", "joint"),
+    "empty lines": ("\n", "\n\n  \n"),
+    "small motion": ("MOTION", "Motion"),
+    "no motion": ("MOTION\n", ""),
+    "small frames": ("Frames:", "frames:"),
+    "one word for the time": ("Frame Time", "FrameTime"),
+    "small hierarchy": ("HIERARCHY", "Hierarchy"),
+    "braces behind": ("\n{", " {"),
+    "a mark of its bytes": ("HIERARCHY", "\ufeffHIERARCHY"),
+    "lines of an old Mac": ("\n", "\r"),
+    "lines of Windows": ("\n", "\r\n"),
+}
+
+
+@pytest.mark.parametrize("how", SPELT)
+def test_words_mean_the_same_however_they_are_spelt_and_spaced(how: str) -> None:
+    old, new = SPELT[how]
+    assert old in ARM
+    read, known = read_bvh(ARM.replace(old, new).encode()), read_bvh(ARM.encode())
+    assert (read.names, read.parents.tolist(), read.fps) == (known.names, known.parents.tolist(), known.fps)
+    assert np.array_equal(read.rotations, known.rotations) and np.array_equal(read.translations, known.translations)
+    assert np.array_equal(read.ends, known.ends, equal_nan=True)
+
+
+def test_channels_come_in_any_order_and_places_on_any_joint() -> None:
+    text = ARM.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 4 Yrotation Zposition Xrotation Xposition")
+    motion = read_bvh(
+        text.replace("0 0 0 0 0 0 0 0 0", "0 0 0 0 0 0 90 7 90 8").replace("90 0 0 0 0 90", "0 0 0 0 0 0 0").encode()
+    )
+    expected = rotation.multiply(rotation.about("y", np.pi / 2), rotation.about("x", np.pi / 2))
+    assert np.allclose(motion.rotations[0, 1], expected)
+    assert np.allclose(motion.translations[0, 1], (8, 0, 7))
+
+
+def test_a_bone_ends_where_no_joint_goes_on() -> None:
+    """A joint that has both an end and a joint below has none."""
+    motion = read_bvh(ARM.replace("  JOINT Fore", "  End Site\n  {\n  OFFSET 9 9 9\n  }\n  JOINT Fore").encode())
+    assert np.isnan(motion.ends[0]).all() and motion.ends[1].tolist() == [5, 0, 0]
+
+
 def test_numbers_behind_the_last_frame_are_left_aside() -> None:
     assert np.array_equal(read_bvh((ARM + "7 7 7\n").encode()).rotations, read_bvh(ARM.encode()).rotations)
 
@@ -158,6 +205,11 @@ HOSTILE = {
     "ends before the first frame": (ARM[: ARM.index("0 0 0 0 0 0 0 0 0")].encode(), "motion_truncated"),
     "braces missing": (ARM.replace("}", "", 1).encode(), "motion_unreadable"),
     "braces too many": (ARM.replace("}", "}\n}\n}\n", 1).encode(), "motion_unreadable"),
+    "a joint in an end": (ARM.replace("OFFSET 5 0 0", "JOINT x\n{\nOFFSET 0 0 0\n}").encode(), "motion_unreadable"),
+    "a joint without an offset": (ARM.replace("OFFSET 10 0 0", "").encode(), "motion_unreadable"),
+    "an offset of two numbers": (ARM.replace("OFFSET 10 0 0", "OFFSET 10 0").encode(), "motion_unreadable"),
+    "colons beyond measure": (ARM.replace("Frames:", "Frames" + ":" * 900_000).replace("0.04", "").encode(), "motion_truncated"),
+    "words that nobody knows": (ARM.replace("OFFSET 10", "WEIGHT 10\nOFFSET 10").encode(), "motion_unreadable"),
     "a joint without a name": (ARM.replace("JOINT Fore", "JOINT").encode(), "motion_unreadable"),
     "two skeletons": (ARM.replace("MOTION", ARM[10 : ARM.index("MOTION")] + "MOTION").encode(), "motion_unreadable"),
     "more turns than numbers": (joints(500, nested=False).replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 0").replace("Frames: 2", "Frames: 70000").encode(), "motion_too_large"),

@@ -27,7 +27,7 @@ export function mediaOf(head: Uint8Array): Media | null {
     return STILLS.test(brand) ? 'picture' : SOUND.test(brand) ? null : 'video';
   }
   if (/^(moov|mdat|wide|free|skip|pnot)$/.test(box)) return 'video';
-  if (starts('glTF') || /^(\xef\xbb\xbf)?\s*(HIERARCHY|\{\s*")/.test(text)) return 'motion';
+  if (starts('glTF') || /^(\xef\xbb\xbf)?\s*(HIERARCHY|\{\s*")/i.test(text)) return 'motion';
   return null;
 }
 
