@@ -219,15 +219,29 @@ class Client:
     # Public links
 
     def create_link(
-        self, job_id: str, expires_in_hours: float | None = None, artifacts: list[str] | None = None
+        self,
+        job_id: str,
+        expires_in_hours: float | None = None,
+        artifacts: list[str] | None = None,
+        lasting: bool = False,
     ) -> Link:
-        """Make a job's results public under an address that cannot be guessed, for a while or until it is revoked."""
-        asked = {"expires_in_hours": expires_in_hours, "artifacts": artifacts}
+        """Make a job's results public under an address that cannot be guessed, which only this answer tells.
+
+        It is good for `expires_in_hours`, or where `lasting` until it is revoked; for as long as the service's settings
+        say by default.
+        """
+        asked: dict[str, Any] = {"artifacts": artifacts}
+        if lasting or expires_in_hours is not None:
+            asked["expires_in_hours"] = None if lasting else expires_in_hours
         return Link.model_validate(self._call("create_link", json=asked, job_id=job_id))
 
     def links(self, job_id: str) -> list[Link]:
         """The public links to a job."""
         return [Link.model_validate(one) for one in self._call("list_links", job_id=job_id)["items"]]
+
+    def all_links(self) -> Iterator[Link]:
+        """The public links to all jobs, newest first: one's own, or with the scope `admin` those of every key."""
+        return map(Link.model_validate, self._pages("list_all_links", {"limit": 100}))
 
     def revoke_link(self, link_id: str) -> None:
         """Take a public link back."""

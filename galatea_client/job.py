@@ -101,6 +101,8 @@ class Job(Model):
         """The job, what it revises, and all that revises it, oldest first."""
         return self.client.revisions(self.id)
 
-    def link(self, expires_in_hours: float | None = None, artifacts: list[str] | None = None) -> Link:
-        """Make its results public under an address that cannot be guessed."""
-        return self.client.create_link(self.id, expires_in_hours, artifacts)
+    def link(
+        self, expires_in_hours: float | None = None, artifacts: list[str] | None = None, lasting: bool = False
+    ) -> Link:
+        """Make its results public under an address that cannot be guessed (see `Client.create_link`)."""
+        return self.client.create_link(self.id, expires_in_hours, artifacts, lasting)

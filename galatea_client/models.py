@@ -225,11 +225,14 @@ class OwnKey(Model):
 
 
 class Link(Model):
-    """A public link to a job's results."""
+    """A public link to a job's results; `url` and `page` are told when it is made, and never again."""
 
     id: str
-    url: str
-    page: str
+    owner: str
+    job_id: str
+    url: str | None
+    page: str | None
+    hint: str
     artifacts: list[str] | None
     created_at: datetime
     expires_at: datetime | None

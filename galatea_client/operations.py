@@ -19,6 +19,7 @@ OPERATIONS: dict[str, tuple[str, str]] = {
     "list_revisions": ("GET", "/v1/jobs/{job_id}/revisions"),
     "create_link": ("POST", "/v1/jobs/{job_id}/links"),
     "list_links": ("GET", "/v1/jobs/{job_id}/links"),
+    "list_all_links": ("GET", "/v1/links"),
     "revoke_link": ("DELETE", "/v1/links/{link_id}"),
     "list_kinds": ("GET", "/v1/kinds"),
     "list_drivers": ("GET", "/v1/drivers"),

@@ -48,6 +48,12 @@ class Settings(BaseSettings):
     uploads_at_once: int = Field(20, ge=0, description="The most unfinished uploads of a key.")
     stored_mb: int = Field(20_000, ge=0, description="The most that files and results of such a key may take.")
     link_hours: float = Field(1, gt=0, description="How long the signed links in a job are good.")
+    public_link_hours: float = Field(
+        720, ge=0, description="How long a public link is good of which nothing else was said; 0 until it is revoked."
+    )
+    wrong_keys_per_minute: int = Field(
+        60, ge=1, description="Wrong keys a minute from one address after which it is answered with 429."
+    )
     cors_origins: Annotated[list[str], NoDecode] = Field(
         [], description="Origins, separated by commas, of web pages that may call the API with a key."
     )

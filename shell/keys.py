@@ -15,9 +15,12 @@ from service.auth import repository, service
 from service.auth.models import Key
 from service.auth.schemas import KeyIn
 from service.database import Database
+from service.links import repository as links
 from service.problems import Problem
 from shell.complaint import Complaint
 from shell.settings import read_settings
+
+MOST_LINKS = 1000
 
 
 @click.group()
@@ -71,6 +74,35 @@ def revoke(key_id: str) -> None:
             service.revoke(session, key_id)
     except Problem as problem:
         raise Complaint(problem.detail) from None
+
+
+@keys.command("links")
+def show_links() -> None:
+    """The public links of all keys, newest first, without what opens them."""
+    with _writing() as session:
+        found = links.page(session, None, MOST_LINKS, None)
+    table = Table(box=None)
+    for heading in ("id", "begins with", "key", "job", "made", "good until"):
+        table.add_column(heading, overflow="fold")
+    for link in found:
+        until = f"{link.expires_at:%Y-%m-%d %H:%M}" if link.expires_at else "it is revoked"
+        table.add_row(link.id, link.hint, link.owner, link.job_id, f"{link.created_at:%Y-%m-%d}", until)
+    Console().print(table)
+
+
+@keys.command("revoke-link")
+@click.argument("link_id", required=False)
+@click.option("--all", "everything", is_flag=True, help="All links of all keys.")
+@click.option("--key", "key_id", help="All links of this key.")
+def revoke_link(link_id: str | None, everything: bool, key_id: str | None) -> None:
+    """Take a public link back, or many."""
+    if [link_id is not None, everything, key_id is not None].count(True) != 1:
+        raise Complaint("Name one link (`galatea keys links` lists them), or say --key or --all.")
+    with _writing() as session:
+        gone = links.revoke_all(session, key_id) if link_id is None else int(links.revoke(session, None, link_id))
+    if link_id is not None and not gone:
+        raise Complaint("There is no such link.")
+    click.echo(f"Links that were taken back: {gone}.")
 
 
 @contextmanager

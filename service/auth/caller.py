@@ -15,6 +15,7 @@ from service.auth import repository
 from service.auth.models import LOCAL, Key
 from service.auth.rate import take_one
 from service.auth.sessions import COOKIE, key_of_session
+from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import Context, InContext
 from service.problems import Problem
@@ -60,6 +61,8 @@ def identify(request: Request, context: InContext) -> Caller:
     if key is None:
         if token is None and not context.settings.keys_required:
             return HERE  # an old cookie of the page opens nothing, and shuts nothing either
+        if token is not None:
+            count_wrong_key(context, request)
         raise not_known("key_unknown", "There is no such key: it was revoked, or it never was.")
     if not repository.usable(key, now()):
         raise not_known("key_expired", "The key has expired: use another one.")

@@ -11,6 +11,7 @@ from service.auth.caller import Admin, Reader, not_known
 from service.auth.models import Key
 from service.auth.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.auth.sessions import COOKIE, SECONDS, new_session
+from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import InContext
 from service.problems import Problem, responses
@@ -67,6 +68,7 @@ def open_session(asked: SessionIn, request: Request, response: Response, context
     with context.database.read() as session:
         key = repository.of_token(session, asked.key)
     if key is None or not repository.usable(key, now()):
+        count_wrong_key(context, request)
         raise not_known("key_unknown", "There is no such key: it was revoked, has expired, or never was.")
     response.set_cookie(
         COOKIE,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hmac
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 
@@ -47,7 +48,9 @@ def get_locked(session: Session, key_id: str) -> Key | None:
 
 def of_token(session: Session, token: str) -> Key | None:
     """The key with this token, be it expired or not."""
-    return session.scalar(OF_TOKEN, {"digest": digest(token)})
+    given = digest(token)
+    key = session.scalar(OF_TOKEN, {"digest": given})
+    return key if key is not None and hmac.compare_digest(key.token_hash or "", given) else None
 
 
 def with_tokens(session: Session) -> Sequence[Key]:

@@ -20,6 +20,7 @@ from service.jobs import repository as jobs
 from service.jobs.service import delete as delete_job
 from service.kept import repository as kept
 from service.kept.shelves import SHELVES
+from service.links import repository as links
 from service.problems import Problem
 from service.uploads import repository as uploads
 from service.uploads import spool
@@ -49,7 +50,7 @@ def create(session: Session, asked: KeyIn) -> tuple[Key, str]:
 
 
 def revoke(session: Session, key_id: str) -> Key:
-    """Make a key's token, its sessions and its signed links worthless. Raises a 404 problem if there is no such key.
+    """Make a key's token, its sessions, its signed links and its public ones worthless. Raises a 404 problem if there is no such key.
 
     What belongs to it stays; its jobs go on.
     """
@@ -58,6 +59,7 @@ def revoke(session: Session, key_id: str) -> Key:
         raise Problem(404, "key_not_found", "There is no such key.")
     if key.revoked_at is None:
         key.token_hash, key.link_secret, key.revoked_at = None, new_link_secret(), now()
+        links.revoke_all(session, key.id)
     return key
 
 

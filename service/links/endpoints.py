@@ -1,29 +1,33 @@
-"""Public links: POST and GET /jobs/{id}/links, DELETE /links/{id}; GET /public/{token} for everybody."""
+"""Public links: POST and GET /jobs/{id}/links, GET /links, DELETE /links/{id}; GET /public/{token} for everybody."""
 
 from __future__ import annotations
 
 import secrets
 from datetime import timedelta
+from typing import Annotated
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Query, Request
 from sqlalchemy.orm import Session
 from starlette.responses import Response
 
 from service.artifacts import repository as artifacts
 from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.asked import AskedRoute
-from service.auth.caller import Reader, Submitter
+from service.auth.caller import Caller, InCaller, Reader, Scope, Submitter
+from service.auth.tokens import digest
 from service.clock import now
 from service.context import InContext
-from service.ids import new_id
+from service.ids import LIKE_AN_ID, is_id, new_id
 from service.jobs import repository as jobs
 from service.jobs.service import found
 from service.links import repository
 from service.links.models import PublicLink
-from service.links.schemas import LinkIn, LinkList, LinkOut, SharedOut, opens
+from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens
 from service.problems import Problem, responses
 
 router = APIRouter(tags=["links"], route_class=AskedRoute)
+
+HINT_CHARACTERS = 6
 
 FROM_ANYWHERE = {
     "Access-Control-Allow-Origin": "*",
@@ -36,21 +40,26 @@ FROM_ANYWHERE = {
 @router.post("/jobs/{job_id}/links", status_code=201, operation_id="create_link", responses=responses(404, 422))
 def create_link(job_id: str, asked: LinkIn, caller: Submitter, response: Response, context: InContext) -> LinkOut:
     """Make the results of a job public, under an address that cannot be guessed, for a while or until it is revoked."""
-    moment = now()
+    moment, token = now(), secrets.token_urlsafe(24)
+    hours = asked.expires_in_hours
+    if "expires_in_hours" not in asked.model_fields_set:
+        hours = context.settings.public_link_hours or None
     link = PublicLink(
         id=new_id(),
-        token=secrets.token_urlsafe(24),
+        token_hash=digest(token),
+        hint=token[:HINT_CHARACTERS],
         owner=caller.owner,
         job_id=job_id,
         names=asked.artifacts,
         created_at=moment,
-        expires_at=None if asked.expires_in_hours is None else moment + timedelta(hours=asked.expires_in_hours),
+        expires_at=None if hours is None else moment + timedelta(hours=hours),
     )
     with context.database.write() as session:
         found(session, caller.owner, job_id)
         session.add(link)
     response.headers["Location"] = f"/v1/links/{link.id}"
-    return LinkOut.of(link)
+    response.headers["Cache-Control"] = "no-store"
+    return LinkOut.of(link, token)
 
 
 @router.get("/jobs/{job_id}/links", operation_id="list_links", responses=responses(404))
@@ -61,11 +70,32 @@ def list_links(job_id: str, caller: Reader, context: InContext) -> LinkList:
         return LinkList(items=[LinkOut.of(link) for link in repository.of_job(session, job_id)])
 
 
+@router.get("/links", operation_id="list_all_links", responses=responses(422))
+def list_all_links(
+    request: Request,
+    response: Response,
+    caller: InCaller,
+    context: InContext,
+    limit: Annotated[int, Query(ge=1, le=200)] = 50,
+    cursor: Annotated[str | None, Query(json_schema_extra=LIKE_AN_ID)] = None,
+) -> LinkPage:
+    """The public links to all jobs, newest first: one's own, or with the scope `admin` those of every key."""
+    if cursor is not None and not is_id(cursor):
+        raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
+    with context.database.read() as session:
+        links = repository.page(session, _whose(caller, "read"), limit + 1, cursor)
+    next_cursor = links[limit - 1].id if len(links) > limit else None
+    if next_cursor is not None:
+        following = request.url.include_query_params(cursor=next_cursor)
+        response.headers["Link"] = f'<{following.path}?{following.query}>; rel="next"'
+    return LinkPage(items=[LinkOut.of(link) for link in links[:limit]], next_cursor=next_cursor)
+
+
 @router.delete("/links/{link_id}", status_code=204, operation_id="revoke_link", responses=responses(404))
-def revoke_link(link_id: str, caller: Submitter, context: InContext) -> None:
-    """Take a public link back."""
+def revoke_link(link_id: str, caller: InCaller, context: InContext) -> None:
+    """Take a public link back: one's own, or with the scope `admin` anybody's."""
     with context.database.write() as session:
-        if not repository.revoke(session, caller.owner, link_id):
+        if not repository.revoke(session, _whose(caller, "submit"), link_id):
             raise Problem(404, "link_not_found", "There is no such link: it was revoked, or it never was.")
 
 
@@ -79,7 +109,7 @@ def get_shared(token: str, response: Response, context: InContext) -> SharedOut:
             raise _gone()
         made = artifacts.of_jobs(session, [job.id])[job.id]
     response.headers.update({**FROM_ANYWHERE, "Cache-Control": "no-cache"})
-    return SharedOut.of(link, job.kind, job.finished_at, made)
+    return SharedOut.of(link, token, job.kind, job.finished_at, made)
 
 
 @router.head("/public/{token}/{name}", include_in_schema=False)
@@ -99,6 +129,14 @@ def get_shared_artifact(token: str, name: str, request: Request, context: InCont
     response = deliver(artifact.stored, context.storage, request.headers, request.method == "HEAD")
     response.headers.update(FROM_ANYWHERE)
     return response
+
+
+def _whose(caller: Caller, scope: Scope) -> str | None:
+    """Whose links a caller has to do with: everybody's (None) where it manages keys, or its own. Raises a 403 problem."""
+    if "admin" in caller.scopes:
+        return None
+    caller.require(scope)
+    return caller.owner
 
 
 def _good(session: Session, token: str) -> PublicLink:

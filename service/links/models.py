@@ -16,9 +16,11 @@ class PublicLink(Base):
     __tablename__ = "public_links"
 
     id: Mapped[str] = mapped_column(String(36), primary_key=True)
-    token: Mapped[str] = mapped_column(String(64), unique=True)
-    """Kept as it is, so that its owner can be shown the address again; it opens nothing but this job's results."""
-    owner: Mapped[str] = mapped_column(ForeignKey("keys.id"))
+    token_hash: Mapped[str] = mapped_column(String(64), unique=True)
+    """SHA-256 of the token, which is 192 random bits and kept nowhere: its address is shown once."""
+    hint: Mapped[str] = mapped_column(String(16))
+    """The token's first characters, to tell links apart."""
+    owner: Mapped[str] = mapped_column(ForeignKey("keys.id"), index=True)
     job_id: Mapped[str] = mapped_column(ForeignKey("jobs.id", ondelete="CASCADE"), index=True)
     names: Mapped[list[str] | None] = mapped_column(JSON(none_as_null=True))
     """The artifacts that it opens; null: all of them."""

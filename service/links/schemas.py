@@ -20,7 +20,8 @@ class LinkIn(BaseModel):
     model_config = ASKED
 
     expires_in_hours: float | None = Field(None, gt=0, le=876_000)
-    """Null: it is good until it is revoked."""
+    """Null: it is good until it is revoked. Left out: as long as the service's settings say
+    (`GALATEA_PUBLIC_LINK_HOURS`)."""
     artifacts: Annotated[list[str], Field(fail_fast=True, min_length=1, max_length=200)] | None = None
     """The artifacts that it opens; null: all of them."""
 
@@ -29,20 +30,29 @@ class LinkOut(BaseModel):
     """A public link, as its owner sees it."""
 
     id: str
-    url: str
-    """What it opens, as JSON; the artifacts lie below it."""
-    page: str
+    owner: str
+    """The id of the key that made it."""
+    job_id: str
+    url: str | None
+    """What it opens, as JSON; the artifacts lie below it. It is in the answer that made the link and nowhere else: null
+    ever after."""
+    page: str | None
     """The same for people."""
+    hint: str
+    """The first characters of what is secret in the address."""
     artifacts: list[str] | None
     created_at: datetime
     expires_at: datetime | None
 
     @classmethod
-    def of(cls, link: PublicLink) -> LinkOut:
+    def of(cls, link: PublicLink, token: str | None = None) -> LinkOut:
         return cls(
             id=link.id,
-            url=_address(link),
-            page=f"/#/shared/{link.token}",
+            owner=link.owner,
+            job_id=link.job_id,
+            url=None if token is None else _address(token),
+            page=None if token is None else f"/#/shared/{token}",
+            hint=link.hint,
             artifacts=link.names,
             created_at=link.created_at,
             expires_at=link.expires_at,
@@ -53,6 +63,14 @@ class LinkList(BaseModel):
     """A job's public links, oldest first."""
 
     items: list[LinkOut]
+
+
+class LinkPage(BaseModel):
+    """Public links, newest first."""
+
+    items: list[LinkOut]
+    next_cursor: str | None
+    """Give it as `cursor` to get the next page; null on the last one."""
 
 
 class SharedArtifactOut(BaseModel):
@@ -73,10 +91,12 @@ class SharedOut(BaseModel):
     artifacts: dict[str, SharedArtifactOut]
 
     @classmethod
-    def of(cls, link: PublicLink, kind: str, finished_at: datetime | None, artifacts: Sequence[Artifact]) -> SharedOut:
+    def of(
+        cls, link: PublicLink, token: str, kind: str, finished_at: datetime | None, artifacts: Sequence[Artifact]
+    ) -> SharedOut:
         shared = {
             artifact.name: SharedArtifactOut(
-                url=f"{_address(link)}/{quote(artifact.name)}",
+                url=f"{_address(token)}/{quote(artifact.name)}",
                 size=artifact.size,
                 sha256=artifact.sha256,
                 content_type=artifact.content_type,
@@ -92,5 +112,5 @@ def opens(link: PublicLink, name: str) -> bool:
     return link.names is None or name in link.names
 
 
-def _address(link: PublicLink) -> str:
-    return f"/v1/public/{link.token}"
+def _address(token: str) -> str:
+    return f"/v1/public/{token}"

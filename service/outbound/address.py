@@ -19,6 +19,7 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 
 import httpx
+import structlog
 
 Address = IPv4Address | IPv6Address
 Network = IPv4Network | IPv6Network
@@ -135,11 +136,11 @@ def _literal(host: str) -> Address | None:
 
 
 def _refusal(host: str, found: Sequence[Address], encrypted: bool) -> AddressRefused:
-    addresses = ", ".join(dict.fromkeys(map(str, found)))
-    what = f"{host} is" if addresses == host else f"{host} leads to {addresses}, which is"
+    """Why none of a host's addresses may be called. They are for the operator, in the log: whoever gave the host could
+    else have the names of a private network looked up."""
+    structlog.get_logger().info("address_refused", host=host, addresses=[str(address) for address in found])
     if not encrypted and all(map(is_public, found)):
-        return AddressRefused(f"{what} outside the networks that may be called without TLS: use https://.")
+        return AddressRefused(f"{host[:80]} is in no network that may be called without TLS: use https://.")
     return AddressRefused(
-        f"{what} not an address of the public internet, and in no network that the operator allows "
-        "(GALATEA_ALLOWED_NETWORKS)."
+        f"{host[:80]} leads to a private network, and to none that the operator allows (GALATEA_ALLOWED_NETWORKS)."
     )

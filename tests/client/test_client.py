@@ -185,8 +185,12 @@ def test_kinds_drivers_links_and_keys(galatea: Client, running: Running, picture
     assert "mine" not in {driver.name for driver in galatea.drivers()}
     job = galatea.submit("tiny", {"image": picture}).wait()
     link = job.link(expires_in_hours=1)
-    assert galatea.links(job.id) == [link]
-    galatea.revoke_link(link.id)
+    assert link.url and link.page
+    assert galatea.links(job.id) == [link.model_copy(update={"url": None, "page": None})]
+    assert job.link(lasting=True).expires_at is None
+    assert link.id in [one.id for one in galatea.all_links()]
+    for one in galatea.links(job.id):
+        galatea.revoke_link(one.id)
     assert galatea.links(job.id) == []
     made = galatea.create_key("Picture shop", requests_per_minute=240)
     with Client(str(running.client.base_url), key=made.token) as shop:

@@ -384,3 +384,73 @@ def test_a_key_has_so_many_uploads_at_once(start: Callable[..., Running], pictur
         assert code(begin()) == (429, "too_many_uploads")
         client.delete(second.headers["Location"]).raise_for_status()
         begin().raise_for_status()
+
+
+def linked(client: httpx.Client, keyed: Running, picture: bytes) -> dict[str, Any]:
+    """A public link to a job of this client's."""
+    job = submit(client, upload(client, picture)).json()["id"]
+    return client.post(f"/v1/jobs/{job}/links", json={"expires_in_hours": None}).raise_for_status().json()
+
+
+def test_public_links_end_with_their_key(keyed: Running, another: Callable[..., httpx.Client], picture: bytes) -> None:
+    shop, other = another(), another()
+    links = [linked(shop, keyed, picture), linked(other, keyed, picture)]
+    with httpx.Client(base_url=keyed.client.base_url) as stranger:
+        assert [stranger.get(link["url"]).status_code for link in links] == [200, 200]
+        keyed.client.delete(f"/v1/keys/{shop.headers['X-Key-Id']}").raise_for_status()
+        assert [stranger.get(link["url"]).status_code for link in links] == [404, 200]
+    assert links[0]["id"] not in [one["id"] for one in keyed.client.get("/v1/links").json()["items"]]
+
+
+def test_who_manages_keys_sees_and_revokes_all_links(
+    keyed: Running, another: Callable[..., httpx.Client], picture: bytes
+) -> None:
+    shop, other, manager = another(), another(), another(scopes=["admin"])
+    mine, theirs = linked(shop, keyed, picture), linked(other, keyed, picture)
+
+    def seen(client: httpx.Client) -> set[str]:
+        return {one["id"] for one in client.get("/v1/links").raise_for_status().json()["items"]}
+
+    assert seen(shop) == {mine["id"]}
+    assert {mine["id"], theirs["id"]} <= seen(manager)
+    assert code(shop.delete(f"/v1/links/{theirs['id']}")) == (404, "link_not_found")
+    assert manager.delete(f"/v1/links/{theirs['id']}").status_code == 204
+    assert keyed.client.get(theirs["url"]).status_code == 404
+    assert code(another(scopes=["submit"]).get("/v1/links")) == (403, "scope_missing")
+
+    assert mine["hint"] in galatea(keyed.data_dir, "links").stdout
+    assert galatea(keyed.data_dir, "revoke-link").returncode == 2
+    assert galatea(keyed.data_dir, "revoke-link", new_id()).returncode == 2
+    assert galatea(keyed.data_dir, "revoke-link", mine["id"]).returncode == 0
+    assert seen(shop) == set()
+
+
+def test_wrong_keys_are_slowed_down_and_good_ones_are_not(start: Callable[..., Running], tmp_path: Path) -> None:
+    token = galatea(tmp_path / "data", "create", "root").stdout.strip()
+    running = start(require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
+
+    def ask(key: str, address: str) -> httpx.Response:
+        return running.client.get("/v1/jobs", headers={"Authorization": f"Bearer {key}", "X-Forwarded-For": address})
+
+    assert code(ask("galatea_wrong", "203.0.113.7")) == (401, "key_unknown")
+    refused = ask("galatea_another", "203.0.113.7")
+    assert code(refused) == (429, "too_many_wrong_keys") and 1 <= int(refused.headers["Retry-After"]) <= 60
+    assert ask("galatea_another", "198.51.100.1, 203.0.113.7").status_code == 429, "what comes first anybody may write"
+    session = running.client.post("/v1/session", json={"key": "x"}, headers={"X-Forwarded-For": "203.0.113.7"})
+    assert code(session) == (429, "too_many_wrong_keys")
+    assert ask(token, "203.0.113.7").status_code == 200, "a good key from the same address"
+    assert ask("galatea_wrong", "203.0.113.8").status_code == 401, "another address"
+    assert ask("galatea_wrong", "2001:db8:1:2::1").status_code == 401
+    assert ask("galatea_wrong", "2001:db8:1:2:3::4").status_code == 429, "one network of 64 bits is one place"
+    assert running.client.get("/v1/jobs").json()["code"] == "key_missing", "who brings no key is told so"
+
+
+def test_wrong_keys_of_everybody_together_are_bounded(start: Callable[..., Running], tmp_path: Path) -> None:
+    galatea(tmp_path / "data", "create", "root")
+    running = start(require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
+    answers = [
+        running.client.get("/v1/jobs", headers={"Authorization": "Bearer x", "X-Forwarded-For": f"198.51.{one}.1"})
+        for one in range(60)
+    ]
+    assert [one.status_code for one in answers[:10]] == [401] * 10
+    assert 429 in [one.status_code for one in answers]

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sqlite3
 import time
+from contextlib import closing
+from datetime import datetime, timedelta
 from typing import Any
 
 import httpx
@@ -39,7 +42,34 @@ def test_a_link_opens_all_results_where_none_are_named(running: Running, picture
     made = link(running, job_id)
     shared = running.client.get(made["url"]).json()
     assert set(shared["artifacts"]) == set(running.job(job_id)["artifacts"])
-    assert shared["expires_at"] is None
+    lasting = link(running, job_id, expires_in_hours=None)
+    assert running.client.get(lasting["url"]).json()["expires_at"] is None
+    days = datetime.fromisoformat(shared["expires_at"]) - datetime.fromisoformat(made["created_at"])
+    assert days == timedelta(days=30), "as the settings say where nothing else was said"
+
+
+def test_an_address_is_told_once_and_kept_nowhere(running: Running, picture: bytes) -> None:
+    job_id = finished(running, picture)
+    answer = running.client.post(f"/v1/jobs/{job_id}/links", json={})
+    assert answer.headers["Cache-Control"] == "no-store"
+    made = answer.json()
+    (shown,) = listed(running, job_id)
+    assert shown == {**made, "url": None, "page": None}
+    token = made["url"].removeprefix("/v1/public/")
+    assert token.startswith(shown["hint"]) and len(shown["hint"]) == 6
+    with closing(sqlite3.connect(running.data_dir / "galatea.db")) as database:
+        rows = "\n".join(database.iterdump())
+    assert made["id"] in rows and token not in rows
+
+
+def test_all_links_are_listed_page_by_page(running: Running, picture: bytes) -> None:
+    jobs = [finished(running, picture) for _ in range(2)]
+    made = [link(running, job_id)["id"] for job_id in jobs]
+    first = running.client.get("/v1/links", params={"limit": 1}).json()
+    assert [one["id"] for one in first["items"]] == [made[1]] and first["items"][0]["job_id"] == jobs[1]
+    second = running.client.get("/v1/links", params={"limit": 1, "cursor": first["next_cursor"]}).json()
+    assert [one["id"] for one in second["items"]] == [made[0]]
+    assert running.client.get("/v1/links", params={"cursor": "x"}).json()["code"] == "invalid_cursor"
 
 
 def test_a_revoked_link_opens_nothing(running: Running, picture: bytes) -> None:

@@ -14,7 +14,9 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import MetaData, Table, create_engine, insert, select, text
 
 from service import postgresql
+from service.auth.tokens import digest
 from service.database import Database, DatabaseInUse, WouldForget, alembic_config
+from service.links.repository import good, page
 from service.tables import Base
 
 SCRIPTS = ScriptDirectory.from_config(alembic_config())
@@ -134,6 +136,30 @@ def test_what_would_be_lost_is_said_before(database: Database) -> None:
     database.migrate("0005", forget=True)
     assert database.forgets("head") == [] and database.forgets("0005") == []
     database.migrate("head")
+
+
+def test_links_of_before_go_on_working(database: Database) -> None:
+    """Only hashes of their tokens are left; those of revoked keys are gone."""
+    database.migrate(REVISIONS[0])
+    fill(database)
+    database.migrate("0013")
+    with connect(database) as connection:
+        keys = Table("keys", MetaData(), autoload_with=connection)
+        local = connection.execute(select(keys)).mappings().one()
+        moment = datetime.fromisoformat(MOMENT)
+        connection.execute(insert(keys).values({**local, "id": "k" * 36, "revoked_at": moment}))
+        links = Table("public_links", MetaData(), autoload_with=connection)
+        for number, owner in enumerate(("local", "k" * 36)):
+            row = {"id": f"{number}" * 36, "token": f"token-{number}", "owner": owner, "job_id": "j" * 36}
+            connection.execute(insert(links).values(row | {"created_at": moment}))
+    database.upgrade()
+    with database.read() as session:
+        link = good(session, "token-0")
+        assert link is not None and (link.id, link.hint) == ("0" * 36, "token-")
+        assert link.token_hash == digest("token-0")
+        assert good(session, "token-1") is None and good(session, link.token_hash) is None
+    with database.read() as session:
+        assert [one.id for one in page(session, None, 10, None)] == ["0" * 36]
 
 
 def test_jobs_of_before_are_found_by_words(database: Database) -> None:

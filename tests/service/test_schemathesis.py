@@ -79,6 +79,7 @@ def test_where_a_key_is(start: Callable[..., Running], picture: bytes, tmp_path:
     key = running.client.post("/v1/keys", json=asked).raise_for_status().json()
     running.stop()
     running.settings["require_keys"] = True
+    running.settings["wrong_keys_per_minute"] = 1_000_000  # wrong ones are to be told so, however many come
     running.start()
     running.client.headers["Authorization"] = f"Bearer {key['token']}"
     faultless(running, picture, tmp_path, "--header", f"Authorization: Bearer {key['token']}", key=key["id"])

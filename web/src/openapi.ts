@@ -635,6 +635,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/links": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List All Links
+         * @description The public links to all jobs, newest first: one's own, or with the scope `admin` those of every key.
+         */
+        get: operations["list_all_links"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/links/{link_id}": {
         parameters: {
             query?: never;
@@ -647,7 +667,7 @@ export interface paths {
         post?: never;
         /**
          * Revoke Link
-         * @description Take a public link back.
+         * @description Take a public link back: one's own, or with the scope `admin` anybody's.
          */
         delete: operations["revoke_link"];
         options?: never;
@@ -1189,12 +1209,20 @@ export interface components {
         /** @description A public link, as its owner sees it. */
         LinkOut: {
             id: string;
-            url: string;
-            page: string;
+            owner: string;
+            job_id: string;
+            url: string | null;
+            page: string | null;
+            hint: string;
             artifacts: string[] | null;
             /** Format: date-time */
             created_at: string;
             expires_at: string | null;
+        };
+        /** @description Public links, newest first. */
+        LinkPage: {
+            items: components["schemas"]["LinkOut"][];
+            next_cursor: string | null;
         };
         /** @description A portion of a driver that holds a state. A job can name it as its driver: `driver/moment`. */
         MomentOut: {
@@ -6204,6 +6232,79 @@ export interface operations {
             };
             /** @description Not Found */
             404: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Too Many Requests */
+            429: {
+                headers: {
+                    /** @description Seconds. */
+                    "Retry-After": number;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+        };
+    };
+    list_all_links: {
+        parameters: {
+            query?: {
+                limit?: number;
+                cursor?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LinkPage"];
+                };
+            };
+            /** @description Unauthorized */
+            401: {
+                headers: {
+                    /** @description How to authenticate. */
+                    "WWW-Authenticate": string;
+                    /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
+                    "X-Request-Id": string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDocument"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
                 headers: {
                     /** @description The request's id, as in the service's log: the caller's own `X-Request-Id`, if it has this form. */
                     "X-Request-Id": string;

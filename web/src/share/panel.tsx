@@ -18,11 +18,13 @@ export default function SharePanel({ job }: { job: Job }) {
   const { doing, problem, attempt } = useDoing();
   const [term, setTerm] = useState<Term>('week');
   const [everything, setEverything] = useState(false);
+  const [made, setMade] = useState<Record<string, string>>({}); // the pages of links: the service tells each once
   const id = useId();
 
   const create = (): Promise<void> =>
     attempt(async () => {
-      await createLink(job.id, terms[term], everything ? null : shownTo(job));
+      const link = await createLink(job.id, terms[term], everything ? null : shownTo(job));
+      if (link.page) setMade((pages) => ({ ...pages, [link.id]: link.page as string }));
       links.reload();
     });
   const revoke = (link: PublicLink): Promise<void> =>
@@ -59,7 +61,14 @@ export default function SharePanel({ job }: { job: Job }) {
       <ul>
         {links.value?.map((link) => (
           <li key={link.id}>
-            <Copyable label={links.value?.length === 1 ? words.link : words.linkOf(moment(link.created_at))} value={new URL(link.page, location.href).href} />
+            {made[link.id] ? (
+              <Copyable
+                label={links.value?.length === 1 ? words.link : words.linkOf(moment(link.created_at))}
+                value={new URL(made[link.id] as string, location.href).href}
+              />
+            ) : (
+              <span>{words.earlier(moment(link.created_at), link.hint)}</span>
+            )}
             <small>
               {link.expires_at ? words.until(moment(link.expires_at)) : words.untilRevoked}
               {' · '}

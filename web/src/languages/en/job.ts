@@ -177,7 +177,7 @@ export const job = {
 
   share: {
     title: 'Share',
-    hint: 'Anyone with the link can see the result, without a key. Your uploaded picture and video are not shared.',
+    hint: 'Anyone with the link can see the result, without a key. Your uploaded picture and video are not shared. Copy a link when it is made: it is shown this once.',
     here: (host: string) =>
       `You are at ${host}: links work on this computer only. To share them, start the service on an address that others can reach.`,
     term: 'Expires after',
@@ -186,6 +186,7 @@ export const job = {
     create: 'Create link',
     link: 'Link',
     linkOf: (made: string) => `Link of ${made}`,
+    earlier: (made: string, hint: string) => `Link of ${made}, which begins with ${hint}`,
     until: (moment: string) => `Expires ${moment}.`,
     untilRevoked: 'Never expires.',
     videoOnly: 'Result only',
