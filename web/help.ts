@@ -1,6 +1,6 @@
 /** The documentation as pages beside the page, under `help/`: whoever runs the service has it without a network. */
 
-import { readdirSync, readFileSync } from 'node:fs';
+import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { Marked } from 'marked';
 import type { Plugin } from 'vite';
@@ -28,8 +28,10 @@ export function help(folder: string): Plugin {
     generateBundle() {
       for (const path of readdirSync(folder, { recursive: true, encoding: 'utf8' })) {
         const source = join(folder, path);
-        if (/\.(jpg|png)$/.test(path)) this.emitFile({ type: 'asset', fileName: `help/${path}`, source: readFileSync(source) });
-        if (!path.endsWith('.md')) continue;
+        if (!path.endsWith('.md')) {
+          if (statSync(source).isFile()) this.emitFile({ type: 'asset', fileName: `help/${path}`, source: readFileSync(source) });
+          continue;
+        }
         const name = path.slice(0, -'.md'.length);
         this.emitFile({ type: 'asset', fileName: `help/${name}.html`, source: page(name, readFileSync(source, 'utf8')) });
       }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
@@ -12,6 +13,7 @@ from service.artifacts import repository
 from service.artifacts.archive import zipped
 from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.artifacts.links import good
+from service.artifacts.naming import download_name
 from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
 from service.context import InContext
@@ -47,9 +49,11 @@ def get_artifact(
             caller.require("read")
             found(session, caller.owner, job_id)
         artifact = repository.get(session, job_id, name)
-    if artifact is None:
+        job = jobs.get(session, job_id)
+    if artifact is None or job is None:
         raise Problem(404, "artifact_not_found", "The job has no artifact of this name (yet).")
-    return deliver(artifact.stored, context.storage, request.headers, request.method == "HEAD")
+    stored = replace(artifact.stored, name=download_name(name, job.notes, job.inputs, job.options))
+    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
 
 
 @router.get(

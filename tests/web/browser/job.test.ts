@@ -44,7 +44,7 @@ describe('a job that succeeds', () => {
       page.waitForEvent('download'),
       page.getByRole('link', { name: 'Download video' }).click(),
     ]);
-    expect(download.suggestedFilename()).toBe('animation.mp4');
+    expect(download.suggestedFilename()).toBe('animation.mp4'); // whoever ordered it gave no name
     await page.getByText('All files').click();
     const [archive] = await Promise.all([
       page.waitForEvent('download'),

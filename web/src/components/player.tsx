@@ -1,4 +1,4 @@
-/** The result beside the performance that it acts out: one play button and one slider for both. */
+/** The result, large, and in its corner the performance that it acts out: one play button and one slider for both. */
 
 import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
@@ -33,12 +33,14 @@ export function Player(props: Props) {
   const [muted, setMuted] = useState(true);
   const [speed, setSpeed] = useState(1);
   const [unplayable, setUnplayable] = useState(false);
-  const [aspects, setAspects] = useState({ result: 1, driver: 1 });
-  useInStep(leader, follower, driver, start, playing, setTime);
+  const [aspect, setAspect] = useState(1);
+  const [inset, setInset] = useState(true);
+  const shown = inset ? driver : null;
+  useInStep(leader, follower, shown, start, playing, setTime);
 
   useEffect(() => {
     for (const video of [leader.current, follower.current]) if (video) video.playbackRate = speed;
-  }, [speed]);
+  }, [speed, shown]);
 
   const play = (): void => {
     const video = leader.current;
@@ -58,8 +60,8 @@ export function Player(props: Props) {
 
   return (
     <section class="player" aria-label={props.label ?? words.label}>
-      <div class="pair">
-        <figure style={{ '--aspect': aspects.result }}>
+      <div class="film" style={{ '--aspect': aspect }}>
+        <figure>
           <video
             ref={leader}
             src={result}
@@ -71,7 +73,7 @@ export function Player(props: Props) {
             onLoadedMetadata={(event) => {
               const video = event.currentTarget;
               setTotal(video.duration);
-              setAspects((known) => ({ ...known, result: aspectOf(video) }));
+              setAspect(aspectOf(video));
               if (!matchMedia('(prefers-reduced-motion: reduce)').matches) play();
             }}
             onPlay={() => setPlaying(true)}
@@ -79,24 +81,20 @@ export function Player(props: Props) {
             onEnded={ended}
             onClick={() => (playing ? leader.current?.pause() : play())}
           />
-          <figcaption>{strings.job.result}</figcaption>
+          <figcaption class="unseen">{strings.job.result}</figcaption>
         </figure>
-        {driver && (
-          <figure style={{ '--aspect': aspects.driver }}>
+        {shown && (
+          <figure class="inset">
             {unplayable ? (
               <p class="unshowable">{strings.job.driverUnplayable}</p>
             ) : (
               <video
                 ref={follower}
-                src={driver}
+                src={shown}
                 muted
                 playsInline
                 preload="auto"
                 aria-label={strings.job.driver}
-                onLoadedMetadata={(event) => {
-                  const video = event.currentTarget;
-                  setAspects((known) => ({ ...known, driver: aspectOf(video) }));
-                }}
                 onError={() => setUnplayable(true)}
               />
             )}
@@ -123,6 +121,11 @@ export function Player(props: Props) {
         <button type="button" class="toggle" aria-pressed={repeat} onClick={() => setRepeat(!repeat)}>
           {words.repeat}
         </button>
+        {driver && (
+          <button type="button" class="toggle" aria-pressed={inset} onClick={() => setInset(!inset)}>
+            {words.inset}
+          </button>
+        )}
         {hasSound && (
           <button type="button" class="toggle" aria-pressed={!muted} onClick={() => setMuted(!muted)}>
             {words.sound}

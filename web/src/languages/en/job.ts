@@ -129,7 +129,8 @@ export const job = {
   },
 
   player: {
-    label: 'Result and performance, side by side',
+    label: 'Result and performance',
+    inset: 'Performance',
     play: 'Play',
     pause: 'Pause',
     position: 'Position',

@@ -1,0 +1,45 @@
+"""What a result is called when it is saved: after its picture and what the picture does, as `grace-hopper-happy.mp4`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+LONGEST = 60
+"""Characters of each part."""
+
+PICTURE = ("portrait", "photo")
+"""Names in a job's metadata that tell of its picture; likewise of what it does:"""
+PERFORMANCE = ("performance", "motion")
+
+_ID = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
+
+
+def download_name(
+    artifact: str, metadata: Mapping[str, Any], inputs: Mapping[str, Any], options: Mapping[str, Any]
+) -> str:
+    """The name under which a job's artifact is saved: letters, digits and dashes, then its ending.
+
+    The animation has the job's name alone, everything else its own name, too. Where the job says nothing of its
+    picture, the artifact's own name stays.
+    """
+    picture = _words(_first(metadata, PICTURE))
+    if not picture:
+        return artifact
+    named = inputs.get("driver") or inputs.get("motion") or options.get("motion")
+    known = named if isinstance(named, str) and not _ID.fullmatch(named) and "://" not in named else ""
+    parts = [picture, _words(_first(metadata, PERFORMANCE) or known)]
+    stem, _, ending = artifact.rpartition(".")
+    if stem != "animation":
+        parts.append(_words(stem))
+    return "-".join(filter(None, parts)) + f".{ending}"
+
+
+def _first(metadata: Mapping[str, Any], names: tuple[str, ...]) -> str:
+    return next((value for name in names if isinstance(value := metadata.get(name), str) and value), "")
+
+
+def _words(text: str) -> str:
+    """Letters and digits of any script, and dashes between them: nothing that a file system or a shell reads."""
+    return re.sub(r"[\W_]+", "-", text.casefold()).strip("-")[:LONGEST].strip("-")
