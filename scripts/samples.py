@@ -19,6 +19,7 @@ from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
 from engine.portrait import animate
+from scripts.sample_figures import FIGURES, paint_figure
 
 OUT = Path(__file__).parent.parent / "web" / "public" / "samples"
 QUALITY = 90
@@ -69,6 +70,10 @@ def main() -> None:
         picture = sample.picture()
         write_image(OUT / f"{sample.name}.jpg", picture, quality=QUALITY)
         write_image(OUT / f"{sample.name}-small.jpg", small(picture, *sample.face), quality=QUALITY)
+    for figure in FIGURES:
+        picture = paint_figure(figure)
+        write_image(OUT / f"{figure.name}.jpg", picture, quality=QUALITY)
+        write_image(OUT / f"{figure.name}-small.jpg", small(picture, 0.5, 0.48, 0.75), quality=QUALITY)
     move(*MOVING)
 
 

@@ -1,7 +1,7 @@
 /** Pictures to begin with, for who has none at hand: the service hands them out, under addresses that programs may use too. */
 
 export const portraitSamples = ['grace-hopper', 'eileen-collins'] as const;
-export const figureSamples = [] as const;
+export const figureSamples = ['woman-in-red', 'man-in-green'] as const;
 
 export type SampleName = (typeof portraitSamples)[number] | (typeof figureSamples)[number];
 
@@ -9,7 +9,8 @@ export const sampleUrl = (name: SampleName): string => `/samples/${name}.jpg`;
 /** A square for choosing. */
 export const smallUrl = (name: SampleName): string => `/samples/${name}-small.jpg`;
 
-const fileName = (name: SampleName): string => `${name}.jpg`;
+/** As its file is called, and what is made of it: `Grace Hopper.jpg`. */
+const fileName = (name: SampleName): string => `${name.replace(/(^|-)(\w)/g, (_all, dash: string, first: string) => (dash && ' ') + first.toUpperCase())}.jpg`;
 
 /** A sample as a file of the visitor's own would be. */
 export async function sampleFile(name: SampleName): Promise<File> {

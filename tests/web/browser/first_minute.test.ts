@@ -30,7 +30,7 @@ describe('whoever comes for the first time', () => {
     await page.getByRole('radio', { name: 'Happy', exact: true, checked: true }).waitFor({ state: 'attached' });
     for (const one of [hopper(page), start(page)]) expect(await inSight(one)).toBe(true);
     await hopper(page).click();
-    await page.getByLabel('Portrait: grace-hopper.jpg. Choose another').waitFor({ state: 'attached' });
+    await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
     expect(await page.evaluate(() => scrollY)).toBe(0);
     await start(page).click();
     await played(page);
@@ -64,7 +64,7 @@ describe('whoever comes for the first time', () => {
     const height = () => page.locator('.studio').evaluate((form) => form.getBoundingClientRect().height);
     const before = [...(await places()), await height()];
     await hopper(page).click();
-    await page.getByLabel('Portrait: grace-hopper.jpg. Choose another').waitFor({ state: 'attached' });
+    await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
     expect([...(await places()), await height()]).toEqual(before);
   });
 });

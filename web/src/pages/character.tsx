@@ -60,7 +60,7 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
           <section class="panel" aria-labelledby="photo-title">
             <h2 id="photo-title">{words.photo}</h2>
             <p class="hint">{words.photoHint}</p>
-            {figureSamples.length > 0 && <Samples names={figureSamples} chosen={photo} onChoose={setPhoto} />}
+            <Samples names={figureSamples} chosen={photo} onChoose={setPhoto} />
             <Dropzone
               media="image"
               file={photo}
