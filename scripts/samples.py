@@ -73,7 +73,7 @@ def main() -> None:
     for figure in FIGURES:
         picture = paint_figure(figure)
         write_image(OUT / f"{figure.name}.jpg", picture, quality=QUALITY)
-        write_image(OUT / f"{figure.name}-small.jpg", small(picture, 0.5, 0.48, 0.75), quality=QUALITY)
+        write_image(OUT / f"{figure.name}-small.jpg", small(picture, 0.5, 0.31, 0.52), quality=QUALITY)
     move(*MOVING)
 
 

@@ -54,6 +54,8 @@ function withStages(stages: string[], { stages: told, stage }: Progress): string
 }
 
 const RETRY_MS = 2000;
+/** How often a job that waits is asked for its place in the queue. */
+const QUEUE_MS = 4000;
 
 /** Follow a job until it is finished. Where the line breaks, the browser takes up the events where it left off. */
 export function useJob(id: string): Followed {
@@ -67,6 +69,7 @@ function watch(id: string, change: (change: Change) => void): () => void {
   const stop = new AbortController();
   let source: EventSource | null = null;
   let retry = 0;
+  let waiting = 0;
   let reading: Promise<void> | null = null;
   let stale = false;
   let lastEvent = '';
@@ -77,6 +80,8 @@ function watch(id: string, change: (change: Change) => void): () => void {
       change({ type: 'job', job });
       if (finished(job)) stop.abort();
       else if (!source) listen();
+      clearTimeout(waiting);
+      if (job.status === 'queued') waiting = window.setTimeout(reread, QUEUE_MS); // no event tells of others' ends
     } catch (error) {
       if (stop.signal.aborted) return;
       if (error instanceof Problem && error.code !== 'unreachable') change({ type: 'problem', problem: error });
@@ -114,6 +119,7 @@ function watch(id: string, change: (change: Change) => void): () => void {
   stop.signal.addEventListener('abort', () => {
     source?.close();
     clearTimeout(retry);
+    clearTimeout(waiting);
   });
   reread();
   return () => stop.abort();

@@ -110,7 +110,7 @@ export function Card({ value, label, title, url, poster, checked, onChoose }: Ca
 }
 
 /** A built-in performance by its state, in the page's language; one's own by the name that it was kept under. */
-const labelOf = ({ name, state }: Driver): string => (state ? words.states[state] : plain(name));
+export const labelOf = ({ name, state }: Driver): string => (state ? words.states[state] : plain(name));
 
 /** A moment by its state, its number among those of the state, and how long it is. */
 const momentLabel = ({ name, state, strength, seconds }: Moment): string => {

@@ -6,7 +6,7 @@ import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { peopleOf } from '../viewer/people';
 import { later } from './later';
-import { Files, Sharing, Took, Warnings } from './left';
+import { Files, InCode, Sharing, Took, Warnings } from './left';
 import { Player } from './player';
 import type { Pose } from './redo';
 
@@ -39,6 +39,7 @@ export default function CharacterResult({ job, onPose }: Props) {
         {film && <Download job={job} name={film[0]} label={words.video} />}
         <Files job={job} open={!film} />
         <Sharing job={job} />
+        <InCode job={job} />
       </div>
       <Warnings report={report.value} />
       <Took job={job} />

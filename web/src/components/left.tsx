@@ -7,6 +7,7 @@ import { strings } from '../strings';
 import { later } from './later';
 
 const SharePanel = later(() => import('../share/panel'));
+const CodePanel = later(() => import('../share/code'));
 const words = strings.job;
 
 /** Everything that the run left, each to be saved by itself. */
@@ -40,6 +41,17 @@ export function Sharing({ job }: { job: Job }) {
     <details class="files" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary class="button">{strings.share.title}</summary>
       {open && <SharePanel job={job} />}
+    </details>
+  );
+}
+
+/** The request that made the result, for who wants to make more of them. */
+export function InCode({ job }: { job: Job }) {
+  const [open, setOpen] = useState(false);
+  return (
+    <details class="files" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+      <summary class="button">{words.use}</summary>
+      {open && <CodePanel job={job} />}
     </details>
   );
 }

@@ -5,8 +5,9 @@ import { size } from '../format';
 import { useLoaded } from '../loading';
 import { performanceUrl } from '../names';
 import { strings } from '../strings';
-import { Files, Sharing, Took, Warnings } from './left';
+import { Files, InCode, Sharing, Took, Warnings } from './left';
 import { Living } from './living';
+import { Moods } from './moods';
 import { Player } from './player';
 
 const words = strings.job;
@@ -42,7 +43,9 @@ export function Result({ job }: { job: Job }) {
         )}
         <Files job={job} open={!found} />
         <Sharing job={job} />
+        <InCode job={job} />
       </div>
+      {!profile && <Moods job={job} />}
       <Warnings report={report.value} />
       <Took job={job} />
     </div>

@@ -9,6 +9,8 @@ const words = strings.job;
 /** The stage of a job that waits for the engine to be compiled, which the service does once. */
 const prepareEngine = 'prepare_engine';
 
+const place = ({ queue_position: at }: Job): string => (at === null ? '' : at === 1 ? words.next : words.place(at));
+
 export function Stages({ job, stages }: { job: Job; stages: string[] }) {
   const queued = job.status === 'queued';
   const { fraction = 0, eta_seconds: eta = null, stage: current } = job.progress;
@@ -23,7 +25,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
       </p>
       <progress aria-label={words.progress} max="1" value={queued ? undefined : fraction} />
       <p class="figures">
-        <span>{preparing ? words.preparing : queued ? '' : words.done(percent(fraction))}</span>
+        <span>{preparing ? words.preparing : queued ? place(job) : words.done(percent(fraction))}</span>
         <span>{eta !== null && !queued ? words.left(duration(eta)) : ''}</span>
       </p>
       {stages.length > 0 && (

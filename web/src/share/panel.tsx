@@ -7,6 +7,7 @@ import { Trouble } from '../components/trouble';
 import { moment } from '../format';
 import { useDoing, useLoaded } from '../loading';
 import { strings } from '../strings';
+import { isLoopback } from './host';
 import '../styles/share.css';
 
 const words = strings.share;
@@ -83,9 +84,6 @@ export default function SharePanel({ job }: { job: Job }) {
     </section>
   );
 }
-
-/** Whether an address of this host leads whoever has it to their own machine. */
-export const isLoopback = (host: string): boolean => /^(localhost|.*\.localhost|127(\.\d+){3}|\[::1\])$/.test(host);
 
 /** What a link opens unless it is to open everything: the animation, and the picture that stands for it. */
 const shownTo = (job: Job): string[] =>

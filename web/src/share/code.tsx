@@ -1,0 +1,45 @@
+/** The request behind a result, and what embeds it, to be copied. */
+
+import { useState } from 'preact/hooks';
+import type { Job } from '../api';
+import { strings } from '../strings';
+import { isLoopback } from './host';
+import { curlOf, htmlOf, pythonOf } from './requests';
+import '../styles/share.css';
+
+const words = strings.job;
+
+export default function CodePanel({ job }: { job: Job }) {
+  const key = !isLoopback(location.hostname);
+  const html = htmlOf(job);
+  return (
+    <section class="panel share" aria-label={words.use}>
+      <p class="hint">{words.useHint}</p>
+      <Snippet label={words.curl} code={curlOf(job, location.origin, key)} />
+      <Snippet label={words.python} code={pythonOf(job, location.origin, key)} />
+      {html && <Snippet label={words.embed} code={html} />}
+    </section>
+  );
+}
+
+function Snippet({ label, code }: { label: string; code: string }) {
+  const [copied, setCopied] = useState(false);
+  const copy = (): void =>
+    void navigator.clipboard?.writeText(code).then(
+      () => setCopied(true),
+      () => setCopied(false), // it can be selected by hand
+    );
+  return (
+    <div class="snippet">
+      <h3>{label}</h3>
+      <pre tabIndex={0}>
+        <code>{code}</code>
+      </pre>
+      {navigator.clipboard && (
+        <button type="button" class="toggle" aria-label={`${strings.copy}: ${label}`} onClick={copy}>
+          {copied ? strings.copied : strings.copy}
+        </button>
+      )}
+    </div>
+  );
+}
