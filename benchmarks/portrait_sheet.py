@@ -26,7 +26,7 @@ from engine.errors import InputError
 from engine.media.image import read_image
 from engine.media.video import read_video
 from engine.performances import video
-from engine.portrait import animate
+from galatea import animate
 
 CLIPS = ("woman_funny_faces_d6", "woman_frown_surprise_d3", "man_talk_tps")
 OPTIONS: Mapping[str, Any] = {"crop": "bust", "size": (640, 640)}
@@ -89,7 +89,7 @@ def _driven(label: str, driver: Path, part: Part = None) -> Row:
 def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
     """The portrait at rest, and what it makes of a part of the driver."""
     with TemporaryDirectory() as folder:
-        made = animate(picture, driver, folder, cache=cache, **options)
+        made = animate(picture, driver, folder, cache=cache, **options).path
         rest = read_image(Path(folder) / "preview.jpg").rgb
         return Row(picture.stem, [_cell(rest), *_moments(made, part)])
 

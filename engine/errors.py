@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 
-class InputError(Exception):
-    """What the user gave cannot be used. Anything else that is raised is a bug.
+class GalateaError(Exception):
+    """What a user can do something about. Anything else that is raised is a bug.
 
     `code` is stable (`no_face`, `video_unreadable`, ...); `detail` is one sentence that says what to
     do; `correctable` names the corrections (`landmarks`, `face_index`, ...) that could mend it; `found` is what helps
@@ -26,6 +26,10 @@ class InputError(Exception):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.code, self.detail, self.correctable, self.found)
+
+
+class InputError(GalateaError):
+    """What the user gave cannot be used."""
 
 
 class Canceled(Exception):

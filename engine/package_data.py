@@ -5,8 +5,10 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
+from engine.errors import GalateaError
 
-class IncompleteInstallation(Exception):
+
+class IncompleteInstallation(GalateaError):
     """A file of the program's own is not there. Nothing is wrong with what a user gave."""
 
 
@@ -25,6 +27,7 @@ def package_data(package: str, name: str) -> Path:
     path = package_folder(package, name)
     if not path.is_file():
         raise IncompleteInstallation(
-            f"{path} is missing: the installation is not whole. `galatea doctor` says what else is, and how to mend it."
+            "installation_incomplete",
+            f"{path} is missing: the installation is not whole. `galatea doctor` says what else is, and how to mend it.",
         )
     return path

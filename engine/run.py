@@ -40,6 +40,9 @@ Turn = Literal["began", "ended", "broke"]
 PATIENCE = 0.2
 """Seconds after which a wait for another core looks whether the run was canceled."""
 
+NOT_YET = 0.999
+"""The largest fraction before a run is over: 1 is told once, when there is nothing left to do."""
+
 FORMAT = 3
 """Of what stages give: raised where it changes between releases, so that nothing older is taken for it."""
 
@@ -54,7 +57,8 @@ class Progress:
 
 
 class Run:
-    """One run of a system. Used as a context manager, it is over when its last stage is, those that run beside included.
+    """One run of a system. Used as a context manager, it is over when its last stage is, those that run beside included;
+    then, and not before, its progress is 1.
 
     Parameters
     ----------
@@ -73,7 +77,7 @@ class Run:
         self,
         store: StageStore | None = None,
         shared: StageStore | None = None,
-        on_progress: Callable[[Progress], None] | None = None,
+        on_progress: Callable[[Progress], object] | None = None,
         canceled: Callable[[], bool] | None = None,
         on_artifact: Callable[[Path], None] | None = None,
         limits: Limits | None = None,
@@ -164,6 +168,8 @@ class Run:
         """Left when nothing works beside any more: after an error, when all have come to their next `tick`."""
         self._broken = self._broken or error is not None
         wait_for(tuple(self._others))
+        if error is None:
+            self._on_progress(Progress(self._current, 1.0))
 
     def _output(self, name: str, function: Callable[..., T], arguments: Sequence[Any], store: StageStore | None) -> T:
         """The output from the store, or made and stored together with the notices given while it was made."""
@@ -264,7 +270,7 @@ class Run:
             return
         self._last_report = (now, self._current)
         share = self._weights.get(self._current, 0.0)
-        self._furthest = max(self._furthest, min(self._done + share * fraction, 1.0))
+        self._furthest = max(self._furthest, min(self._done + share * fraction, NOT_YET))
         self._on_progress(Progress(self._current, self._furthest, message))
 
 

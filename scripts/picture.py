@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.media.image import write_image
 from engine.media.video import probe_video, read_video
 from engine.performances import video
-from engine.portrait import animate
+from galatea import animate
 
 OUT = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
 MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
@@ -29,7 +29,7 @@ def main() -> None:
     above, below = [], []
     with TemporaryDirectory() as folder:
         made = {
-            name: _frames(animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE, 2 * SIDE)))
+            name: _frames(animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE, 2 * SIDE)).path)
             for name in {name for name, _ in MOMENTS}
         }
         for name, seconds in MOMENTS:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
-from engine.portrait import animate
+from galatea import animate
 from scripts.sample_figures import FIGURES, paint_figure
 
 OUT = Path(__file__).parent.parent / "web" / "public" / "samples"
@@ -90,7 +90,7 @@ def small(picture: NDArray[np.uint8], x: float, y: float, height: float) -> NDAr
 def move(name: str, performance: str) -> None:
     """The clip of a portrait that acts something out, and its first frame: the portrait as it is."""
     with TemporaryDirectory() as folder:
-        video = animate(OUT / f"{name}.jpg", performance, Path(folder), crop="bust", size=CLIP, loop=True)
+        video = animate(OUT / f"{name}.jpg", performance, Path(folder), crop="bust", size=CLIP, loop=True).path
         shrink(video, OUT / f"{name}-{performance}.mp4")
     first = next(iter(read_video(OUT / f"{name}-{performance}.mp4")))
     write_image(OUT / f"{name}-still.jpg", first.rgb, quality=QUALITY)

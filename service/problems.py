@@ -20,8 +20,8 @@ from starlette.responses import Response
 from starlette.routing import Match
 from starlette.types import Scope
 
+from engine.unknown_options import explained
 from service.database import database_unavailable
-from service.kinds.unknown_options import explained
 from service.postgresql import UNTRANSLATABLE, error_code
 from service.storage import StorageUnavailable
 from service.traces.current import current_request

@@ -6,8 +6,6 @@ The first input is an argument where it is a picture or the only one; every othe
 from __future__ import annotations
 
 import json
-import shutil
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from errno import EDQUOT, ENOSPC
@@ -17,13 +15,14 @@ from typing import Any, TextIO
 import click
 from pydantic import BaseModel, ValidationError
 
+from engine.delivery import deliver
 from engine.errors import Canceled, InputError
 from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
+from engine.unknown_options import explained
 from service.kinds import library
-from service.kinds.unknown_options import explained
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced
@@ -129,21 +128,18 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
 def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path, settings: Settings) -> None:
     cache = StageStore(settings.data_dir / "shell")
     try:
-        out.mkdir(parents=True, exist_ok=True)
         with (
-            tempfile.TemporaryDirectory(prefix=".galatea-", dir=out) as draft,
             libraries_silenced() as shown,
             _bar(kind.name, shown) as report,
             Run(cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic) as run,
         ):
-            kind.work(inputs, options, Path(draft), run)
-            results = [Path(shutil.move(made, out / made.name)) for made in sorted(Path(draft).iterdir())]
+            results = deliver(kind, inputs, options, out, run)
     except InputError as error:
         raise Complaint(f"{error.code}: {error.detail}") from error
     except Canceled:
         raise click.Abort from None
     except IncompleteInstallation as error:
-        raise click.ClickException(str(error)) from error
+        raise click.ClickException(error.detail) from error
     except OSError as error:
         if error.errno in (ENOSPC, EDQUOT) or isinstance(error, PermissionError | NotADirectoryError | FileExistsError):
             raise Complaint(f"{error.filename or out}: {error.strerror}") from error

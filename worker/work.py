@@ -124,7 +124,7 @@ def _unexpected(error: BaseException) -> dict[str, Any]:
         if isinstance(link, MemoryError) or getattr(link, "code", None) == -4:  # OpenCV's StsNoMem
             return failed("out_of_memory", "The job needs more memory than a job may use: send a smaller input.")
         if isinstance(link, IncompleteInstallation):
-            return failed("installation_incomplete", f"The worker is not whole. {link}")
+            return failed("installation_incomplete", f"The worker is not whole. {link.detail}")
         number = getattr(link, "errno", None)
         if number in (ENOSPC, EDQUOT):
             return failed("disk_full", "The disk became full during the job: free space and submit it again.")

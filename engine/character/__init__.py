@@ -1,23 +1,19 @@
 """One full-body picture becomes a rigged 3D character that walks out of it.
 
 Source: C.-Y. Weng, B. Curless, I. Kemelmacher-Shlizerman, Photo Wake-Up: 3D Character Animation from a Single Photo,
-CVPR 2019. "The paper" in this folder is that one.
-
-from engine.character import wake_up
-wake_up("photo.jpg", "out", motion="dance")
+CVPR 2019. "The paper" in this folder is that one. In Python it is `galatea.wake_up`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from pydantic import BaseModel
 
-from engine.character.options import CharacterOptions
+from engine.character.options import MOTIONS, CharacterOptions
 from engine.kind import Given, Input, Kind
-from engine.run import Progress, Run
+from engine.run import Run
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
@@ -25,34 +21,6 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
     assert isinstance(options, CharacterOptions)
     wake_up(inputs, options, out, run)
-
-
-def wake_up(
-    photo: str | Path,
-    out: str | Path,
-    motion_file: str | Path | None = None,
-    on_progress: Callable[[Progress], None] | None = None,
-    **options: Any,
-) -> Path:
-    """Wake a person up: leaves `character.glb`, `animation.mp4`, `report.json` and the rest in `out`; returns it.
-
-    Parameters
-    ----------
-    photo : a picture that shows one person whole.
-    motion_file : a BVH or GLB file to move by, in place of the built-in clip that the option `motion` names.
-    options : see `engine.character.options.CharacterOptions`.
-
-    Raises
-    ------
-    engine.errors.InputError : the input cannot be used; its code and sentence say why and what to do.
-    pydantic.ValidationError : an option is wrong.
-    FileNotFoundError : there is no such picture or motion file.
-    """
-    folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
-    inputs = {"photo": Path(photo)} | ({"motion": Path(motion_file)} if motion_file is not None else {})
-    _work(inputs, CharacterOptions.model_validate(options), folder, Run(on_progress=on_progress))
-    return folder
 
 
 def _prepare() -> None:
@@ -110,3 +78,5 @@ KIND = Kind(
     prepare=_prepare,
     rehearse=_rehearse,
 )
+
+__all__ = ["KIND", "MOTIONS", "CharacterOptions"]

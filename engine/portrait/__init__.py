@@ -1,23 +1,15 @@
-"""Portraits brought to life: a still face acts out a driving video.
-
-from engine.portrait import animate
-animate("portrait.jpg", "driver.mp4", "out")
-"""
+"""Portraits brought to life: a still face acts out a driving video. In Python it is `galatea.animate`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import Any
 
 from pydantic import BaseModel
 
-from engine.allocation import give_back_memory
-from engine.kind import AUTO, Candidates, Given, Input, Kind
+from engine.kind import Given, Input, Kind
 from engine.portrait.options import PortraitOptions
-from engine.run import Progress, Run
-from engine.store import StageStore
+from engine.run import Run
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
@@ -77,62 +69,4 @@ KIND = Kind(
 )
 
 
-def animate(
-    image: str | Path,
-    driver: str | Path | None,
-    out: str | Path,
-    progress: Callable[[Progress], None] | None = None,
-    cache: str | Path | None = None,
-    mark_synthetic: bool = True,
-    **options: Any,
-) -> Path:
-    """Animate a portrait; returns the path of the animation.
-
-    Parameters
-    ----------
-    image : the portrait's file. driver : a video's file, the name of a built-in performance, or `auto`:
-    the performance that fits the picture best (`report.json` says why); None is enough for a reactive profile.
-    out : folder for the artifacts, made if it is not there.
-    progress : called with `Progress(stage, fraction, message)`.
-    cache : folder in which analyses are kept, so that the same driver or portrait is quicker next time.
-    mark_synthetic : whether the results say of themselves, for machines to read, that they are synthetic.
-    options : those of `PortraitOptions`, such as `strength=0.8` or `sound=True`.
-
-    Raises
-    ------
-    engine.errors.InputError : the picture or the video cannot be used; says what to do.
-    pydantic.ValidationError : an option is wrong.
-    FileNotFoundError : there is no such picture, or no such video or built-in performance.
-    TypeError : there is no driver, and no reactive profile is asked for.
-    """
-    chosen = PortraitOptions(**options)
-    folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
-    inputs: dict[str, Given] = {"image": Path(image)}
-    if driver is not None:
-        inputs["driver"] = _driver(str(driver))
-    elif not chosen.reactive:
-        raise TypeError("a driver is needed: a video's file, the name of a built-in performance, or auto")
-    with (
-        TemporaryDirectory(prefix="galatea-") as passing,
-        Run(
-            StageStore(Path(cache or passing)),
-            on_progress=progress,
-            mark_synthetic=mark_synthetic,
-            on_stage=lambda name, turn: give_back_memory(),
-        ) as run,
-    ):
-        _work(inputs, chosen, folder, run)
-    return folder / chosen.animation
-
-
-def _driver(given: str) -> Given:
-    """What a driver's name or path stands for."""
-    from engine.performances import names, video
-
-    if given == AUTO:
-        return Candidates({name: video(name) for name in names()})
-    return video(given) if given in names() else Path(given)
-
-
-__all__ = ["KIND", "PortraitOptions", "animate"]
+__all__ = ["KIND", "PortraitOptions"]

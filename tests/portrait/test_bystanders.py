@@ -14,11 +14,11 @@ from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.faces import find_faces
-from engine.portrait import animate
 from engine.portrait.bystanders import own_share
 from engine.portrait.layers import separate_layers
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
+from galatea import animate
 
 SIDE = 360
 

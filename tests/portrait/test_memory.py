@@ -16,9 +16,9 @@ FPS, SIDE = 30, 224
 ANIMATE = """
 import re, sys
 from pathlib import Path
-from engine.portrait import animate
+from galatea import animate
 from engine.media.video import read_video
-made = animate(*sys.argv[1:4])
+made = animate(*sys.argv[1:4]).path
 # Not getrusage, whose peak a child inherits from its parent.
 print(sum(1 for _ in read_video(made)), re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
 """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from service.kinds.unknown_options import explained
+from engine.unknown_options import explained
 
 
 class Inner(BaseModel):

@@ -20,7 +20,7 @@ from engine.media.image import write_image
 from engine.media.video import probe_video
 from engine.performances import poster
 
-PACKAGES = ("engine", "service", "worker", "shell", "galatea_client")
+PACKAGES = ("engine", "service", "worker", "shell", "galatea", "galatea_client")
 BESIDE = ("pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE")
 PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet")
 
@@ -90,6 +90,8 @@ def test_nothing_of_the_checkout_is_seen(installed: Installed) -> None:
     said = run(installed.python, "-c", asked, cwd=installed.folder)
     assert all(path.startswith(str(installed.packages)) for path in said.stdout.split()), said.stdout + said.stderr
     assert str(ROOT) not in said.stdout
+    said = run(installed.python, "-c", "import galatea; print(galatea.__file__)", cwd=installed.folder)
+    assert said.stdout.startswith(str(installed.packages)), said.stderr
 
 
 def test_the_doctor_finds_it_whole(installed: Installed) -> None:

@@ -12,7 +12,7 @@ from engine.package_data import IncompleteInstallation, package_data, package_fo
 from shell import installation
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("engine", "service", "worker", "shell", "galatea_client")
+PACKAGES = ("engine", "service", "worker", "shell", "galatea", "galatea_client")
 NOT_SHIPPED = {"galatea_client/pyproject.toml"}
 
 

@@ -98,7 +98,7 @@ def test_options_come_from_a_file_too(tmp_path: Path, environment: dict[str, str
     ended = galatea(environment, "tiny", tmp_path / "a.png", "-o", tmp_path / "out", "--options", options)
     assert ended.returncode == 2
     assert ended.stderr == "Error: no_face: No face was found: choose another picture.\n"
-    assert list((tmp_path / "out").iterdir()) == [], "nothing half-made is left"
+    assert not (tmp_path / "out").exists(), "nothing half-made is left"
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_ctrl_c_leaves_nothing_half_made(tmp_path: Path, environment: dict[str, 
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     assert process.wait(20) != 0
-    assert list(out.iterdir()) == []
+    assert not out.exists()
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::"])
@@ -181,7 +181,7 @@ def test_a_picture_without_a_face_ends_with_one_line(tmp_path: Path, environment
     assert (ended.returncode, ended.stdout) == (2, "")
     (line,) = ended.stderr.splitlines()
     assert line.startswith("Error: no_face: ")
-    assert list((tmp_path / "out").iterdir()) == []
+    assert not (tmp_path / "out").exists()
 
 
 def test_the_moments_of_a_video(tmp_path: Path, environment: dict[str, str]) -> None:

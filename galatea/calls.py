@@ -1,0 +1,149 @@
+"""The functions: each makes its inputs files, its options a model, and has a job kind's work done."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, TypeAlias, TypeVar, Unpack
+
+from pydantic import BaseModel, ValidationError
+
+from engine import character, portrait
+from engine.allocation import give_back_memory
+from engine.delivery import deliver
+from engine.errors import InputError
+from engine.kind import AUTO, Candidates, Given
+from engine.performances import names, video
+from engine.run import Progress, Run
+from engine.store import StageStore
+from engine.unknown_options import explained
+from galatea.inputs import File, Picture, file, picture_file
+from galatea.noise import native_noise_left_out
+from galatea.options import CharacterOptions, PortraitOptions
+from galatea.result import Result, result_of
+
+Folder: TypeAlias = str | os.PathLike[str]
+Follower: TypeAlias = Callable[[Progress], object]
+Options = TypeVar("Options", bound=BaseModel)
+
+
+def animate(
+    image: Picture,
+    driver: File | None,
+    out: Folder,
+    *,
+    progress: Follower | None = None,
+    cache: Folder | None = None,
+    mark_synthetic: bool = True,
+    **options: Unpack[PortraitOptions],
+) -> Result:
+    """Animate a portrait: it acts out a driving video.
+
+    Parameters
+    ----------
+    image : the portrait.
+    driver : a video, the name of a built-in performance, or `auto`: the performance that fits the picture best (the report
+        says why). None is enough for a reactive profile.
+    out : folder for the artifacts, made if it is not there. After an error it is as it was.
+    progress : called with `Progress(stage, fraction, message)`; the fraction never falls, and is 1.0 once: at the end.
+    cache : folder in which analyses are kept, so that the same driver or portrait is quicker next time.
+    mark_synthetic : whether the results say of themselves, for machines to read, that they are synthetic.
+    options : those of the job kind `portrait`, such as `strength=0.8` or `sound=True`.
+
+    Raises
+    ------
+    GalateaError : the picture, the video or an option cannot be used; says what to do.
+    """
+    chosen = _checked(portrait.PortraitOptions, options)
+    with TemporaryDirectory(prefix="galatea-") as folder:
+        inputs: dict[str, Given] = {"image": picture_file(image, "image", Path(folder))}
+        if driver is not None:
+            inputs["driver"] = _driver(driver, Path(folder))
+        elif not chosen.reactive:
+            raise InputError(
+                "driver_missing",
+                "Name a driver: a video, a built-in performance, or auto; or ask for a reactive profile.",
+            )
+        with _run(progress, cache, mark_synthetic, Path(folder)) as run:
+            made = deliver(portrait.KIND, inputs, chosen, Path(out), run)
+    return result_of(made, "profile.json" if chosen.reactive else chosen.animation, run.notices)
+
+
+def wake_up(
+    photo: Picture,
+    out: Folder,
+    motion: File = "walk",
+    *,
+    mask: Picture | None = None,
+    labels: Picture | None = None,
+    progress: Follower | None = None,
+    cache: Folder | None = None,
+    mark_synthetic: bool = True,
+    **options: Unpack[CharacterOptions],
+) -> Result:
+    """Wake a person up: they become a rigged character, and walk out of their picture.
+
+    Parameters
+    ----------
+    photo : a picture that shows one person whole.
+    out : folder for the artifacts, made if it is not there. After an error it is as it was.
+    motion : the name of a built-in motion, or a BVH or GLB file.
+    mask : of the picture's size, white where the person is, where that is not found well by itself.
+    labels : of the picture's size, in the colours of `labels.png`.
+    progress, cache, mark_synthetic : as of `animate`.
+    options : those of the job kind `character`, such as `seconds=2` or `vrm=True`.
+
+    Raises
+    ------
+    GalateaError : the picture, the motion or an option cannot be used; says what to do.
+    """
+    built_in = isinstance(motion, str) and motion in character.MOTIONS and not Path(motion).is_file()
+    chosen = _checked(character.CharacterOptions, {**options, **({"motion": motion} if built_in else {})})
+    with TemporaryDirectory(prefix="galatea-") as folder:
+        inputs: dict[str, Given] = {"photo": picture_file(photo, "photo", Path(folder))}
+        if not built_in:
+            inputs["motion"] = file(motion, "motion", Path(folder), character.MOTIONS)
+        for name, painted in (("mask", mask), ("labels", labels)):
+            if painted is not None:
+                inputs[name] = picture_file(painted, name, Path(folder))
+        with _run(progress, cache, mark_synthetic, Path(folder)) as run:
+            made = deliver(character.KIND, inputs, chosen, Path(out), run)
+    return result_of(made, "character.glb", run.notices)
+
+
+def _driver(given: File, folder: Path) -> Given:
+    """What a driver's name or file stands for."""
+    if isinstance(given, str) and not Path(given).is_file():
+        if given == AUTO:
+            return Candidates({name: video(name) for name in names()})
+        if given in names():
+            return video(given)
+    return file(given, "driver", folder, (*names(), AUTO))
+
+
+def _checked(model: type[Options], given: Mapping[str, Any]) -> Options:
+    """The options as the engine has them. Raises `InputError` `invalid_options`."""
+    try:
+        return model.model_validate(given)
+    except ValidationError as error:
+        first = explained(error.errors(), model)[0]
+        place = ".".join(str(part) for part in first["loc"])
+        raise InputError("invalid_options", f"{place + ': ' if place else ''}{first['msg']}") from error
+
+
+@contextmanager
+def _run(progress: Follower | None, cache: Folder | None, mark_synthetic: bool, passing: Path) -> Iterator[Run]:
+    """A run whose native libraries are not heard; without a cache its stages are kept as long as it lasts."""
+    with (
+        native_noise_left_out(),
+        Run(
+            StageStore(Path(cache) if cache is not None else passing / "stages"),
+            on_progress=progress,
+            mark_synthetic=mark_synthetic,
+            on_stage=lambda name, turn: give_back_memory(),
+        ) as run,
+    ):
+        yield run

@@ -1,0 +1,121 @@
+"""What MediaPipe and TensorFlow Lite print to standard error, left out while everything else goes through.
+
+Their native code writes to file descriptor 2, and neither an environment variable nor a function of theirs stops it. So
+the descriptor leads through a pipe meanwhile: lines that are theirs end there; what other threads and libraries write is
+passed on as it comes.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import selectors
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+STANDARD_ERROR = 2
+NOISE = re.compile(
+    rb"[IWE]\d{4} [\d:. ]+ +\d+ \S+\.(?:cc|cpp|h):\d+\] |(?:INFO: )?Created TensorFlow Lite |WARNING: All log mess"
+)
+MAYBE = re.compile(
+    rb"(?:[IWE]\d{0,4}|[IWE]\d{4} .*|INFO: Cre.*|WARNING: All.*|I|IN|INF|INFO:?|INFO: (?:C|Cr)?|W|WA|WAR)$"
+)
+"""A line's beginning that may yet turn out to be theirs."""
+PIECE = 1 << 16
+
+
+class _Sieve:
+    """The way from descriptor 2 to where it led, as long as somebody wants it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._users = 0
+        self._real = -1
+        self._wake = -1
+        self._thread: threading.Thread | None = None
+
+    def enter(self) -> None:
+        with self._lock:
+            self._users += 1
+            if self._users > 1:
+                return
+            try:
+                self._real = os.dup(STANDARD_ERROR)
+            except OSError:  # it is closed: nobody reads anything
+                return
+            _flush()
+            source, sink = os.pipe()
+            asked, self._wake = os.pipe()
+            os.dup2(sink, STANDARD_ERROR)
+            os.close(sink)
+            os.set_blocking(source, False)
+            self._thread = threading.Thread(target=_pass_on, args=(source, self._real, asked), daemon=True)
+            self._thread.start()
+
+    def leave(self) -> None:
+        with self._lock:
+            self._users -= 1
+            if self._users or self._thread is None:
+                return
+            _flush()
+            os.dup2(self._real, STANDARD_ERROR)
+            os.close(self._wake)
+            self._thread.join()
+            self._thread = None
+            os.close(self._real)
+
+
+_SIEVE = _Sieve()
+"""The process has one standard error, whoever asks."""
+
+
+@contextmanager
+def native_noise_left_out() -> Iterator[None]:
+    """Within, native libraries are not heard; calls at once from several threads share it."""
+    _SIEVE.enter()
+    try:
+        yield
+    finally:
+        _SIEVE.leave()
+
+
+def _flush() -> None:
+    with suppress(AttributeError, OSError, ValueError):  # none, or none that can be written
+        sys.stderr.flush()
+
+
+def _pass_on(source: int, target: int, asked: int) -> None:
+    """Pass on what comes until the other end of `asked` is closed; what has come by then, too."""
+    rest = b""
+    with selectors.DefaultSelector() as selector:
+        for descriptor in (source, asked):
+            selector.register(descriptor, selectors.EVENT_READ)
+        ending = False
+        while True:
+            ready = {key.fd for key, _ in selector.select(0 if ending else None)}
+            text = os.read(source, PIECE) if source in ready else b""
+            if not text and (ending or source in ready):  # all has come, or nobody is left who could write
+                break
+            rest = _sift(rest + text, target)
+            ending = ending or asked in ready
+    if not NOISE.match(rest):
+        _write(target, rest)
+    os.close(source)
+    os.close(asked)
+
+
+def _sift(text: bytes, target: int) -> bytes:
+    """Pass on all but noise; returns the beginning of a line of which that cannot be told yet."""
+    *lines, rest = text.split(b"\n")
+    kept = b"".join(line + b"\n" for line in lines if not NOISE.match(line))
+    held = MAYBE.match(rest)
+    _write(target, kept if held else kept + rest)
+    return rest if held else b""
+
+
+def _write(target: int, text: bytes) -> None:
+    with suppress(OSError):
+        while text:
+            text = text[os.write(target, text) :]

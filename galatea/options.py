@@ -1,0 +1,52 @@
+"""The options of the calls, for a type checker. `python -m scripts.option_types` draws them from the engine's models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypedDict
+
+
+class PortraitOptions(TypedDict, total=False):
+    """Options of the portrait system."""
+
+    size: tuple[int, int] | None
+    fps: float | None
+    format: Literal["mp4", "webm", "webp", "png"]
+    neutral_frame: int | None
+    face_index: int
+    driver_face_index: int
+    strength: float
+    follow: Sequence[Literal["eyes", "mouth", "brows", "head"]]
+    head_3d: bool
+    crop: Literal["none", "face", "bust"] | tuple[float, float, float, float]
+    trim: tuple[float, float] | None
+    loop: bool
+    sound: bool
+    landmarks: Sequence[tuple[float, float]] | None
+    reactive: bool | Sequence[str]
+
+
+class CharacterOptions(TypedDict, total=False):
+    """Options of the character system."""
+
+    motion_joints: Mapping[str, str | None]
+    motion_clip: str | None
+    keep: Sequence[Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg", "arms", "legs"]]
+    seconds: float
+    size: tuple[int, int] | None
+    fps: float
+    format: Literal["mp4", "webm", "webp", "png"]
+    camera: Literal["fixed", "orbit", "parallax"]
+    triangles: int
+    levels: int
+    vrm: bool
+    vrm_author: str
+    lit: bool
+    partial: bool
+    pose: Mapping[str, tuple[float, float, float]]
+    joints: Mapping[str, tuple[float, float]]
+    person_box: tuple[float, float, float, float] | None
+    person_index: int | Literal["all"] | None
+    mask_strokes: Sequence[Mapping[str, Any]]
+    label_strokes: Sequence[Mapping[str, Any]]
+    back_texture: Literal["mirror", "inpaint"]
