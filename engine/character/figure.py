@@ -14,7 +14,7 @@ from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_s
 from engine.character.posture import check_posture
 from engine.errors import InputError
 from engine.imaging.resample import resized, size_within
-from engine.media.image import read_image
+from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS, Body
 from engine.perception.faces import find_faces
@@ -56,7 +56,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Figure:
-    """`rgb` (H, W, 3) the picture, `alpha` (H, W) its own where it has one. `points` (33, 2) pixels, `confidence` (33,) and
+    """`rgb` (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` (H, W) shows them, if it has one. `points` (33, 2) pixels, `confidence` (33,) and
     `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `original`: width and height of
     the picture as it was given, of which `rgb` may be a smaller copy. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
     `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
@@ -102,8 +102,9 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
     scale = np.array(size) / (width, height)
     rgb = np.ascontiguousarray(resized(picture.rgb, size))
     alpha = None if picture.alpha is None else np.clip(resized(picture.alpha, size), 0, 1)
-    people = find_people(rgb)
-    body, index = _chosen(rgb, people, choice, scale)
+    shown = np.ascontiguousarray(over_grey(rgb, alpha))
+    people = find_people(shown)
+    body, index = _chosen(shown, people, choice, scale)
     if body is not None and index == len(people):  # found in a box alone
         people = [*people, body]
     if body is None and not set(WHOLE_SKELETON) <= set(joints):
@@ -120,7 +121,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         confidence[LANDMARKS.index(name)] = 1
     if joints:
         check_skeleton(points, warn)
-    hands = (None, None) if body is None else _hands(rgb, replace(body, points=points))
+    hands = (None, None) if body is None else _hands(shown, replace(body, points=points))
     for side, hand in zip(SIDES, hands, strict=True):
         for mark, joint in ON_HANDS.items():
             if hand is not None and f"{side}{mark}" not in joints:
@@ -137,7 +138,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
         index=index,
         others=_covered([one for one in people if one is not body and not _same(one, body)], rgb.shape),
-        face=None if body is None else _face(rgb, points),
+        face=None if body is None else _face(shown, points),
         hands=hands,
     )
     legs = _check_whole(figure, partial, warn)

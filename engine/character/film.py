@@ -41,16 +41,19 @@ def film(
     shadow: GroundShadow,
     move: Move,
     size: tuple[int, int],
+    alone: bool = False,
 ) -> Iterator[NDArray[np.uint8]]:
     """The frames (h, w, 3) of the video; `size` (width, height). Characters with what they do, the one in the middle of the
-    camera's interest first; `fitted` is the first one's."""
+    camera's interest first; `fitted` is the first one's. If they are to be seen `alone`, frames have their alpha, (h, w, 4)."""
     height, width = plate.shape[:2]
     main = people[0][0]
     camera = resized_camera(picture_camera(main, fitted, (height, width)), size)
     small = np.asarray(cv2.resize(plate, size, interpolation=cv2.INTER_AREA), np.uint8)
     backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL)
     target = main.pictured.root[0]
-    return film_cast(cast_of(people), lambda second: camera_at(move, camera, target, second), backdrop.seen_by, shadow)
+    return film_cast(
+        cast_of(people), lambda second: camera_at(move, camera, target, second), backdrop.seen_by, shadow, alone
+    )
 
 
 def cast_of(people: Sequence[tuple[Character, Clip]]) -> list[Actor]:

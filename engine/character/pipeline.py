@@ -28,7 +28,7 @@ from engine.export.video import VideoWriter
 from engine.export.vrm import VrmMeta, write_vrm
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.kind import Given
-from engine.media.image import write_image
+from engine.media.image import over_white, write_image
 from engine.motion.clip import Clip
 from engine.motion.joint_map import lost_warning
 from engine.perception.models import matting_model
@@ -114,10 +114,12 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         run.timed("animate"),
         VideoWriter(out / animation, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
     ):
-        for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size)):
-            writer.write(frame)
+        alone = filled.empty and options.format != "mp4"
+        for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size, alone)):
+            alpha = frame[..., 3] / np.float32(255) if alone else None
+            writer.write(frame[..., :3], alpha)
             if index == frames // 3:
-                write_still(out / "poster.jpg", frame, run.mark_synthetic)
+                write_still(out / "poster.jpg", over_white(frame[..., :3], alpha), run.mark_synthetic)
             run.tick((index + 1) / frames)
     quality = [
         run.stage("measure", measure, one.figure, one.silhouette, one.fitted, one.character, stored=False)

@@ -40,6 +40,7 @@ from engine.character.unfound_hands import unfound_hands
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.inpaint import background_plate
+from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials
 
@@ -210,12 +211,18 @@ def fewer_triangles(character: Character, triangles: int) -> SkinnedMesh:
     return replace(fewer, vertices=mesh.vertices[kept])
 
 
+NOTHING = 0.02
+"""Alpha below which nothing is seen."""
+
+
 @dataclass(frozen=True)
 class Background:
-    """The picture without the person: `rgb` (H, W, 3); the shadow that they cast in it has gone, too."""
+    """The picture without the person: `rgb` (H, W, 3), over white where it is cut out; the shadow that they cast in it has
+    gone, too. `empty`: of a cut-out picture, nothing is left."""
 
     rgb: NDArray[np.uint8]
     shadow: CastShadow
+    empty: bool = False
 
 
 def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Background:
@@ -223,7 +230,10 @@ def fill_background(figure: Figure, silhouettes: tuple[Silhouette, ...]) -> Back
     radius = max(3, round(SHADOW * max(figure.rgb.shape[:2])))
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * radius + 1, 2 * radius + 1))
     alpha = np.max([one.alpha for one in silhouettes], axis=0)
-    shadow = find_cast_shadow(figure.rgb, alpha)
+    seen = over_white(figure.rgb, figure.alpha)
+    shadow = find_cast_shadow(seen, alpha)
     gone = np.maximum(alpha > 0.02, shadow.mask > 0.1).astype(np.float32)
     hole = np.asarray(cv2.dilate(gone, disk), np.float32)
-    return Background(background_plate(figure.rgb, hole, reach=float(np.sqrt(hole.sum()))), shadow)
+    plate = background_plate(seen, hole, reach=float(np.sqrt(hole.sum())))
+    left = np.zeros_like(alpha) if figure.alpha is None else figure.alpha * (1 - hole)
+    return Background(plate, shadow, is_cut_out(figure.alpha) and bool(left.max() < NOTHING))

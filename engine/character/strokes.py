@@ -36,7 +36,7 @@ def read_mask(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> N
     _require_size("mask", picture.rgb, sizes)
     grey = picture.rgb.astype(np.float32).mean(-1) / 255
     # of a picture that is cut out, what is cut out counts
-    return grey if picture.alpha is None or (picture.alpha > 254).all() else np.asarray(picture.alpha / 255, np.float32)
+    return grey if picture.alpha is None else picture.alpha
 
 
 def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> NDArray[np.int8]:

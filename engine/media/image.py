@@ -11,11 +11,15 @@ import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
+from engine.imaging.nearest import nearest_in
 from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
 _FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
 """Pillow's name of what a file begins like: its other decoders are neither asked nor loaded."""
+
+_CUT_OUT = 0.01
+"""A picture with more than this share of transparent pixels is a cut-out."""
 
 
 @dataclass(frozen=True)
@@ -32,10 +36,12 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     """Read a JPEG, PNG, WebP, HEIC, AVIF or GIF (its first frame) as upright 8-bit sRGB.
 
     EXIF orientation is applied, colour profiles are converted, 16-bit, grey, palette and CMYK pictures become RGB.
-    The colours of wholly transparent pixels are whatever the file says.
+    What is wholly transparent has the colours of the nearest that is not: whatever the file keeps beneath, as background
+    removers leave it, is seen by nobody.
 
     Raises `InputError`: `file_empty`, `file_too_large`, `not_an_image`, `image_too_large` and `image_too_small` (known
-    from the header, before decoding), `image_truncated`, `image_unreadable`.
+    from the header, before decoding), `image_truncated`, `image_unreadable`,
+    `image_transparent` (all of it).
     """
     limits = limits or Limits()
     media_type = _admit(path, limits)
@@ -52,15 +58,45 @@ def read_image(path: Path, limits: Limits | None = None) -> Picture:
     except (OSError, SyntaxError, ValueError, EOFError, IndexError, RuntimeError, UnidentifiedImageError) as error:
         raise _broken(error, media_type == "image/webp" and _ends_early(path)) from error
     rgb, alpha = _to_srgb(image)
+    if alpha is not None:
+        rgb = _without_hidden_colours(rgb, alpha)
     return Picture(rgb, alpha, media_type)
+
+
+def is_cut_out(alpha: np.ndarray | None) -> bool:
+    """Whether a picture's own alpha (H, W) [0, 1] cuts something out of it: then it says what belongs to the picture. A few
+    transparent pixels say nothing."""
+    return alpha is not None and float(np.mean(alpha < 0.5)) > _CUT_OUT
+
+
+def over_grey(rgb: np.ndarray, alpha: np.ndarray | None) -> np.ndarray:
+    """`rgb` uint8 (H, W, 3) as a detector wants it, what is transparent in a plain grey."""
+    return rgb if alpha is None else _over(rgb, alpha, 127)
 
 
 def over_white(rgb: np.ndarray, alpha: np.ndarray | None) -> np.ndarray:
     """`rgb` uint8 (H, W, 3) as it is seen on white paper; `alpha` float32 (H, W) [0, 1], None where all is opaque."""
-    if alpha is None:
-        return rgb
+    return rgb if alpha is None else _over(rgb, alpha, 255)
+
+
+def _over(rgb: np.ndarray, alpha: np.ndarray, level: int) -> np.ndarray:
     share = alpha[..., None]
-    return (rgb * share + np.float32(255) * (1 - share) + np.float32(0.5)).astype(np.uint8)
+    return (rgb * share + np.float32(level) * (1 - share) + np.float32(0.5)).astype(np.uint8)
+
+
+def _without_hidden_colours(rgb: np.ndarray, alpha: np.ndarray) -> np.ndarray:
+    hidden = alpha == 0
+    if hidden.all():
+        raise InputError(
+            "image_transparent",
+            "The picture is transparent everywhere, nothing is to be seen: save it anew with its alpha.",
+        )
+    if not hidden.any():
+        return rgb
+    shown = rgb.copy()
+    rows, columns = nearest_in(~hidden)
+    shown[hidden] = rgb[rows[hidden], columns[hidden]]
+    return shown
 
 
 def write_image(path: Path, rgb: np.ndarray, alpha: np.ndarray | None = None, quality: int = 90) -> None:

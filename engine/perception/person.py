@@ -15,6 +15,7 @@ from engine.imaging.alpha_matte import alpha_matte
 from engine.imaging.guided_upsample import upsample_guided
 from engine.imaging.resample import resized, size_within
 from engine.imaging.trimap import SURE, like_plain_background, outline_trimap
+from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel
 from engine.perception.segmentation import WORKING_SIZE, Mask, people_in
@@ -67,7 +68,7 @@ def person_mask(
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
-        if np.mean(channel < 0.5) > 0.01:
+        if is_cut_out(channel):
             if others is None or not others.any():
                 return channel
             return _within(channel, person_mask(rgb, seed, None, model, others, whole), others)

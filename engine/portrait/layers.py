@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 
 from engine.imaging.inpaint import background_plate
 from engine.imaging.matting import estimate_layers, reconcile_with_plate
+from engine.media.image import is_cut_out, over_grey
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.models import MattingModel
 from engine.perception.person import person_mask
 from engine.portrait.bystanders import own_share
-from engine.portrait.target import TargetFace, over_grey
-
-CUT_OUT = 0.01
-"""A picture with more than this share of transparent pixels is a cut-out."""
+from engine.portrait.target import TargetFace
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,7 @@ def separate_layers(target: TargetFace, model: MattingModel | None = None, model
     face, others = target.face_boxes()
     if len(others):
         alpha = alpha * own_share(target.rgb, alpha, face, others)
-    if target.alpha is not None and float(np.mean(target.alpha < 0.5)) > CUT_OUT:
+    if target.alpha is not None and is_cut_out(target.alpha):
         person = np.dstack([target.rgb, (target.alpha * 255 + 0.5).astype(np.uint8)])
         return Layers(person, np.full_like(target.rgb, 255), transparent=True)
     with ThreadPoolExecutor(1, thread_name_prefix="front") as beside:

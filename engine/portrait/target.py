@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.imaging.resample import even_size
-from engine.media.image import read_image
+from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
 from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
@@ -300,11 +300,3 @@ def _warp(image: NDArray, place: NDArray[np.float64], size: tuple[int, int]) -> 
         source = cv2.GaussianBlur(image, (0, 0), 0.35 / place[0, 0])
         return cv2.warpAffine(source, matrix, size, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     return cv2.warpAffine(image, matrix, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-
-
-def over_grey(rgb: NDArray[np.uint8], alpha: NDArray[np.float32] | None) -> NDArray[np.uint8]:
-    """Transparent pictures as a detector wants them: their hidden colours may be anything."""
-    if alpha is None:
-        return rgb
-    a = alpha[..., None]
-    return (rgb * a + 127.0 * (1 - a) + 0.5).astype(np.uint8)

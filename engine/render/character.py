@@ -162,9 +162,12 @@ def film_cast(
     camera_at: Callable[[float], Camera],
     background_at: Callable[[Camera], NDArray[np.uint8]],
     shadow: GroundShadow | None = None,
+    alone: bool = False,
 ) -> Iterator[NDArray[np.uint8]]:
     """Characters acting, the later before the earlier, and all before the shadows of all: one frame (H, W, 3) of the film
     for each of the longest clip's; who has done stands still.
+
+    If they are `alone`, nothing is seen behind them and no shadow falls on it: frames are (H, W, 4), with alpha.
 
     `camera_at(second)` and `background_at(camera)` are called for each frame, side by side on all cores; of the
     length, only the joints' transforms are held (3 kB a frame). Resample the clips first where the film has another rate.
@@ -179,18 +182,20 @@ def film_cast(
         picture = background.copy()
         if not hasattr(own, "scratch"):
             own.scratch = Scratch()
-        standing = []
+        standing, cover = [], None
         for actor, moves in zip(cast, transforms, strict=True):
             subject, mesh = actor.subject, actor.subject.mesh
             posed = skin(mesh.vertices, mesh.bones, mesh.weights, moves[min(frame, len(moves) - 1)])
             x, y, z = (np.array(camera.eye) - actor.place).tolist()
             standing.append((subject, posed, replace(camera, eye=(x, y, z))))
         for subject, posed, seen_from in standing:
-            if shadow is not None:
+            if shadow is not None and not alone:
                 cast_on_ground(picture, background, posed, subject.mesh.triangles, seen_from, shadow, subject.closed)
         for subject, posed, seen_from in standing:
-            _draw_over(picture, False, subject, posed, seen_from, own.scratch)
-        return picture
+            alpha = _draw_over(picture, False, subject, posed, seen_from, own.scratch)
+            if alone:
+                cover = alpha.copy() if cover is None else alpha + (1 - alpha) * cover
+        return picture if cover is None else _without(background, picture, cover)
 
     threads = os.cpu_count() or 1
     waiting: deque[Future[NDArray[np.uint8]]] = deque()
@@ -201,6 +206,15 @@ def film_cast(
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
+
+
+def _without(
+    background: NDArray[np.uint8], picture: NDArray[np.uint8], cover: NDArray[np.float32]
+) -> NDArray[np.uint8]:
+    """What covers a background by so much (H, W), in its own colours and with alpha: (H, W, 4)."""
+    alpha = cover[..., None]
+    own = (picture - (1 - alpha) * background) / np.maximum(alpha, np.float32(1 / 255))
+    return (np.dstack([np.clip(own, 0, 255), cover * 255]) + np.float32(0.5)).astype(np.uint8)
 
 
 def _shade(subject: Subject, posed: NDArray[np.float32], shading: float) -> NDArray[np.float32]:

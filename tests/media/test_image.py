@@ -139,6 +139,53 @@ def test_a_transparent_palette_entry_is_alpha(tmp_path: Path) -> None:
     assert picture.rgb[0, 63].tolist() == [30, 200, 30]
 
 
+BENEATH = (255, 0, 255)
+
+
+def cut_out(mode: str) -> tuple[Image.Image, dict[str, object]]:
+    """`PIXELS`, of which the left third is transparent and magenta beneath, as background removers leave it; and how to
+    save it."""
+    rgb = PIXELS.copy()
+    rgb[:, :21] = BENEATH
+    alpha = np.full(rgb.shape[:2], 255, np.uint8)
+    alpha[:, :21] = 0
+    whole = Image.fromarray(np.dstack([rgb, alpha]))
+    if mode == "P":
+        paletted = Image.fromarray(rgb).quantize(8, dither=Image.Dither.NONE)
+        return paletted, {"transparency": paletted.getpixel((0, 0))}
+    if mode == "LA":
+        return whole.convert("LA"), {}
+    return whole, {"lossless": True, "exact": True} if mode == "webp" else {}
+
+
+@pytest.mark.parametrize("mode", ["RGBA", "LA", "P", "webp", "16 bits"])
+def test_what_alpha_hides_is_nowhere_in_the_pixels(tmp_path: Path, mode: str) -> None:
+    """What is transparent has the colours of the nearest that is not, whichever way the file says so."""
+    image, options = cut_out(mode)
+    path = tmp_path / "picture"
+    if mode == "16 bits":
+        deep = np.asarray(image)[..., [2, 1, 0, 3]].astype(np.uint16) * 257
+        path.write_bytes(cv2.imencode(".png", deep)[1].tobytes())
+    else:
+        image.save(path, format="webp" if mode == "webp" else "png", **options)
+    picture = read_image(path)
+    assert picture.alpha is not None
+    assert picture.alpha[:, :18].max() == 0 and picture.alpha[:, 24:].min() == 1
+    expected = np.where(np.arange(64)[None, :, None] < 21, PIXELS[:, 24:25], PIXELS)
+    if mode == "LA":
+        expected = np.asarray(Image.fromarray(expected).convert("L").convert("RGB"))
+    assert np.abs(picture.rgb.astype(int) - expected).max() <= 1
+
+
+@pytest.mark.parametrize("mode", ["RGBA", "LA"])
+def test_a_picture_of_which_nothing_is_seen_is_refused_in_words(tmp_path: Path, mode: str) -> None:
+    image = Image.fromarray(PIXELS).convert(mode)
+    image.putalpha(0)
+    image.save(tmp_path / "picture.png")
+    error = refused(tmp_path / "picture.png")
+    assert error.code == "image_transparent" and "transparent" in error.detail
+
+
 def test_fully_opaque_alpha_is_none(tmp_path: Path) -> None:
     Image.fromarray(PIXELS).convert("RGBA").save(tmp_path / "picture.png")
     assert read_image(tmp_path / "picture.png").alpha is None

@@ -47,6 +47,7 @@ export const failures = {
     image_truncated: 'The picture is incomplete',
     image_too_large: 'The picture is too large',
     image_too_small: 'The picture is too small',
+    image_transparent: 'The picture is transparent everywhere',
     not_a_video: 'That is not a video',
     no_video_stream: 'The file holds no video',
     video_unreadable: 'The video cannot be read',
