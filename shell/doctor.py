@@ -137,7 +137,7 @@ def _encoders(settings: Settings) -> Iterator[Finding]:
     from PIL import features
 
     known = {*av.codecs_available, *(["webp"] if features.check("webp") else [])}
-    for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("webp", "animated WebP")):
+    for encoder, use in (("libx264", "MP4"), ("libvpx-vp9", "WebM"), ("webp", "animated WebP"), ("gif", "GIF")):
         there = encoder in known
         yield Finding("ok" if there else "missing", f"{encoder} encodes {use}", "" if there else install_anew())
 

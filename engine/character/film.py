@@ -25,9 +25,10 @@ WALL = 1.6
 """How far behind the person the picture's wall stands, metres."""
 
 
-def film_size(size: tuple[int, int], asked: tuple[int, int] | None) -> tuple[int, int]:
-    """Even width and height of the video for a picture of `size` (width, height): fitted into what was asked for."""
-    limit = asked or (LONGEST_SIDE, LONGEST_SIDE)
+def film_size(size: tuple[int, int], asked: tuple[int, int] | None, longest: int = LONGEST_SIDE) -> tuple[int, int]:
+    """Even width and height of the video for a picture of `size` (width, height): fitted into what was asked for, else into
+    the `longest` side."""
+    limit = asked or (longest, longest)
     factor = min(limit[0] / size[0], limit[1] / size[1])
     if asked is None:
         factor = min(factor, 1.0)

@@ -78,8 +78,9 @@ class CharacterOptions(BaseModel):
         description="Width and height of the video in pixels; the picture is fitted into it. Default: the picture's own size, the longest side at most 1280.",
     )
     fps: Annotated[float, Field(ge=1, le=60)] = Field(30.0, description="Frames a second of clips and video.")
-    format: Literal["mp4", "webm", "webp", "png"] = Field(
-        "mp4", description="Container of the animation; png is a zip of numbered pictures."
+    format: Literal["mp4", "webm", "webp", "gif", "png"] = Field(
+        "mp4",
+        description="Container of the animation; png is a zip of numbered pictures. A gif has 256 colours and, without `size`, 640 pixels on the longest side.",
     )
     camera: Move = Field("fixed", description="What the video's camera does.")
     triangles: Annotated[int, Field(ge=2000, le=200_000)] = Field(

@@ -10,7 +10,7 @@ import numpy as np
 
 from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
-from engine.character.film import cast_of, film, film_size
+from engine.character.film import LONGEST_SIDE, cast_of, film, film_size
 from engine.character.findings import character_names, write_findings
 from engine.character.lit import lit_picture
 from engine.character.measures import measure, picture_camera
@@ -21,6 +21,7 @@ from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fewer_triangles, fill_background, fit_template, label, make_character
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
+from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
 from engine.export.glb import QUALITY, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
@@ -106,7 +107,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             write_still(out / "lit.png", lit_picture(still, camera, plate), run.mark_synthetic)
         except InputError as without_gl:
             run.warn(without_gl.code, without_gl.detail)
-    size = film_size((width, height), options.size)
+    size = film_size((width, height), options.size, GIF_SIDE if options.format == "gif" else LONGEST_SIDE)
     animation = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]
     frames = max(len(clip.rotations) for _, clip in acting)

@@ -29,7 +29,7 @@ from engine.media.ycbcr import BT709, LIMITED, frame_from_rgb
 _CLOCK = 90_000
 """Ticks a second of frames that are not shown equally long, as is usual for video."""
 
-Format = Literal["mp4", "webm", "webp", "png"]
+Format = Literal["mp4", "webm", "webp", "gif", "png"]
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ not fit: `trainedAlgorithmicMedia` is for what a model made that was trained on 
 `algorithmicMedia` is for what mathematics alone made.
 
 The mark lies where each format keeps XMP (XMP Specification part 3): in MP4 in a `uuid` box of its own, in JPEG in an
-APP1 segment, in PNG in an `iTXt` chunk, in WebP in an `XMP ` chunk; WebM has tags alone. No pixel is changed by it.
+APP1 segment, in PNG in an `iTXt` chunk, in WebP in an `XMP ` chunk, in GIF in an application extension; WebM has tags alone. No pixel is changed by it.
 """
 
 from __future__ import annotations
@@ -43,6 +43,16 @@ def mark_image(path: Path) -> None:
     """Mark a picture (`.jpg` or `.png`) that has just been written."""
     data = path.read_bytes()
     path.write_bytes(marked_png(data) if path.suffix == ".png" else marked_jpeg(data))
+
+
+def append_to_gif(path: Path) -> None:
+    """Add the mark as an application extension before the end of the file."""
+    end = (
+        b"\x01" + bytes(range(255, -1, -1)) + b"\0"
+    )  # wherever a reader's skipping of blocks lands in it, it comes to the end
+    with path.open("r+b") as file:
+        file.seek(-1, 2)
+        file.write(b"\x21\xff\x0bXMP DataXMP" + XMP + end + b"\x3b")
 
 
 def append_to_mp4(path: Path) -> None:

@@ -12,6 +12,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from engine.export.animated_gif import GifEncoder
 from engine.export.animated_webp import WebpEncoder
 from engine.export.encoders import Encoder, Format, PngEncoder, StreamEncoder, Target
 
@@ -33,7 +34,7 @@ class VideoWriter:
     path : where the video is to be.
     size : (width, height) in pixels of every frame; even for "mp4" and "webm".
     fps : frames a second.
-    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated) or "png" (a zip archive of PNGs). All
+    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated), "gif" (which repeats) or "png" (a zip archive of PNGs). All
         but "mp4" keep alpha where the first frame has it; the first two are BT.709, limited range, and tagged so.
     crf : constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none.
     sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
@@ -129,6 +130,8 @@ class VideoWriter:
         encoder: Encoder
         if target.format == "png":
             encoder, has_sound = PngEncoder(target), False
+        elif target.format == "gif":
+            encoder, has_sound = GifEncoder(target, transparent), False
         elif target.format == "webp":
             encoder, has_sound = WebpEncoder(target, transparent), False
         else:

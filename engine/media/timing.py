@@ -56,12 +56,11 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
     count = len(times)
     slope = max(float(np.polyfit(np.arange(count), times, 1)[0]), _SHORTEST_STEP)
     whole = [float(round(1 / slope))] if abs(round(1 / slope) * slope - 1) < 5e-4 else []  # rounded timestamps
-    for fps in (*stated, *whole, 1 / slope):
-        if fps < _LOWEST:
-            continue
-        even = (times - times[0]) * fps
-        with_holes = np.round(even)
-        for places in (np.arange(count), with_holes):
+    rates = [fps for fps in (*stated, *whole, 1 / slope) if fps >= _LOWEST]
+    for holes in (False, True):  # a rate at which none is missing comes first: headers may guess a quicker one
+        for fps in rates:
+            even = (times - times[0]) * fps
+            places = np.round(even) if holes else np.arange(count)
             offsets = even - places
             if np.ptp(offsets) / 2 < _JITTER and np.diff(places).min() >= 1 and places[-1] < count * (1 + _HOLES):
                 return Rate(float(fps), float((offsets.max() + offsets.min()) / 2 / fps), True)

@@ -36,8 +36,9 @@ class PortraitOptions(BaseModel):
     fps: Annotated[float, Field(ge=1, le=60)] | None = Field(
         None, description="Frames a second of the result. Default: one frame for each frame of the driver."
     )
-    format: Literal["mp4", "webm", "webp", "png"] = Field(
-        "mp4", description="Container of the animation; png is a zip of numbered pictures."
+    format: Literal["mp4", "webm", "webp", "gif", "png"] = Field(
+        "mp4",
+        description="Container of the animation; png is a zip of numbered pictures. A gif has 256 colours and, without `size`, 640 pixels on the longest side.",
     )
     neutral_frame: Annotated[int, Field(ge=0, le=10_000_000)] | None = Field(
         None,
@@ -115,6 +116,7 @@ class PortraitOptions(BaseModel):
     def framing(self) -> PortraitOptions:
         """Only what decides on the target's face and size, so that other choices leave its analysis as it is."""
         kept = {name: getattr(self, name) for name in ("size", "crop", "face_index", "landmarks")}
+        kept |= {"format": "gif"} if self.format == "gif" else {}  # which is smaller
         return PortraitOptions.model_validate({**kept, "reactive": bool(self.reactive)})
 
     def acting(self) -> PortraitOptions:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
@@ -249,7 +250,7 @@ def _placement(
     if options.size is not None:
         scale = min(options.size[0] / box[2], options.size[1] / box[3])
     else:
-        longest = LONGEST_SIDE_REACTIVE if options.reactive else LONGEST_SIDE
+        longest = LONGEST_SIDE_REACTIVE if options.reactive else GIF_SIDE if options.format == "gif" else LONGEST_SIDE
         scale = min(1.0, longest / max(box[2], box[3]))
     out = even_size(box[2] * scale, box[3] * scale)
     return np.array([[scale, 0, -box[0] * scale], [0, scale, -box[1] * scale]]), out

@@ -110,7 +110,7 @@ def test_sound_longer_or_shorter_than_the_picture(tmp_path: Path) -> None:
         assert clicks_in(tmp_path / "out.mp4")[1] == pytest.approx(expected, abs=0.06)
 
 
-@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "gif", "png"])
 def test_without_sound_there_is_a_warning(tmp_path: Path, format: str) -> None:
     silent = tmp_path / "silent.mp4"
     warnings: list[str] = []

@@ -78,6 +78,16 @@ def test_webp(tmp_path: Path) -> None:
     assert probe_video(path).frames == 12
 
 
+def test_gif(tmp_path: Path) -> None:
+    marked, plain = write(tmp_path / "out.gif", "gif"), write(tmp_path / "plain.gif", "gif", synthetic=False)
+    data = marked.read_bytes()
+    begin = data.index(b"\x21\xff\x0bXMP DataXMP") + 14
+    assert source_type(data[begin : data.index(b"<?xpacket end", begin)] + b'<?xpacket end="r"?>') == COMPOSITE
+    assert decoded(marked) == decoded(plain) and data[-1:] == b"\x3b"
+    with Image.open(marked) as image:
+        assert image.n_frames == 12
+
+
 def test_a_sequence_of_png(tmp_path: Path) -> None:
     with zipfile.ZipFile(write(tmp_path / "out.zip", "png")) as archive:
         for k, name in enumerate(archive.namelist()):

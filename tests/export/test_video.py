@@ -199,7 +199,7 @@ def test_a_frame_may_be_changed_after_it_was_written(tmp_path: Path) -> None:
         assert np.array_equal(np.asarray(Image.open(io.BytesIO(archive.read("000011.png")))), chart(11))
 
 
-@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "gif", "png"])
 def test_an_error_in_the_block_leaves_nothing(tmp_path: Path, format: str) -> None:
     with pytest.raises(KeyError), VideoWriter(tmp_path / "out", (224, 64), 25, format) as writer:
         writer.write(chart())
@@ -253,7 +253,7 @@ for limit in (1000, size // 2, size * 9 // 10):
 """
 
 
-@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "png"])
+@pytest.mark.parametrize("format", ["mp4", "webm", "webp", "gif", "png"])
 def test_a_full_disk_is_an_os_error_and_leaves_nothing(tmp_path: Path, format: str) -> None:
     """A limit on the size of files stands for the full disk; it is met at the start, in the middle and at the end."""
     script = [sys.executable, "-c", FULL_DISK, str(tmp_path), format]
@@ -345,3 +345,49 @@ def test_numbered_pictures_come_with_their_times(tmp_path: Path) -> None:
         assert len(archive.namelist()) == 8
     write(tmp_path / "even.zip", 7, 30, format="png")
     assert "timecodes.txt" not in zipfile.ZipFile(tmp_path / "even.zip").namelist()
+
+
+def test_a_gif_has_the_colours_the_times_and_the_alpha(tmp_path: Path) -> None:
+    path = write(tmp_path / "out.gif", 7, 30, format="gif", times=UNEVEN)
+    frames = list(read_video(path))
+    assert [frame.time for frame in frames] == pytest.approx(UNEVEN[:-1], abs=0.011)
+    for k, frame in enumerate(frames):
+        assert np.abs(bars_of(frame.rgb) - bars_of(chart(k))).max() < 6
+    with Image.open(path) as image:
+        assert image.info["loop"] == 0, "it repeats for ever"
+    alpha = np.ones((64, 224), np.float32)
+    alpha[:, 32:64] = 0
+    with VideoWriter(tmp_path / "clear.gif", (224, 64), 25, "gif") as writer:
+        for _ in range(3):
+            writer.write(chart(), alpha)
+    with Image.open(tmp_path / "clear.gif") as image:
+        image.seek(2)
+        seen = np.asarray(image.convert("RGBA"))
+    assert seen[32, 48, 3] == 0 and seen[32, 16, 3] == 255
+
+
+def test_the_dither_of_a_gif_stays_where_it_is(tmp_path: Path) -> None:
+    """More colours than 256, before which something moves: what stands still is the same in all frames."""
+    across, down = np.meshgrid(np.linspace(0, 255, 160), np.linspace(0, 255, 120))
+    still = np.stack([across, down, 255 - across], -1).astype(np.uint8)
+    with VideoWriter(tmp_path / "out.gif", (160, 120), 20, "gif") as writer:
+        for k in range(40):
+            frame = still.copy()
+            frame[50:60, 3 * k : 3 * k + 10] = (250, 240, 20)
+            writer.write(frame)
+    frames = np.array([frame.rgb for frame in read_video(tmp_path / "out.gif")]).astype(int)
+    assert len(frames) == 40
+    assert np.ptp(frames[:, :48], axis=0).max() == 0, "no flicker, and no crawling"
+    rough = cv2.blur(frames[0].astype(np.float32), (8, 8)) - cv2.blur(still.astype(np.float32), (8, 8))
+    assert np.abs(rough[8:40, 8:-8]).mean() < 5
+
+
+def test_a_gif_leaves_out_frames_that_browsers_would_hold_too_long(tmp_path: Path) -> None:
+    """They show for a tenth of a second what claims less than a fiftieth."""
+    path = write(tmp_path / "out.gif", 60, 60, format="gif")
+    with Image.open(path) as image:
+        lengths = []
+        for k in range(image.n_frames):
+            image.seek(k)
+            lengths.append(image.info["duration"])
+    assert min(lengths) >= 20 and sum(lengths) == pytest.approx(1000, abs=20)

@@ -69,6 +69,12 @@ def test_a_grid_with_a_few_holes_is_constant() -> None:
     assert [shown for _, shown in frames][9:12] == [times[9], times[9], times[10]]
 
 
+def test_a_quicker_rate_that_would_leave_holes_is_not_believed() -> None:
+    """A GIF of 30 frames a second has its times in hundredths: 3, 3 and 4 of them, and its header's guess is 33."""
+    rate = rate_of(np.round(np.arange(60) / 30, 2), [100 / 3])
+    assert rate.constant and rate.fps == pytest.approx(30, rel=1e-3)
+
+
 def test_hidden_reference_frames_are_left_out() -> None:
     shown = np.arange(40) / 30
     packets = np.sort(np.concatenate([shown, shown[8::16] + 0.001]))

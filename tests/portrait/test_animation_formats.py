@@ -95,7 +95,7 @@ def test_a_driver_without_sound_is_said_so(animation, woman, media) -> None:
     assert "driver_has_no_sound" in {n.code for n in made.run.notices}
 
 
-@pytest.mark.parametrize("format", ["webp", "png"])
+@pytest.mark.parametrize("format", ["webp", "gif", "png"])
 def test_a_format_that_holds_no_sound_is_said_so(animation, woman, driver, format: str) -> None:
     made = animation(woman, driver, trim=(1.9, 2.1), neutral_frame=0, sound=True, format=format)
     assert [notice.code for notice in made.run.notices] == ["no_sound"]
