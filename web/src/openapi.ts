@@ -1474,11 +1474,11 @@ export interface components {
              */
             fps?: number;
             /**
-             * @description Container of the animation; png is a zip of numbered pictures.
+             * @description Container of the animation; png is a zip of numbered pictures. A gif has 256 colours and, without `size`, 640 pixels on the longest side.
              * @default mp4
              * @enum {string}
              */
-            format?: "mp4" | "webm" | "webp" | "png";
+            format?: "mp4" | "webm" | "webp" | "gif" | "png";
             /**
              * @description What the video's camera does.
              * @default fixed
@@ -1670,11 +1670,11 @@ export interface components {
              */
             fps?: number | null;
             /**
-             * @description Container of the animation; png is a zip of numbered pictures.
+             * @description Container of the animation; png is a zip of numbered pictures. A gif has 256 colours and, without `size`, 640 pixels on the longest side.
              * @default mp4
              * @enum {string}
              */
-            format?: "mp4" | "webm" | "webp" | "png";
+            format?: "mp4" | "webm" | "webp" | "gif" | "png";
             /**
              * @description Frame on which the driver shows the target's expression, counted from 0 among those that are used: of the `trim`, at the `fps`. Default: found automatically.
              * @default null
