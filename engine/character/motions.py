@@ -84,7 +84,7 @@ def choose_motion(
     length = seconds if clip.loops else None
 
     def stepped(back: float) -> Clip:
-        film = _cut(step_out(skeleton, start, clip, length=length, back=back), seconds)
+        film = _lasting(step_out(skeleton, start, clip, length=length, back=back), seconds)
         return keep(skeleton, film, start, list(kept)) if kept else film
 
     film = replace(kept_in_frame(character, camera, stepped), name="step_out")
@@ -119,8 +119,7 @@ def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, f
     return replace(posed, root=posed.root + np.array([0, lowest[0] - lowest[1], 0], np.float32))
 
 
-def _cut(clip: Clip, seconds: float) -> Clip:
-    frames = max(1, round(seconds * clip.fps))
-    if len(clip.rotations) <= frames:
-        return clip
-    return replace(clip, rotations=clip.rotations[:frames], root=clip.root[:frames], loops=False)
+def _lasting(clip: Clip, seconds: float) -> Clip:
+    """The clip for just so long: cut, or its last pose held."""
+    frames = np.minimum(np.arange(max(1, round(seconds * clip.fps))), len(clip.rotations) - 1)
+    return replace(clip, rotations=clip.rotations[frames], root=clip.root[frames], loops=False)

@@ -71,7 +71,9 @@ class CharacterOptions(BaseModel):
     keep: Annotated[tuple[BodyPart, ...], Field(fail_fast=True, max_length=20)] = Field(
         (), description="Parts of the body that stay as pictured."
     )
-    seconds: Annotated[float, Field(ge=1, le=30)] = Field(4.0, description="Length of the video, at most.")
+    seconds: Annotated[float, Field(ge=1, le=30)] = Field(
+        4.0, description="Length of the video: a longer motion is cut, and of a shorter one the last pose is held."
+    )
     size: tuple[Side, Side] | None = Field(
         None,
         examples=[(300, 300)],

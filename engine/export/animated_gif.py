@@ -4,8 +4,9 @@ The palette is that of the first second or so (`SAMPLE` frames): the people and 
 dither hangs on a pixel's place alone, so that what does not move does not flicker, and costs nothing in the file; error
 diffusion crawls from frame to frame. Source of both: FFmpeg's filters `palettegen` and `paletteuse`.
 
-Measured on 60 frames of a portrait at 474x474 (brightness of what never changes: its mean deviation over time, in grey levels):
-see `docs/limits.md` for how large files become; `sierra2_4a` in the place of `bayer` makes them half as large again.
+Measured on 60 frames of a made performance at 480x480 (means over 8 x 8 pixels against the source, grey levels; deviation over
+time of what never changes): `bayer` 3.2 MB, 0.66, 0.06; `sierra2_4a` 3.6 MB, 0.34, 0.06; no dither 3.0 MB, 0.40, 0.05, and
+bands on skin.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from typing import cast
 import av
 import numpy as np
 from av.filter import Graph
+from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
-from av.video.stream import VideoStream
 
 from engine.export import synthetic
 from engine.export.encoders import Target
@@ -49,7 +50,7 @@ class GifEncoder:
         )
         options = {"loop": "0", "final_delay": str(max(_SHORTEST, min(round(last * _TICKS), 65535)))}
         self._container = av.open(str(target.path), "w", format="gif", options=options)
-        self._stream = cast(VideoStream, self._container.add_stream("gif", rate=_TICKS))
+        self._stream = self._container.add_stream("gif", rate=_TICKS)
         self._stream.width, self._stream.height = target.size
         self._stream.pix_fmt = "pal8"
         self._stream.codec_context.time_base = Fraction(1, _TICKS)
@@ -106,8 +107,8 @@ class GifEncoder:
         graph = Graph()
         clock = Fraction(1, _TICKS)
         width, height = self._target.size
-        pictures = graph.add_buffer(width=width, height=height, format="rgba", time_base=clock)
-        colours = graph.add_buffer(width=16, height=16, format=palette.format.name, time_base=clock)
+        pictures = graph.add_buffer(width=width, height=height, format=VideoFormat("rgba"), time_base=clock)
+        colours = graph.add_buffer(width=16, height=16, format=palette.format, time_base=clock)
         use, self._sink = graph.add("paletteuse", _DITHER), graph.add("buffersink")
         pictures.link_to(use, 0, 0)
         colours.link_to(use, 0, 1)
@@ -124,7 +125,9 @@ def _palette(frames: list[VideoFrame], transparent: bool) -> VideoFrame:
     """The colours (16 x 16) that stand for those of all frames."""
     graph = Graph()
     first = frames[0]
-    source = graph.add_buffer(width=first.width, height=first.height, format="rgba", time_base=Fraction(1, _TICKS))
+    source = graph.add_buffer(
+        width=first.width, height=first.height, format=VideoFormat("rgba"), time_base=Fraction(1, _TICKS)
+    )
     generate, sink = graph.add("palettegen", f"reserve_transparent={int(transparent)}"), graph.add("buffersink")
     source.link_to(generate)
     generate.link_to(sink)

@@ -136,3 +136,12 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
     assert len(film.root) > 100
     assert inside(boxes(character, seen, film, arms=False), seen)
     assert np.ptp(sole_places(skeleton, film)[..., 1].min(2), axis=0).min() > 0.05, "and runs on"
+
+
+@pytest.mark.parametrize("seconds", [1.0, 4.0, 6.5])
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_film_is_as_long_as_it_was_asked_for(character: Character, name: str, seconds: float) -> None:
+    """A bow that is done once is over before: its last pose is held."""
+    seen = camera(character, 0.15, 0.1)
+    film = choose_motion(character, seen, character.pictured, name, None, (), seconds, 10.0).film
+    assert len(film.rotations) == len(film.root) == 10 * seconds

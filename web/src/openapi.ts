@@ -1452,7 +1452,7 @@ export interface components {
              */
             keep?: ("head" | "torso" | "left_arm" | "right_arm" | "left_leg" | "right_leg" | "arms" | "legs")[];
             /**
-             * @description Length of the video, at most.
+             * @description Length of the video: a longer motion is cut, and of a shorter one the last pose is held.
              * @default 4
              */
             seconds?: number;
