@@ -293,7 +293,7 @@ def test_one_file_cannot_be_the_outline_of_all(couple: Path, tmp_path: Path, kin
 
 
 def test_files_of_the_wrong_size_are_refused(tmp_path: Path) -> None:
-    write_image(tmp_path / "small.png", np.zeros((10, 12, 3), np.uint8))
+    write_image(tmp_path / "small.png", np.zeros((20, 24, 3), np.uint8))
     for read, code in ((read_mask, "mask_size"), (read_labels, "labels_size")):
         with pytest.raises(InputError) as raised:
             read(tmp_path / "small.png", [(100, 120)], LIMITS)

@@ -116,8 +116,10 @@ def hlg(linear: np.ndarray) -> np.ndarray:
 
 
 def pq(linear: np.ndarray) -> np.ndarray:
-    """PQ code values of linear BT.2020 light whose white is at 203 cd/m2."""
-    return pq_code(linear * 203)
+    """PQ code values of linear BT.2020 light whose white is at 203 cd/m2 (BT.2100, table 4, the inverse EOTF)."""
+    m1, m2, c1, c2, c3 = 0.1593017578125, 78.84375, 0.8359375, 18.8515625, 18.6875
+    power = (np.maximum(linear, 0) * 203 / 10000) ** m1
+    return ((c1 + c2 * power) / (1 + c3 * power)) ** m2
 
 
 @pytest.fixture
@@ -159,6 +161,19 @@ def test_hdr_keeps_faces_and_rolls_off_highlights(tmp_path: Path, name: str, cod
     assert np.abs(found - CHART)[below_the_knee].max() <= 4
     # Diffuse white is left below the top, so that the highlights above it still show.
     assert 220 < found[0, 4].mean() < 240
+
+
+def test_reference_levels_are_those_of_the_report() -> None:
+    """BT.2408, table 1: diffuse white, 203 cd/m2, has 75 % in HLG and 58 % in PQ; and an 18 % grey card 26 cd/m2, 38 % in
+    both. Below the knee, light that is a share of diffuse white is that share of sRGB's."""
+    for transfer, encode, white, card in (("hlg", hlg, 0.75, 0.38), ("pq", pq, 0.58, 0.38)):
+        grey = np.ones((1, 3))
+        assert encode(grey)[0, 1] == pytest.approx(white, abs=0.005)
+        assert encode(grey * 26 / 203)[0, 1] == pytest.approx(card, abs=0.007)
+        for share in (0.01, 0.05, 26 / 203, 0.3, 0.4):
+            code = np.round(encode(grey * share) * 65535).astype(np.uint16)[None]
+            level = 255 * (1.055 * share ** (1 / 2.4) - 0.055)
+            assert np.abs(tone_map(transfer, "bt2020").apply(code)[0, 0] - level).max() <= 1  # type: ignore[arg-type]
 
 
 def test_highlights_keep_their_order() -> None:

@@ -68,6 +68,21 @@ def test_heic(tmp_path: Path) -> None:
     assert near(picture.rgb, PIXELS, 8) and picture.format == "image/heic"
 
 
+def test_heic_that_is_turned_twice_over_is_turned_once(tmp_path: Path) -> None:
+    """Phones write the turn as a property of the picture (`irot`) and into EXIF, too: the property alone counts."""
+    exif = Image.Exif()
+    exif[0x0112] = 6
+    stored = Image.fromarray(np.ascontiguousarray(np.rot90(PIXELS, 1)))
+    pillow_heif.from_pillow(stored).save(tmp_path / "a.heic", quality=95, exif=exif.tobytes())
+    content = (tmp_path / "a.heic").read_bytes()
+    entry = bytes.fromhex("01120003 00000001")
+    assert b"irot" in content and content.count(entry) == 1
+    at = content.index(entry) + len(entry)  # the writer says 1 there, phones say what the property says
+    (tmp_path / "a.heic").write_bytes(content[:at] + b"\0\6" + content[at + 2 :])
+    picture = read_image(tmp_path / "a.heic")
+    assert near(picture.rgb, PIXELS, 8)
+
+
 @pytest.mark.parametrize("orientation", range(1, 9))
 @pytest.mark.parametrize("format", ["jpeg", "png", "webp", "heic"])
 def test_exif_orientation_is_applied(tmp_path: Path, orientation: int, format: str) -> None:
