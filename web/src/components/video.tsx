@@ -5,7 +5,7 @@ import { SelectField } from './select';
 
 /** Width and height to fit into, in pixels; null for the picture's own. */
 export type Size = [width: number, height: number] | null;
-export type Format = 'mp4' | 'webm' | 'webp' | 'png';
+export type Format = 'mp4' | 'webm' | 'webp' | 'gif' | 'png';
 
 const words = strings.video;
 const sizes: readonly Size[] = [null, [512, 512], [1024, 1024], [1920, 1920]];
