@@ -12,6 +12,7 @@ import service.tables  # noqa: F401  (the tables must know of each other before 
 from engine.kind import Kind
 from service.bucket import Bucket
 from service.database import Database
+from service.disk import keep_ballast
 from service.kinds.registry import load_kinds, require_known
 from service.queue import Queue
 from service.settings import Settings
@@ -35,6 +36,7 @@ class Context:
         """Open everything, making the data folder and the tables where they are not there yet. `part` is what this
         process is, for the traces."""
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
+        keep_ballast(settings)
         kinds = load_kinds(settings.kinds)
         require_known(settings.worker_kinds, kinds)
         database = Database(settings.database, settings.database_connections)

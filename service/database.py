@@ -207,6 +207,11 @@ def database_unavailable(error: BaseException) -> bool:
     )
 
 
+def database_full(error: DBAPIError) -> bool:
+    """Whether an error says that there is no room for what was to be written."""
+    return "disk is full" in str(error.orig) or postgresql.error_code(error.orig) == postgresql.NO_ROOM
+
+
 def alembic_config() -> Config:
     """Where the migrations are."""
     config = Config()

@@ -39,6 +39,9 @@ USE_LOCK = UPGRADE_LOCK + 1
 UNTRANSLATABLE = "22021"
 """The error code for a text that the server cannot keep."""
 
+NO_ROOM = "53100"
+"""The error code of a full disk."""
+
 BUSY = ("40001", "40P01", "53300", "55P03", "57014")
 """Error codes of a server that has too much to do: conflicts, too many connections, timeouts."""
 

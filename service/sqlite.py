@@ -7,10 +7,11 @@ otherwise find its snapshot stale and fail.
 from __future__ import annotations
 
 import fcntl
+import os
 import sqlite3
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -46,6 +47,7 @@ def engine(url: str, connections: int) -> Engine:
 
 
 def _connections(url: str) -> Engine:
+    _keep_to_owner(url)
     made = create_engine(url, connect_args={"timeout": PATIENCE_SECONDS})
 
     @event.listens_for(made, "connect")
@@ -102,6 +104,18 @@ def unused(url: str, connection: Connection) -> Iterator[bool]:
             yield False
         else:
             yield True
+
+
+def _keep_to_owner(url: str) -> None:
+    """Let nobody but its owner read the file; SQLite makes the files beside it (`-wal`, `-shm`) like it."""
+    path = Path(make_url(url).database or "")
+    if not path.parent.is_dir():
+        return  # it is made with its folder, for changing the tables
+    with suppress(OSError):  # one that belongs to another user stays as that user wants it
+        os.close(os.open(path, os.O_WRONLY | os.O_CREAT, 0o600))
+        for one in (path, *(path.with_name(path.name + end) for end in ("-wal", "-shm"))):
+            if one.exists():
+                one.chmod(0o600)
 
 
 def _in_use(url: str) -> IO[str]:

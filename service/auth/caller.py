@@ -9,7 +9,9 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
+import structlog
 from fastapi import Depends, Request
+from sqlalchemy.exc import DBAPIError
 
 from service.auth import repository
 from service.auth.models import LOCAL, Key
@@ -18,6 +20,8 @@ from service.auth.sessions import COOKIE, key_of_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import Context, InContext
+from service.database import database_full
+from service.disk import make_room
 from service.problems import Problem
 
 Scope = Literal["read", "submit", "admin"]
@@ -50,6 +54,8 @@ HERE = Caller(LOCAL, frozenset(SCOPES))
 
 def identify(request: Request, context: InContext) -> Caller:
     """The caller of a request, counted against its rate. Raises 401 and 429 problems."""
+    if request.method == "DELETE" or request.url.path.endswith("/cancel"):
+        make_room(context.settings)  # before anything is written, such as when the key was used
     token = _bearer(request)
     session = request.cookies.get(COOKIE)
     if token is None and session is None:
@@ -105,6 +111,12 @@ def not_known(code: str, detail: str) -> Problem:
 
 
 def _note_use(context: Context, key: Key) -> None:
-    if not repository.used_recently(key):
+    if repository.used_recently(key):
+        return
+    try:
         with context.database.write() as session:
             repository.note_use(session, key.id)
+    except DBAPIError as error:  # on a full disk what only reads goes on
+        if not database_full(error):
+            raise
+        structlog.get_logger().warning("use_not_noted", reason=str(error.orig))

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
-from running import Running
+from running import ROOT, Running
 
 
 @pytest.mark.parametrize("reserve", [0, 20])
@@ -41,3 +47,38 @@ def test_below_the_reserve_nothing_new_is_accepted_and_what_is_there_is_kept(
     ballast.unlink()
     assert running.client.post("/v1/files", files={"file": picture}).status_code == 201
     running.stop()
+
+
+@pytest.mark.parametrize("keyed", [False, True])
+def test_on_a_full_disk_a_job_can_be_erased(
+    small_disk: Path, start: Callable[..., Running], picture: bytes, keyed: bool
+) -> None:
+    headers = {"Authorization": f"Bearer {a_key(small_disk / 'data')}"} if keyed else {}
+    running = start(small_disk / "data", disk_reserve_mb=1)
+    running.client.headers.update(headers)
+    spare = running.data_dir / "ballast"
+    job = running.until(running.submit(picture)["id"], "succeeded")
+    assert spare.stat().st_size == 8_000_000
+    if keyed:  # so that the next request has to note that the key was used
+        with closing(sqlite3.connect(running.data_dir / "galatea.db")) as database, database:
+            database.execute("UPDATE keys SET last_used_at = NULL")
+    with (small_disk / "filled").open("wb", buffering=0) as filled, suppress(OSError):
+        while filled.write(bytes(4096)):
+            pass
+    assert shutil.disk_usage(small_disk).free < 4096
+    assert running.client.get(f"/v1/jobs/{job['id']}").status_code == 200
+    assert running.client.delete(f"/v1/jobs/{job['id']}").status_code == 204
+    assert running.client.get(f"/v1/jobs/{job['id']}").status_code == 404
+    assert not spare.exists(), "given up"
+    (small_disk / "filled").unlink()
+    assert running.client.post("/v1/files", files={"file": picture}).status_code == 201
+    assert spare.stat().st_size == 8_000_000, "and made again when there is room"
+    running.stop()
+
+
+def a_key(data_dir: Path) -> str:
+    """The token of a fresh key of the service that keeps its data there."""
+    environment = os.environ | {"GALATEA_DATA_DIR": str(data_dir)}
+    command = [sys.executable, "-m", "shell.main", "keys", "create", "root"]
+    made = subprocess.run(command, env=environment, cwd=ROOT, capture_output=True, text=True, check=True)
+    return made.stdout.strip()
