@@ -7,8 +7,9 @@ import sqlite3
 import subprocess
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
@@ -34,6 +35,10 @@ class Scene:
     receiver: Receiver
     disk: Path | None
     rng: Random
+    answers: Counter[int] = field(default_factory=Counter)
+    """How often each status was answered to who submitted a job."""
+    doomed: list[str] = field(default_factory=list)
+    """Jobs whose input ends their process."""
 
 
 def shift_clock(scene: Scene, seconds: int) -> None:
@@ -51,6 +56,21 @@ def kill(scene: Scene, part: str) -> None:
     found = scene.running.processes(part)
     if found:
         scene.rng.choice(found).kill()
+
+
+def freeze(scene: Scene, part: str) -> None:
+    """Nobody thaws it: the service has to miss it."""
+    found = [one for one in scene.running.processes(part) if one.ppid() == scene.running.process.pid]
+    for one in found:
+        one.suspend()
+
+
+def abort(scene: Scene) -> None:
+    """A job's input brings a library to abort the process, whenever it is tried."""
+    picture = Path(__file__).with_name("faults.py").read_bytes()  # no matter of what: it is not decoded
+    file = scene.running.client.post("/v1/files", files={"file": ("a.png", b"\x89PNG\r\n\x1a\n" + picture)})
+    job = {"kind": "tiny", "inputs": {"image": file.raise_for_status().json()["id"]}, "options": {"crash": "abort"}}
+    scene.doomed.append(scene.running.client.post("/v1/jobs", json=job).raise_for_status().json()["id"])
 
 
 def kill_everything(scene: Scene) -> None:
@@ -156,6 +176,9 @@ FAULTS = (
     Fault("a job's process is killed", lambda scene: kill(scene, "worker.child")),
     Fault("the worker is killed", lambda scene: kill(scene, "shell.main worker")),
     Fault("the API is killed, and all with it", kill_everything, restart),
+    Fault("the worker is frozen", lambda scene: freeze(scene, "shell.main worker")),
+    Fault("an input aborts its process", abort),
+    Fault("Redis is frozen", lambda scene: freeze(scene, "redis-server")),
     Fault("Redis is killed", lambda scene: kill(scene, "redis-server")),
     Fault("Redis is emptied", empty_redis),
     Fault("the database is locked", lock_database),
