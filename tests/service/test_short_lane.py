@@ -43,7 +43,7 @@ def test_a_kind_has_limits_of_its_own(busy: tuple[Running, dict[str, Any]]) -> N
     running, long = busy
     offered = {kind["name"]: kind for kind in running.client.get("/v1/kinds").json()["items"]}
     assert (offered["short"]["short"], offered["tiny"]["short"]) == (True, False)
-    assert offered["short"]["limits"] == {"seconds": 600, "memory_mb": 400, "cores": 1}
+    assert offered["short"]["limits"] == {"seconds": 600, "memory_mb": 1500, "cores": 1}
     assert offered["tiny"]["limits"] == {"seconds": 3600, "memory_mb": 6000, "cores": None}
 
     done = running.until(submit(running, "short", long), "succeeded", "failed")

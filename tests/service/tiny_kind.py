@@ -139,5 +139,5 @@ KIND = Kind(
 )
 
 OTHER = replace(KIND, name="other")
-SHORT = replace(KIND, name="short", needs=Needs(seconds=600, memory_mb=400, cores=1, short=True))
+SHORT = replace(KIND, name="short", needs=Needs(seconds=600, memory_mb=1500, cores=1, short=True))
 BRIEF = replace(KIND, name="brief", needs=Needs(seconds=4, short=True))
