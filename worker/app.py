@@ -39,6 +39,9 @@ from worker.webhooks import Courier
 WEBHOOK_SECONDS = 0.5
 """How often is looked for webhooks that are due."""
 
+REDIS_SECONDS = 0.2
+"""How often is looked whether Redis answers again."""
+
 LONGEST_FAREWELL = 5.0
 """Seconds in which running jobs are given back; then the worker ends, come what may."""
 
@@ -62,6 +65,10 @@ class Worker:
         late, or come twice: then there may be none."""
         if not self.stopping.is_set():
             self._run_next(kind, self.children)
+        # Celery acknowledges the message now. Where that fails, it counts the message as under way for good, and once
+        # all slots are full of such it listens no more, not even for the end of its connection.
+        while not self.context.queue.reachable() and not self.stopping.wait(REDIS_SECONDS):
+            pass
 
     def _run_next(self, kind: str, children: WarmChildren) -> None:
         """Run the job of this kind whose turn it is, if there is one, in one of these processes."""
