@@ -7,7 +7,8 @@ COPY web/package.json web/package-lock.json web/.npmrc ./
 RUN npm ci --no-progress
 COPY web .
 COPY docs /docs
-RUN npm run build && npm run build:reactive && cp reactive/dist/reactive-portrait.js dist/
+RUN npm run build && npm run build:reactive && cp reactive/dist/reactive-portrait.js dist/ \
+ && node compress.mjs dist
 
 FROM python:3.11.11-slim-bookworm AS packages
 ENV PIP_NO_CACHE_DIR=1 PIP_DISABLE_PIP_VERSION_CHECK=1

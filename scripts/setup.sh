@@ -97,6 +97,7 @@ build_player() {
     mkdir -p "$copy"
     cmp -s "$script" "$copy/${script##*/}" || cp "$script" "$copy/"
   done
+  node web/compress.mjs web/dist
 }
 
 # What only the tests need: a browser that is driven without a window, PostgreSQL, what makes networks, and what the

@@ -13,6 +13,7 @@ from service.connections.patience import Patience
 from service.connections.stopping import Stopping
 from service.context import Context
 from service.drivers.endpoints import router as drivers
+from service.encodings import Compressed
 from service.events.endpoints import router as events
 from service.events.watch import Watch
 from service.files.endpoints import router as files
@@ -57,6 +58,7 @@ def make_app(context: Context) -> FastAPI:
     app.add_middleware(
         Patience, stopping=app.state.stopping, most=settings.body_seconds, rate=settings.body_bytes_per_second
     )
+    app.add_middleware(Compressed)
     if settings.cors_origins:
         app.add_middleware(
             CORSMiddleware,

@@ -16,9 +16,10 @@ from collections.abc import Sequence
 from ipaddress import IPv4Network, IPv6Network, ip_address
 from urllib.parse import SplitResult, urlsplit
 
-from starlette.datastructures import Headers
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service import browser
 from service.loopback import is_loopback
 from service.problems import Problem
 
@@ -29,7 +30,7 @@ PUBLIC = "/v1/public/"
 
 
 class Guard:
-    """Refuses requests that a web page or a proxy brought in, and marks every answer as not to be guessed at."""
+    """Refuses requests that a web page or a proxy brought in, and tells browsers what every answer may do."""
 
     def __init__(
         self,
@@ -50,8 +51,7 @@ class Guard:
 
         async def send_marked(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = [(b"x-content-type-options", b"nosniff"), (b"referrer-policy", b"same-origin")]
-                message["headers"] = [*message["headers"], *headers]
+                browser.mark(MutableHeaders(scope=message))
             await send(message)
 
         problem: Problem | None

@@ -13,6 +13,7 @@ from urllib.parse import quote
 from starlette.responses import Response, StreamingResponse
 from starlette.types import Send
 
+from service import browser
 from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem, responses, unavailable
 from service.storage import Storage, StorageUnavailable
@@ -45,8 +46,7 @@ def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: 
         "Accept-Ranges": "bytes",
         "Cache-Control": "private, no-cache",
         "Content-Disposition": _disposition(stored.name),
-        # What a user gave must never act as a page of ours, whatever it holds.
-        "Content-Security-Policy": "default-src 'none'; sandbox",
+        "Content-Security-Policy": browser.MEDIA,
     }
     if not_modified(headers.get("if-none-match"), headers.get("if-modified-since"), etag, stored.modified):
         return Response(status_code=304, headers=answer)

@@ -13,6 +13,7 @@ from typing import Any, cast
 import h11
 import uvicorn
 
+from service import browser
 from service.connections.census import MOST_PARTING, Census
 from service.connections.patience import Stopped
 from service.connections.strict import StrictConnection
@@ -183,9 +184,11 @@ class Protocol(InTurns):
                 return
         problem.headers["Connection"] = "close"
         answer = problem.response()
-        headers = [*answer.raw_headers, (b"x-content-type-options", b"nosniff")]
+        browser.mark(answer.headers)
         for event in (
-            h11.Response(status_code=answer.status_code, headers=headers, reason=phrase(answer.status_code).encode()),
+            h11.Response(
+                status_code=answer.status_code, headers=answer.raw_headers, reason=phrase(answer.status_code).encode()
+            ),
             h11.Data(data=answer.body),
             h11.EndOfMessage(),
         ):

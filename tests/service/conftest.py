@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import subprocess
 from collections.abc import Callable, Iterator
@@ -21,6 +22,12 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     page = tmp_path_factory.mktemp("page")
     (page / "index.html").write_text("<title>The page</title>")
     (page / "app.js").write_text("start()")
+    assets = page / "assets"
+    assets.mkdir()
+    script = b"go();" * 1000
+    (assets / "app-a1b2c3.js").write_bytes(script)
+    (assets / "app-a1b2c3.js.br").write_bytes(b"as brotli")
+    (assets / "app-a1b2c3.js.gz").write_bytes(gzip.compress(script))
     (page.parent / "secret.txt").write_text("not yours")
     data = tmp_path_factory.mktemp("data") / "data"
     service = Running(data, image_mb=1, video_mb=2, job_memory_mb=1500, web_dir=page, allowed_networks="127.0.0.0/8")

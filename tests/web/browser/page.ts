@@ -35,12 +35,20 @@ export const portrait = inPython(
 /** A picture without a face, from the same place. */
 export const faceless = join(portrait, '../Minduka_Present_Blue_Pack.png');
 
-/** Open the page. What the browser complains of fails the test at its end: see `complaints`. */
+/**
+ * Open the page. What the browser complains of fails the test at its end: see `complaints`. So does what the page's policy
+ * (CSP) does not allow.
+ */
 export async function open(browser: Browser, hash = '', options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
   complaints.length = 0;
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  await page.addInitScript(() =>
+    addEventListener('securitypolicyviolation', ({ violatedDirective, blockedURI, sourceFile, lineNumber }) =>
+      console.error(`not allowed: ${violatedDirective}, ${blockedURI} (${sourceFile}:${lineNumber})`),
+    ),
+  );
   await page.goto(`${inject('address')}/${hash}`);
   return page;
 }
