@@ -54,8 +54,13 @@ HERE = Caller(LOCAL, frozenset(SCOPES))
 
 def identify(request: Request, context: InContext) -> Caller:
     """The caller of a request, counted against its rate. Raises 401 and 429 problems."""
+    caller = _known(request, context)
     if request.method == "DELETE" or request.url.path.endswith("/cancel"):
-        make_room(context.settings)  # before anything is written, such as when the key was used
+        make_room(context.settings)
+    return caller
+
+
+def _known(request: Request, context: Context) -> Caller:
     token = _bearer(request)
     session = request.cookies.get(COOKIE)
     if token is None and session is None:
