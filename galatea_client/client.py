@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import uuid
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
@@ -11,6 +12,7 @@ from typing import Any, Literal, Self
 
 import httpx
 
+from galatea_client.errors import InvalidAddress, NotAName
 from galatea_client.events import Event, follow
 from galatea_client.job import Job
 from galatea_client.models import (
@@ -46,6 +48,10 @@ class Client:
     patience : the longest that the service may ask to wait before that, seconds.
     timeout : seconds without an answer after which a line counts as broken.
     transport : what httpx sends requests by, such as `httpx.HTTPTransport(verify=...)`; its own by default.
+
+    Raises
+    ------
+    InvalidAddress : `base_url` is none.
     """
 
     def __init__(
@@ -58,7 +64,7 @@ class Client:
         transport: httpx.BaseTransport | None = None,
     ):
         headers = {"Accept-Encoding": "identity", **({"Authorization": f"Bearer {key}"} if key else {})}
-        self._http = httpx.Client(base_url=base_url.rstrip("/"), headers=headers, timeout=timeout, transport=transport)
+        self._http = httpx.Client(base_url=_address(base_url), headers=headers, timeout=timeout, transport=transport)
         self._transport = Transport(self._http, retries, patience)
         self._timeout = timeout
 
@@ -407,7 +413,10 @@ class Client:
     def _source(self, value: Source | Sequence[Source]) -> str | list[str]:
         if isinstance(value, Path):
             return self.upload(value).id
-        return value if isinstance(value, str) else [str(self._source(one)) for one in value]
+        if isinstance(value, str):
+            _check_name(value)
+            return value
+        return [str(self._source(one)) for one in value]
 
     def _job(self, document: Any) -> Job:
         return Job.model_validate(document).bound(self)
@@ -421,3 +430,20 @@ def _target(to: str | Path, name: str) -> Path:
         return path / Path(name).name
     path.parent.mkdir(parents=True, exist_ok=True)
     return path
+
+
+def _address(given: str) -> httpx.URL:
+    """The service's address. Raises `InvalidAddress`."""
+    try:
+        url = httpx.URL(given.rstrip("/"))
+    except (httpx.InvalidURL, AttributeError, TypeError) as error:
+        raise InvalidAddress(f"{given!r} is no address: {error}") from error
+    if url.scheme not in ("http", "https") or not url.host:
+        raise InvalidAddress(f"{given!r} is no address: use one such as http://127.0.0.1:8000")
+    return url
+
+
+def _check_name(given: str) -> None:
+    """Raise `NotAName` where a text that stands for an id or a name is the path of a file."""
+    if (os.sep in given or Path(given).suffix) and "://" not in given and Path(given).is_file():
+        raise NotAName(f"{given!r} is a file of this machine: give Path({given!r}) to have it uploaded")

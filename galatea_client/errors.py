@@ -14,6 +14,14 @@ class GalateaError(Exception):
     """Anything that this client raises."""
 
 
+class InvalidAddress(GalateaError, ValueError):
+    """What was given as the service's address is none."""
+
+
+class NotAName(GalateaError, ValueError):
+    """A text names a file of this machine, where a text is an id or the name of something that the service knows."""
+
+
 class ApiError(GalateaError):
     """The service refused a request: a problem document (RFC 9457).
 

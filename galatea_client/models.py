@@ -9,7 +9,7 @@ from datetime import datetime
 from enum import StrEnum
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 
 class Model(BaseModel):
@@ -206,7 +206,7 @@ class Key(Model):
 class NewKey(Key):
     """A key that was just made: its token cannot be had again."""
 
-    token: str
+    token: str = Field(repr=False)
 
 
 class OwnKey(Model):
@@ -215,7 +215,7 @@ class OwnKey(Model):
     id: str
     name: str
     scopes: list[str]
-    signing_secret: str | None
+    signing_secret: str | None = Field(repr=False)
     requests_per_minute: float | None
     jobs_at_once: int | None
     stored_mb: int | None
@@ -261,14 +261,14 @@ class Webhook(Model):
 class NewWebhook(Webhook):
     """An endpoint that was just made, with the secret that signs what it is told."""
 
-    secret: str
+    secret: str = Field(repr=False)
 
 
 class WebhookSecret(Model):
     """The secrets that sign for an endpoint; the previous one until `previous_until`."""
 
-    secret: str
-    previous_secret: str | None
+    secret: str = Field(repr=False)
+    previous_secret: str | None = Field(repr=False)
     previous_until: datetime | None
 
 

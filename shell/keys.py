@@ -57,7 +57,9 @@ def show() -> None:
     with _writing() as session:
         found = repository.with_tokens(session)
     table = Table(box=None)
-    for heading in ("id", "name", "begins with", "scopes", "state", "last used"):
+    longest = max((len(key.id) for key in found), default=0)
+    table.add_column("id", no_wrap=True, min_width=longest)  # it is copied, and asked for by other programs
+    for heading in ("name", "begins with", "scopes", "state", "last used"):
         table.add_column(heading, overflow="fold")
     for key in found:
         used = f"{key.last_used_at:%Y-%m-%d %H:%M}" if key.last_used_at else "never"

@@ -5,7 +5,9 @@ from __future__ import annotations
 import atexit
 import gc
 import os
+import signal
 import sys
+from difflib import get_close_matches
 
 import click
 
@@ -19,7 +21,26 @@ os.environ.setdefault("OPENCV_THREAD_POOL_ACTIVE_WAIT_WORKER", "0")
 """OpenCV's likewise: they would go on asking for work, and take from others what they ask with."""
 
 
-class Kinds(click.Group):
+INTERRUPTED = 128 + signal.SIGINT
+"""What a shell calls the end of a command by Ctrl-C."""
+
+
+class Group(click.Group):
+    """Commands by name; a wrong one is told with what is nearest to it."""
+
+    def resolve_command(
+        self, context: click.Context, arguments: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        try:
+            return super().resolve_command(context, arguments)
+        except click.UsageError as error:
+            near = get_close_matches(arguments[0], self.list_commands(context), n=1)
+            there = f"Did you mean {near[0]}?" if near else f"There are {', '.join(self.list_commands(context))}."
+            error.message += f" {there}"
+            raise
+
+
+class Kinds(Group):
     """The fixed commands, and one made from each job kind; the kinds are loaded only where they are asked for."""
 
     def list_commands(self, context: click.Context) -> list[str]:
@@ -43,7 +64,7 @@ class Kinds(click.Group):
         return kind_command(kind) if kind is not None else None
 
 
-class Keys(click.Group):
+class Keys(Group):
     """Its commands are loaded only where they are asked for."""
 
     def list_commands(self, context: click.Context) -> list[str]:
@@ -142,10 +163,23 @@ def run() -> None:
     status: list[int] = []
     atexit.register(lambda: _leave(status))  # the first to be registered is the last to be called
     try:
-        main()
+        _end(main)
     except SystemExit as end:
         status.append(end.code if isinstance(end.code, int) else int(end.code is not None))
         raise
+
+
+def _end(command: click.Command) -> None:
+    """Run the command and exit as it ends: as click does, but for Ctrl-C, of which the code tells."""
+    try:
+        said = command.main(standalone_mode=False)
+    except click.Abort:
+        click.echo("Stopped.", err=True)
+        sys.exit(INTERRUPTED)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    sys.exit(said if isinstance(said, int) else 0)
 
 
 def _leave(status: list[int]) -> None:

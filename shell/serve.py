@@ -60,8 +60,6 @@ def serve(settings: Settings) -> None:
         supervisor = Supervisor(settings.silent_seconds, [lock.fileno()])
         try:
             _serve(settings, supervisor, listening)
-        except KeyboardInterrupt:
-            pass
         finally:
             for number in (signal.SIGINT, signal.SIGTERM):
                 signal.signal(number, signal.SIG_IGN)
@@ -200,4 +198,6 @@ def _worker_lives(data_dir: Path, process: int) -> bool:
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    raise SystemExit(0)
