@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import click
+from click.shell_completion import CompletionItem
 from pydantic import BaseModel, ValidationError
 
 from engine.delivery import deliver
@@ -78,7 +79,20 @@ def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
         return click.Argument([item.name], required=item.required, metavar=item.name.upper())
     flag = "--" + item.name.replace("_", "-")
     required = item.required and item.spared_by is None
-    return click.Option([flag, item.name], required=required, metavar=metavar, help=item.description)
+    return click.Option(
+        [flag, item.name], required=required, metavar=metavar, help=item.description, shell_complete=_names_of(item)
+    )
+
+
+def _names_of(item: Input) -> Callable[[click.Context, click.Parameter, str], list[CompletionItem]]:
+    """What a shell offers where the input is asked for: what is built in, and files."""
+    built_in = (*library.names(item.library), *([AUTO] if item.auto else [])) if item.library is not None else ()
+
+    def complete(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+        found = [CompletionItem(name) for name in built_in if name.startswith(begun)]
+        return [*found, CompletionItem(begun, type="dir" if item.many else "file")]
+
+    return complete
 
 
 def _input(item: Input, given: str | None) -> Given | None:

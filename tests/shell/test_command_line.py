@@ -48,3 +48,17 @@ def test_ctrl_c_ends_a_service_with_130_and_all_that_it_started(tmp_path: Path) 
     assert said.splitlines()[-1] == "Stopped." and "Traceback" not in said
     _, alive = psutil.wait_procs(children, timeout=60)
     assert children and not alive
+
+
+def test_names_are_completed(tmp_path: Path) -> None:
+    words = {
+        "galatea por": "plain,portrait",
+        "galatea portrait face.jpg --driver surp": "plain,surprise",
+        "galatea character me.jpg --motion da": "plain,dance",
+    }
+    for line, offered in words.items():
+        asked = {"_GALATEA_COMPLETE": "bash_complete", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split()) - 1)}
+        kept = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
+        command = [Path(sys.executable).with_name("galatea")]
+        done = subprocess.run(command, env=kept | asked, capture_output=True, text=True)
+        assert offered in done.stdout.splitlines(), done.stdout + done.stderr
