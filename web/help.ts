@@ -81,7 +81,7 @@ function rendered(text: string): string {
   });
   // `:` blocks of the other renderer's attributes are of no use here
   const html = marked.parse(text.replace(/\{:? ?[#.][^}\n]*\}/g, ''), { async: false });
-  return html.replace(/<table>/g, '<div class="wide" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
+  return html.replace(/<pre>/g, '<pre tabindex="0">').replace(/<table>/g, '<div class="wide" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
 }
 
 /** As the documentation's other renderer makes them, so that links to a heading fit both. */

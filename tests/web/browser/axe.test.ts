@@ -89,6 +89,8 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
       await page.getByRole('button', { name: 'Create link' }).click();
       await page.getByRole('button', { name: 'Revoke' }).first().waitFor();
       await page.getByText('All files', { exact: true }).click();
+      await page.getByText('Use in code', { exact: true }).click();
+      await page.getByRole('heading', { name: 'curl' }).waitFor();
       await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Move the landmarks' }).waitFor();
     },
@@ -105,6 +107,8 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
     hash: () => `#/jobs/${failed}`,
     show: (page) => page.getByRole('button', { name: 'Place the face by hand' }).waitFor({ timeout: LONG }),
   },
+  'the help': { hash: () => 'help/rest.html', show: (page) => page.getByRole('heading', { name: 'REST guide' }).waitFor() },
+  'an address that means nothing': { hash: () => '#/nonsense', show: (page) => page.getByRole('heading', { name: 'Page not found' }).waitFor() },
   'the history': { hash: () => '#/history', show: (page) => page.locator('.entry').first().waitFor() },
   'the keys': {
     hash: () => '#/keys',

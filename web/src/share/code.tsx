@@ -14,6 +14,7 @@ export default function CodePanel({ job }: { job: Job }) {
   const html = htmlOf(job);
   return (
     <section class="panel share" aria-label={words.use}>
+      <h2>{words.use}</h2>
       <p class="hint">{words.useHint}</p>
       <Snippet label={words.curl} code={curlOf(job, location.origin, key)} />
       <Snippet label={words.python} code={pythonOf(job, location.origin, key)} />

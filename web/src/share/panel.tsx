@@ -8,6 +8,7 @@ import { moment } from '../format';
 import { useDoing, useLoaded } from '../loading';
 import { strings } from '../strings';
 import { isLoopback } from './host';
+import QrCode from './qr';
 import '../styles/share.css';
 
 const words = strings.share;
@@ -70,6 +71,9 @@ export default function SharePanel({ job }: { job: Job }) {
             ) : (
               <span>{words.earlier(moment(link.created_at), link.hint)}</span>
             )}
+            {made[link.id] && !isLoopback(location.hostname) && (
+              <QrCode text={new URL(made[link.id] as string, location.href).href} />
+            )}
             <small>
               {link.expires_at ? words.until(moment(link.expires_at)) : words.untilRevoked}
               {' · '}
@@ -85,6 +89,6 @@ export default function SharePanel({ job }: { job: Job }) {
   );
 }
 
-/** What a link opens unless it is to open everything: the animation, and the picture that stands for it. */
+/** What a link opens unless it is to open everything: the animation, the character, and the picture that stands for it. */
 const shownTo = (job: Job): string[] =>
-  Object.keys(job.artifacts).filter((name) => name.startsWith('animation.') || name === 'poster.jpg');
+  Object.keys(job.artifacts).filter((name) => /^(animation\.|character\.(glb|usdz)$)/.test(name) || name === 'poster.jpg');

@@ -189,6 +189,7 @@ export const job = {
     hint: 'Anyone with the link can see the result, without a key. Your uploaded picture and video are not shared. Copy a link when it is made: it is shown this once.',
     here: (host: string) =>
       `You are at ${host}: links work on this computer only. To share them, start the service on an address that others can reach.`,
+    qr: 'QR code of the link: scan it with a phone',
     term: 'Expires after',
     terms: { day: '1 day', week: '7 days', month: '30 days', open: 'never' },
     everything: 'Include all files',
