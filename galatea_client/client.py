@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Any, BinaryIO, Literal, Self
 
 import httpx
 
@@ -30,11 +30,11 @@ from galatea_client.models import (
     Webhook,
     WebhookSecret,
 )
-from galatea_client.transfer import OnProgress, fetch, send_file
+from galatea_client.transfer import OnProgress, Upload, fetch, send_file
 from galatea_client.transport import Transport
 
-Source = str | Path
-"""A file of this machine (a `Path`), or the id of an uploaded one or the name of a driver or a motion (a text)."""
+Source = str | Path | bytes | bytearray | BinaryIO
+"""A file of this machine (a `Path`), what it holds, an open one; or the id of an uploaded one or the name of a driver or a motion (a text)."""
 
 
 class Client:
@@ -82,9 +82,9 @@ class Client:
 
     # Files
 
-    def upload(self, path: str | Path, progress: OnProgress | None = None) -> File:
-        """Upload a picture or video; `progress` is called with the bytes sent and all bytes."""
-        return File.model_validate(send_file(self._transport, "create_file", Path(path), progress).json())
+    def upload(self, source: Upload, progress: OnProgress | None = None) -> File:
+        """Upload a picture or video, given as a path, bytes or an open file; `progress` is called with the bytes sent and all bytes."""
+        return File.model_validate(send_file(self._transport, "create_file", source, progress).json())
 
     def file(self, file_id: str) -> File:
         """What is known of an uploaded file."""
@@ -156,7 +156,10 @@ class Client:
         A correction that is a file (the `mask` of a character, say) is given like an input: a `Path` is uploaded. None
         takes a correction back, and an option to its default. The rest is as for `submit`.
         """
-        given = {name: self._source(v) if isinstance(v, Path) else v for name, v in (corrections or {}).items()}
+        given = {
+            name: self._source(v) if isinstance(v, Path | bytes | bytearray) or hasattr(v, "read") else v
+            for name, v in (corrections or {}).items()
+        }
         body: dict[str, Any] = {"corrections": given, "options": dict(options or {})}
         if metadata is not None:
             body["metadata"] = dict(metadata)
@@ -271,9 +274,9 @@ class Client:
         """Search one of one's own drivers for moments again."""
         return Driver.model_validate(self._call("search_driver", name=name))
 
-    def create_driver(self, name: str, path: str | Path, progress: OnProgress | None = None) -> Driver:
+    def create_driver(self, name: str, source: Upload, progress: OnProgress | None = None) -> Driver:
         """Keep a driving video under a name. It is searched for moments then: see `driver`."""
-        answer = send_file(self._transport, "create_driver", Path(path), progress, {"name": name})
+        answer = send_file(self._transport, "create_driver", source, progress, {"name": name})
         return Driver.model_validate(answer.json())
 
     def rename_driver(self, name: str, new: str) -> Driver:
@@ -297,7 +300,7 @@ class Client:
     def create_motion(self, name: str, source: Source, progress: OnProgress | None = None) -> Motion:
         """Keep a BVH or GLB file under a name: a `Path`, or the id of an uploaded file. It is checked then: see
         `motion`."""
-        if isinstance(source, Path):
+        if not isinstance(source, str):
             return Motion.model_validate(
                 send_file(self._transport, "create_motion", source, progress, {"name": name}).json()
             )
@@ -411,12 +414,12 @@ class Client:
         return self._job(answer.json())
 
     def _source(self, value: Source | Sequence[Source]) -> str | list[str]:
-        if isinstance(value, Path):
-            return self.upload(value).id
         if isinstance(value, str):
             _check_name(value)
             return value
-        return [str(self._source(one)) for one in value]
+        if isinstance(value, Sequence) and not isinstance(value, bytes | bytearray):
+            return [str(self._source(one)) for one in value]
+        return self.upload(value).id
 
     def _job(self, document: Any) -> Job:
         return Job.model_validate(document).bound(self)

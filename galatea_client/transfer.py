@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import io
+import os
 import time
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -15,6 +18,9 @@ from galatea_client.transport import Transport
 
 PIECE = 1 << 16
 PAUSE_SECONDS = 0.5
+
+Upload = str | Path | bytes | bytearray | BinaryIO
+"""A file of this machine, what it holds, or one that is open for reading bytes."""
 
 OnProgress = Callable[[int, int], None]
 """Called with the bytes that are through, and how many there are."""
@@ -42,13 +48,26 @@ class Counted:
 
 
 def send_file(
-    transport: Transport, operation: str, path: Path, progress: OnProgress | None, fields: dict[str, str] | None = None
+    transport: Transport,
+    operation: str,
+    source: Upload,
+    progress: OnProgress | None,
+    fields: dict[str, str] | None = None,
 ) -> httpx.Response:
-    """Send a file as a form, read from the disk as it goes."""
-    with path.open("rb") as file:
-        counted: Any = Counted(file, path.stat().st_size, progress)
+    """Send a file as a form, read as it goes; an open one from its beginning, and it stays open."""
+    with _opened(source) as file:
+        size = file.seek(0, os.SEEK_END)
+        counted: Any = Counted(file, size, progress)
+        named = getattr(file, "name", None)
+        name = Path(named).name if isinstance(named, str) else "file"
         timeout = httpx.Timeout(30.0, read=300.0, write=300.0)
-        return transport.call(operation, files={"file": (path.name, counted)}, data=fields or {}, timeout=timeout)
+        return transport.call(operation, files={"file": (name, counted)}, data=fields or {}, timeout=timeout)
+
+
+def _opened(source: Upload) -> AbstractContextManager[BinaryIO]:
+    if isinstance(source, bytes | bytearray):
+        return nullcontext(io.BytesIO(source))
+    return Path(source).open("rb") if isinstance(source, str | Path) else nullcontext(source)
 
 
 def fetch(

@@ -53,6 +53,18 @@ def test_files_are_uploaded_where_paths_are_given(galatea: Client, picture: Path
     assert galatea.file(str(job.inputs["image"])).name == "picture.png"
 
 
+def test_a_file_may_be_bytes_or_open(galatea: Client, picture: Path) -> None:
+    told: list[tuple[int, int]] = []
+    with picture.open("rb") as opened:
+        opened.read(3)
+        for given in (picture, picture.read_bytes(), opened):
+            file = galatea.upload(given, progress=lambda sent, size: told.append((sent, size)))
+            assert file.sha256 == hashlib.sha256(picture.read_bytes()).hexdigest()
+            assert told[-1] == (picture.stat().st_size,) * 2
+    job = galatea.submit("tiny", {"image": picture.read_bytes()})
+    assert job.wait().status == "succeeded"
+
+
 def test_events_tell_the_whole_story(galatea: Client, picture: Path) -> None:
     events = list(galatea.submit("tiny", {"image": picture}, {"seconds": 0.5}).follow())
     assert [event.id for event in events] == sorted({event.id for event in events})
