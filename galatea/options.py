@@ -11,7 +11,7 @@ class PortraitOptions(TypedDict, total=False):
 
     size: tuple[int, int] | None
     fps: float | None
-    format: Literal["mp4", "webm", "webp", "png"]
+    format: Literal["mp4", "webm", "webp", "gif", "png"]
     neutral_frame: int | None
     face_index: int
     driver_face_index: int
@@ -35,7 +35,7 @@ class CharacterOptions(TypedDict, total=False):
     seconds: float
     size: tuple[int, int] | None
     fps: float
-    format: Literal["mp4", "webm", "webp", "png"]
+    format: Literal["mp4", "webm", "webp", "gif", "png"]
     camera: Literal["fixed", "orbit", "parallax"]
     triangles: int
     levels: int

@@ -23,6 +23,7 @@ from galatea_client.errors import (
     NotAName,
     NotFound,
     Unavailable,
+    Unreachable,
 )
 from galatea_client.events import ArtifactEvent, Event, ProgressEvent, StatusEvent
 from galatea_client.job import Job
@@ -94,6 +95,7 @@ __all__ = [
     "Status",
     "StatusEvent",
     "Unavailable",
+    "Unreachable",
     "Webhook",
     "WebhookSecret",
 ]

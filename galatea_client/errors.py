@@ -18,6 +18,10 @@ class InvalidAddress(GalateaError, ValueError):
     """What was given as the service's address is none."""
 
 
+class Unreachable(GalateaError, httpx.TransportError):
+    """The service cannot be reached, or the line broke, however often it was tried."""
+
+
 class NotAName(GalateaError, ValueError):
     """A text names a file of this machine, where a text is an id or the name of something that the service knows."""
 

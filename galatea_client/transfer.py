@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 
 import httpx
 
-from galatea_client.errors import DownloadBroken
+from galatea_client.errors import DownloadBroken, Unreachable
 from galatea_client.transport import Transport
 
 PIECE = 1 << 16
@@ -88,11 +88,11 @@ def fetch(
         try:
             with transport.stream(operation, path=path, headers=headers) as response:
                 _write(response, part, have if response.status_code == 206 else 0, size, progress)
-        except httpx.TransportError:
+        except httpx.TransportError as error:
             now = part.stat().st_size if part.exists() else 0
             failures = 0 if now > have else failures + 1
             if failures > transport.retries:
-                raise
+                raise Unreachable(f"{to.name}: {error or type(error).__name__}") from error
             time.sleep(PAUSE_SECONDS)
             continue
         if part.stat().st_size != size:

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import httpx
 
-from galatea_client.errors import error_of
+from galatea_client.errors import Unreachable, error_of
 from galatea_client.operations import OPERATIONS
 
 SAFE_METHODS = ("GET", "DELETE")
@@ -33,7 +33,7 @@ class Transport:
         self.patience = patience
 
     def call(self, operation: str, again: bool | None = None, **request: Any) -> httpx.Response:
-        """Send an operation and read its answer (see `stream`). Raises `ApiError` and httpx's `TransportError`."""
+        """Send an operation and read its answer (see `stream`). Raises `ApiError` and `Unreachable`."""
         with self.stream(operation, again, whole=True, **request) as response:
             return response
 
@@ -64,7 +64,7 @@ class Transport:
                         response.read()
                 except httpx.TransportError as error:
                     if last or not (safe or isinstance(error, httpx.ConnectError)):
-                        raise
+                        raise Unreachable(f"{self.http.base_url}: {error or type(error).__name__}") from error
                     wait = self._back_off(attempt)
                 else:
                     if not response.is_error:

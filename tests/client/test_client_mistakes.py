@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from galatea_client import Client, GalateaError, InvalidAddress, NotAName
+from galatea_client import Client, GalateaError, InvalidAddress, NotAName, Unreachable
 from galatea_client.models import NewWebhook, OwnKey
 
 
@@ -29,3 +29,12 @@ def test_a_text_that_is_a_file_asks_for_a_path(tmp_path: Path) -> None:
 def test_secrets_are_not_shown() -> None:
     assert not OwnKey.model_fields["signing_secret"].repr
     assert not NewWebhook.model_fields["secret"].repr
+
+
+def test_a_service_that_is_not_there_is_an_error_of_the_same_base() -> None:
+    with (
+        Client("http://127.0.0.1:9", retries=0) as client,
+        pytest.raises(Unreachable, match=r"127\.0\.0\.1:9") as caught,
+    ):
+        client.kinds()
+    assert isinstance(caught.value, GalateaError)
