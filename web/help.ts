@@ -58,7 +58,7 @@ function page(name: string, text: string): string {
 <body>
 <header><a href="/">Galatea</a></header>
 <nav aria-label="Help"><ul>${menu}</ul></nav>
-<main>${rendered(text)}</main>
+<main>${rendered(text, up)}</main>
 </body>
 </html>
 `;
@@ -67,13 +67,15 @@ function page(name: string, text: string): string {
 const escaped = (text: string): string => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/"/g, '&quot;');
 
 /** Headings can be linked to, links between documents lead from page to page, and wide tables scroll by themselves. */
-function rendered(text: string): string {
+function rendered(text: string, up: string): string {
   const marked = new Marked({
     renderer: {
       heading({ tokens, depth, text: heading }) {
         return `<h${depth} id="${slug(heading)}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
       },
       link({ href, tokens }) {
+        // a file of the project that is no page here, such as the changelog
+        if (href.startsWith(`${up}../`)) return this.parser.parseInline(tokens);
         const to = /^[a-z]+:/.test(href) ? href : href.replace(/\.md(?=#|$)/, '.html');
         return `<a href="${escaped(to)}">${this.parser.parseInline(tokens)}</a>`;
       },
