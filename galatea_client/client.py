@@ -176,15 +176,18 @@ class Client:
         created_after: datetime | None = None,
         created_before: datetime | None = None,
         q: str = "",
+        latest: bool = False,
     ) -> Iterator[Job]:
         """Jobs, newest first, page by page as they are asked for; `q` are words of title, kind, and the names of files,
-        drivers and motions."""
+        drivers and motions; with `latest`, of each work the newest of its versions alone."""
         asked: dict[str, Any] = {"status": [str(one) for one in status], "kind": list(kind), "limit": 100}
         for name, moment in (("created_after", created_after), ("created_before", created_before)):
             if moment is not None:
                 asked[name] = moment.astimezone().isoformat()
         if q:
             asked["q"] = q
+        if latest:
+            asked["latest"] = True
         return map(self._job, self._pages("list_jobs", asked))
 
     def follow(self, job_id: str, after: int = 0) -> Iterator[Event]:

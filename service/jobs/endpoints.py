@@ -123,6 +123,9 @@ def list_jobs(
     q: Annotated[
         str, Query(max_length=200, description="Words of title, kind, and names of files, drivers and motions.")
     ] = "",
+    latest: Annotated[
+        bool, Query(description="Of each work one job alone: its newest that the rest lets through.")
+    ] = False,
     limit: Annotated[int, Query(ge=1, le=200)] = 50,
     cursor: Annotated[str | None, Query(json_schema_extra=LIKE_AN_ID)] = None,
 ) -> JobPage:
@@ -131,14 +134,15 @@ def list_jobs(
         raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
     with context.database.read() as session:
         jobs = repository.page(
-            session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before, words(q)
+            session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before, words(q), latest
         )
+        versions = repository.versions(session, caller.owner, {job.tree for job in jobs[:limit]})
         items = service.views(context, session, caller.owner, jobs[:limit])
     next_cursor = items[-1].id if len(jobs) > limit else None
     if next_cursor is not None:
         following = request.url.include_query_params(cursor=next_cursor)
         response.headers["Link"] = f'<{following.path}?{following.query}>; rel="next"'
-    return JobPage(items=items, next_cursor=next_cursor)
+    return JobPage(items=items, versions=versions, next_cursor=next_cursor)
 
 
 @router.get("/{job_id}", operation_id="get_job", responses=responses(404))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
-from sqlalchemy import delete, func, or_, select, update
+from sqlalchemy import ColumnElement, delete, exists, func, or_, select, update
 from sqlalchemy.orm import Session, aliased
 
 from service.clock import now
@@ -34,23 +34,36 @@ def page(
     created_after: datetime | None = None,
     created_before: datetime | None = None,
     words: Sequence[str] = (),
+    latest: bool = False,
 ) -> Sequence[Job]:
-    """An owner's jobs, newest first; with `words`, those that are found by every one. Ids grow with time, so that one
-    of them marks a place in the list."""
-    query = select(Job).where(Job.owner == owner).order_by(Job.id.desc()).limit(limit)
+    """An owner's jobs, newest first; with `words`, those that are found by every one; with `latest`, of each tree the
+    newest that is let through. Ids grow with time, so that one of them marks a place in the list."""
+
+    def let_through(job: type[Job]) -> list[ColumnElement[bool]]:
+        wanted = [job.owner == owner]
+        if statuses:
+            wanted.append(job.status.in_([status.value for status in statuses]))
+        if kinds:
+            wanted.append(job.kind.in_(kinds))
+        if created_after is not None:
+            wanted.append(job.created_at > created_after)
+        if created_before is not None:
+            wanted.append(job.created_at < created_before)
+        return wanted + [job.search.contains(word, autoescape=True) for word in words]
+
+    query = select(Job).where(*let_through(Job)).order_by(Job.id.desc()).limit(limit)
     if before_id is not None:
         query = query.where(Job.id < before_id)
-    if statuses:
-        query = query.where(Job.status.in_([status.value for status in statuses]))
-    if kinds:
-        query = query.where(Job.kind.in_(kinds))
-    if created_after is not None:
-        query = query.where(Job.created_at > created_after)
-    if created_before is not None:
-        query = query.where(Job.created_at < created_before)
-    for word in words:
-        query = query.where(Job.search.contains(word, autoescape=True))
+    if latest:
+        newer = aliased(Job)
+        query = query.where(~exists().where(newer.tree == Job.tree, newer.id > Job.id, *let_through(newer)))
     return session.scalars(query).all()
+
+
+def versions(session: Session, owner: str, trees: Collection[str]) -> dict[str, int]:
+    """How many of an owner's jobs belong to each of these trees."""
+    query = select(Job.tree, func.count()).where(Job.owner == owner, Job.tree.in_(trees)).group_by(Job.tree)
+    return dict(session.execute(query).tuples().all())
 
 
 def files_of(session: Session, job_id: str) -> Sequence[str]:

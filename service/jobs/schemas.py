@@ -148,6 +148,8 @@ class JobPage(BaseModel):
     """Jobs, newest first."""
 
     items: list[JobOut]
+    versions: dict[str, int]
+    """How many jobs there are of each of their works, by `tree`."""
     next_cursor: str | None
     """Give it as `cursor` to get the next page; null on the last one."""
 

@@ -100,6 +100,27 @@ def test_jobs_are_found_by_words(running: Running, picture: bytes) -> None:
     assert running.client.get("/v1/jobs", params={"q": "x" * 201}).status_code == 422
 
 
+def test_of_each_work_one_version_is_listed(running: Running, picture: bytes) -> None:
+    def revised(job: dict[str, Any], **body: Any) -> dict[str, Any]:
+        address = f"/v1/jobs/{job['id']}/revisions"
+        return running.client.post(address, json=body, headers={"Prefer": "wait=60"}).raise_for_status().json()
+
+    old = submit(running, picture, "latest.png")
+    other = submit(running, picture, "latest.png")
+    alone = submit(running, picture, "latest.png")
+    middle = revised(old)
+    newest = revised(middle, options={"seconds": 0.2})
+    second = revised(other)
+    assert found(running, "latest.png", latest=True) == [second["id"], newest["id"], alone["id"]]
+    first = running.client.get("/v1/jobs", params={"q": "latest.png", "latest": True, "limit": 2}).json()
+    assert first["versions"] == {old["id"]: 3, other["id"]: 2}
+    assert found(running, "latest.png", latest=True, cursor=first["next_cursor"]) == [alone["id"]]
+    early = {"latest": True, "created_before": newest["created_at"]}
+    assert found(running, "latest.png", **early)[1:] == [alone["id"], other["id"]], "the newest of what is let through"
+    running.client.delete(f"/v1/jobs/{newest['id']}").raise_for_status()
+    assert found(running, "latest.png", latest=True) == [second["id"], middle["id"], alone["id"]]
+
+
 @pytest.fixture
 def database(database_url: str) -> Iterator[Database]:
     opened = Database(database_url)

@@ -1127,6 +1127,9 @@ export interface components {
         /** @description Jobs, newest first. */
         JobPage: {
             items: components["schemas"]["JobOut"][];
+            versions: {
+                [key: string]: number;
+            };
             next_cursor: string | null;
         };
         /** @description A job and all its revisions, oldest first; `revision_of` says which revises which. */
@@ -2964,6 +2967,8 @@ export interface operations {
                 created_before?: string;
                 /** @description Words of title, kind, and names of files, drivers and motions. */
                 q?: string;
+                /** @description Of each work one job alone: its newest that the rest lets through. */
+                latest?: boolean;
                 limit?: number;
                 cursor?: string;
             };
