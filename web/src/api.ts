@@ -111,6 +111,10 @@ export const archiveUrl = (id: string): string => `${jobPath(id)}/archive`;
 export const cancelJob = (id: string): Promise<Job> =>
   answer(service.POST('/v1/jobs/{job_id}/cancel', { params: job(id) }));
 
+/** Give a work a title, in all its versions; null takes it away. */
+export const renameWork = (id: string, title: string | null): Promise<Job> =>
+  answer(service.PATCH('/v1/jobs/{job_id}', { params: job(id), body: { title } }));
+
 export async function deleteJob(id: string): Promise<void> {
   await answer(service.DELETE('/v1/jobs/{job_id}', { params: job(id) }));
 }
@@ -181,14 +185,29 @@ export const listRevisions = async (id: string, signal?: AbortSignal): Promise<J
 /** The kinds that make something. Searches for moments are jobs too, but what they find is shown with the driver. */
 const MAKING = ['portrait', 'character'];
 
-/** Jobs of one status or all, newest first: the latest, or those that come after a cursor. */
-export const listJobs = (
-  { size, status, cursor }: { size: number; status: Status | null; cursor: string | null },
+/** Which jobs are wanted: those of one status or all, found by these words. */
+export interface Wanted {
+  status: Status | null;
+  words: string;
+}
+
+/** Of each work the newest job that is wanted, newest first: the latest, or those that come after a cursor. */
+export const listWorks = (
+  { status, words }: Wanted,
+  size: number,
+  cursor: string | null,
   signal?: AbortSignal,
 ): Promise<JobPage> =>
   answer(
     service.GET('/v1/jobs', {
-      params: { query: { limit: size, kind: MAKING, ...(status && { status: [status] }), ...(cursor && { cursor }) } },
+      params: {
+        query: {
+          ...{ limit: size, kind: MAKING, latest: true },
+          ...(status && { status: [status] }),
+          ...(words && { q: words }),
+          ...(cursor && { cursor }),
+        },
+      },
       ...aborted(signal),
     }),
   );
@@ -196,16 +215,26 @@ export const listJobs = (
 export const listDrivers = async (signal?: AbortSignal): Promise<Driver[]> =>
   (await answer(service.GET('/v1/drivers', aborted(signal)))).items;
 
-/** The motions that the service keeps for the user: those that can move somebody, if need be once their joints are told. */
+/** The motions that the service keeps for the user. */
 export const listOwnMotions = async (signal?: AbortSignal): Promise<KeptMotion[]> =>
-  (await answer(service.GET('/v1/motions', aborted(signal)))).items.filter(
-    ({ source, check_status, error, missing }) =>
-      source === 'own' && check_status === 'ready' && (!error || (missing?.length ?? 0) > 0),
-  );
+  (await answer(service.GET('/v1/motions', aborted(signal)))).items.filter(({ source }) => source === 'own');
+
+/** Whether a motion can move somebody, if need be once its joints are told. */
+export const canMove = ({ check_status, error, missing }: KeptMotion): boolean =>
+  check_status === 'ready' && (!error || (missing?.length ?? 0) > 0);
+
+const kept = (name: string) => ({ path: { name } });
+
+export const renameMotion = (name: string, wanted: string): Promise<KeptMotion> =>
+  answer(service.PATCH('/v1/motions/{name}', { params: kept(name), body: { name: wanted } }));
+
+export async function deleteMotion(name: string): Promise<void> {
+  await answer(service.DELETE('/v1/motions/{name}', { params: kept(name) }));
+}
 
 /** What is known of a motion that the service keeps. */
 export const getMotion = (name: string, signal?: AbortSignal): Promise<KeptMotion> =>
-  answer(service.GET('/v1/motions/{name}', { params: { path: { name } }, ...aborted(signal) }));
+  answer(service.GET('/v1/motions/{name}', { params: kept(name), ...aborted(signal) }));
 
 /** Have the service look into a motion file: one that it has, or one at hand, which it keeps no longer than the job. */
 export function orderMotionCheck(motion: string | File): Promise<Job> {
@@ -225,6 +254,13 @@ export const getMotionDetails = (of: Job, signal?: AbortSignal): Promise<MotionD
 /** Keep an uploaded video as a driver of one's own; it is searched for moments then. */
 export const createDriver = (name: string, file: string): Promise<Driver> =>
   answer(service.POST('/v1/drivers', { body: { name, file } }));
+
+export const renameDriver = (name: string, wanted: string): Promise<Driver> =>
+  answer(service.PATCH('/v1/drivers/{name}', { params: kept(name), body: { name: wanted } }));
+
+export async function deleteDriver(name: string): Promise<void> {
+  await answer(service.DELETE('/v1/drivers/{name}', { params: kept(name) }));
+}
 
 /** The public links to a job, oldest first. */
 export const listLinks = async (id: string, signal?: AbortSignal): Promise<PublicLink[]> =>

@@ -70,7 +70,7 @@ function Page({ route }: { route: Route }) {
     case 'job':
       return <JobPage key={route.id} id={route.id} />;
     case 'history':
-      return <HistoryPage status={route.status} />;
+      return <HistoryPage status={route.status} words={route.words} />;
     case 'shared':
       return <SharedPage key={route.token} token={route.token} />;
     case 'keys':

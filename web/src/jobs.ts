@@ -1,51 +1,76 @@
-/** A list of jobs, page by page; what is under way is looked at again from time to time. */
+/** A list of works, page by page, each as its newest job; what is under way is looked at again from time to time. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { type Job, listJobs, type Problem, type Status } from './api';
+import { type Job, listWorks, type Problem, type Wanted } from './api';
 import { asProblem, useLoaded } from './loading';
 
 const REFRESH_MS = 4000;
 
-export interface JobList {
+export const everything: Wanted = { status: null, words: '' };
+
+export interface WorkList {
   /** Null while the first page is loaded. */
   jobs: Job[] | null;
+  /** How many versions each work has, by its id. */
+  versions: Readonly<Record<string, number>>;
+  /** What is shown is still that of an earlier wish. */
+  stale: boolean;
   problem: Problem | null;
   retry: () => void;
   /** Loads the next page; null where there is none. */
   more: (() => Promise<void>) | null;
 }
 
-/** The jobs of one status, or all; a page has `size` of them. */
-export function useJobs(size: number, status: Status | null): JobList {
-  const first = useLoaded((signal) => listJobs({ size, status, cursor: null }, signal), `jobs ${status}`);
-  const [older, setOlder] = useState<Job[]>([]);
-  const [next, setNext] = useState<string | null | undefined>(undefined);
+/** What followed the first page of a list, which is known by its key. */
+interface Later {
+  key: string;
+  jobs: Job[];
+  versions: Readonly<Record<string, number>>;
+  next: string | null;
+}
+
+/** The works that are wanted; a page has `size` of them. */
+export function useWorks(size: number, wanted: Wanted): WorkList {
+  const key = `${wanted.status} ${wanted.words}`;
+  const first = useLoaded(async (signal) => ({ key, page: await listWorks(wanted, size, null, signal) }), key);
+  const [later, setLater] = useState<Later | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
 
-  const busy = first.value?.items.some((job) => job.status === 'queued' || job.status === 'running') ?? false;
+  const shown = first.value;
+  const busy = shown?.page.items.some((job) => job.status === 'queued' || job.status === 'running') ?? false;
   useEffect(() => {
     if (!busy) return;
     const timer = setInterval(first.reload, REFRESH_MS);
     return () => clearInterval(timer);
   }, [busy]);
+  useEffect(() => setProblem(null), [key]);
 
-  if (!first.value) return { jobs: null, problem: first.problem, retry: first.reload, more: null };
-  const known = new Set(first.value.items.map((job) => job.id));
-  const cursor = next === undefined ? first.value.next_cursor : next;
+  if (!shown) return { jobs: null, versions: {}, stale: false, problem: first.problem, retry: first.reload, more: null };
+  const { items, versions, next_cursor } = shown.page;
+  const stale = shown.key !== key;
+  const rest = later?.key === shown.key ? later : null;
+  const cursor = rest ? rest.next : next_cursor;
   const more = async (): Promise<void> => {
     setProblem(null);
     try {
-      const page = await listJobs({ size, status, cursor });
-      setOlder([...older, ...page.items]);
-      setNext(page.next_cursor);
+      const page = await listWorks(wanted, size, cursor);
+      setLater({
+        key,
+        jobs: [...(rest?.jobs ?? []), ...page.items],
+        versions: { ...rest?.versions, ...page.versions },
+        next: page.next_cursor,
+      });
     } catch (error) {
       setProblem(asProblem(error));
     }
   };
+  const known = new Set(items.map((job) => job.tree)); // a work that was revised since stands at the top
   return {
-    jobs: [...first.value.items, ...older.filter((job) => !known.has(job.id))],
+    jobs: [...items, ...(rest?.jobs ?? []).filter((job) => !known.has(job.tree))],
+    versions: { ...rest?.versions, ...versions },
+    stale,
     problem: problem ?? first.problem,
     retry: problem ? () => void more() : first.reload,
-    more: cursor ? more : null,
+    more: cursor && !stale ? more : null,
   };
 }

@@ -47,5 +47,5 @@ export function useDoing() {
       setDoing(false);
     }
   };
-  return { doing, problem, attempt };
+  return { doing, problem, attempt, forget: () => setProblem(null) };
 }

@@ -6,6 +6,9 @@ import { plain, strings } from './strings';
 /** What a job names to be driven by a moment alone. */
 export const momentName = (driver: string, moment: string): string => `${driver}/${moment}`;
 
+/** Whether a job that names this is driven by this driver, or by a moment of it. */
+export const ofDriver = (named: string, driver: string): boolean => named === driver || named.startsWith(`${driver}/`);
+
 /** A driver's name made of a file's: what a name cannot have is a dash; another than those that are taken. */
 export function driverName(file: string, taken: readonly string[]): string {
   const wanted = file.toLowerCase().replace(/[^a-z0-9_]+/g, '-').replace(/^[-_]+|-+$/g, '').slice(0, 50) || 'driver';
@@ -27,6 +30,15 @@ const text = (value: unknown): string | null => (typeof value === 'string' && va
 /** The picture's name: this page leaves it in the metadata; other clients may not. */
 export const pictureName = (job: Job): string =>
   text(job.metadata.portrait) ?? text(job.metadata.photo) ?? plain(job.kind);
+
+/** Characters of a title, at most. */
+export const LONGEST_TITLE = 200;
+
+/** What a work is called: as its user has titled it, or else like its picture. */
+export const workName = (job: Job): string => job.title ?? pictureName(job);
+
+/** The name under which something is kept, of what was typed for it: the service says what else is wrong with it. */
+export const keptName = (typed: string): string => typed.trim().toLowerCase().replace(/\s+/g, '-');
 
 /** A built-in motion in the page's language. */
 export const motionName = (motion: MotionName): string => strings.character.motions[motion];

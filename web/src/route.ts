@@ -7,7 +7,7 @@ export type Route =
   | { page: 'studio' }
   | { page: 'character' }
   | { page: 'job'; id: string }
-  | { page: 'history'; status: Status | null }
+  | { page: 'history'; status: Status | null; words: string }
   | { page: 'shared'; token: string }
   | { page: 'keys' }
   | { page: 'webhooks' }
@@ -16,16 +16,21 @@ export type Route =
 
 export const statuses: readonly Status[] = ['succeeded', 'running', 'queued', 'failed', 'canceled'];
 
+/** Characters of a search, at most. */
+export const MOST_WORDS = 200;
+
 /** The page at `path` that `hash` names. */
 export function parseRoute(hash: string, path = '/'): Route {
   if (path !== '/' && path !== '/index.html') return { page: 'lost' };
   if (!hash.startsWith('#/') || hash === studioLink) return { page: 'studio' };
-  const [, place = '', rest, beyond] = /^#\/([a-z]*)(?:\/([^/?#]+))?(.*)$/.exec(hash) ?? [];
+  const [, place = '', rest, beyond = ''] = /^#\/([a-z]*)(?:\/([^/?#]+))?(.*)$/.exec(hash) ?? [];
   const given = rest && !beyond ? decoded(rest) : null;
   if (place === 'jobs' && given) return { page: 'job', id: given };
   if (place === 'shared' && given) return { page: 'shared', token: given };
-  if (place === 'history' && (!rest || !beyond)) {
-    return { page: 'history', status: statuses.find((status) => status === given) ?? null };
+  if (place === 'history' && (!rest || !beyond || beyond.startsWith('?'))) {
+    const status = rest ? decoded(rest) : null;
+    const words = (new URLSearchParams(beyond.replace(/^.*\?/, '')).get('q') ?? '').trim().slice(0, MOST_WORDS);
+    return { page: 'history', status: statuses.find((one) => one === status) ?? null, words };
   }
   if ((place === 'character' || place === 'keys' || place === 'webhooks') && !rest && !beyond) return { page: place };
   return { page: 'lost' };
@@ -41,11 +46,18 @@ function decoded(part: string): string | null {
 }
 
 export const jobLink = (id: string): string => `#/jobs/${encodeURIComponent(id)}`;
-export const historyLink = (status: Status | null): string => (status ? `#/history/${status}` : '#/history');
+export const historyLink = (status: Status | null, words = ''): string =>
+  `#/history${status ? `/${status}` : ''}${words && `?q=${encodeURIComponent(words)}`}`;
 export const studioLink = '#/';
 export const characterLink = '#/character';
 export const keysLink = '#/keys';
 export const webhooksLink = '#/webhooks';
+
+/** Have the address name this, without a step more in the browser's history. */
+export function replaceAddress(hash: string): void {
+  history.replaceState(history.state, '', hash);
+  dispatchEvent(new HashChangeEvent('hashchange'));
+}
 
 export function useRoute(): Route {
   const [route, setRoute] = useState(() => parseRoute(location.hash, location.pathname));

@@ -9,12 +9,20 @@ describe('addresses', () => {
   });
 
   it('finds the other pages', () => {
-    expect(parseRoute(historyLink(null))).toEqual({ page: 'history', status: null });
-    expect(parseRoute(historyLink('failed'))).toEqual({ page: 'history', status: 'failed' });
-    expect(parseRoute('#/history/nonsense')).toEqual({ page: 'history', status: null });
+    expect(parseRoute(historyLink(null))).toEqual({ page: 'history', status: null, words: '' });
+    expect(parseRoute(historyLink('failed'))).toEqual({ page: 'history', status: 'failed', words: '' });
+    expect(parseRoute('#/history/nonsense')).toEqual({ page: 'history', status: null, words: '' });
     expect(parseRoute('#/shared/abc-_1')).toEqual({ page: 'shared', token: 'abc-_1' });
     expect(parseRoute('#/keys')).toEqual({ page: 'keys' });
     expect(parseRoute(characterLink)).toEqual({ page: 'character' });
+  });
+
+  it('keeps the words of a search, whatever letters they have', () => {
+    for (const words of ['mary', 'Möwe & 100% #1/2?', 'a+b']) {
+      expect(parseRoute(historyLink('failed', words))).toEqual({ page: 'history', status: 'failed', words });
+      expect(parseRoute(historyLink(null, words))).toEqual({ page: 'history', status: null, words });
+    }
+    expect(parseRoute(`#/history?q=${'x'.repeat(300)}`)).toMatchObject({ words: 'x'.repeat(200) });
   });
 
   it('finds the start page', () => {

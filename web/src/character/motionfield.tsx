@@ -1,7 +1,7 @@
 /** The motion of a character that is made again: as before, another of ours or one's own, or a file. */
 
 import { useId } from 'preact/hooks';
-import { type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
+import { canMove, type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
 import { useLoaded } from '../loading';
 import { isFileId, isUrl, motionName } from '../names';
 import { plain, strings } from '../strings';
@@ -26,7 +26,7 @@ interface Props {
 
 export function MotionField({ job, value, before, joints, clip, onChange }: Props) {
   const id = useId();
-  const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
+  const kept = (useLoaded(listOwnMotions, 'motions').value ?? []).filter(canMove);
   const held = before.by === 'held' ? before : null;
   const made = wishesOf(job);
   const choose = (motion: Wishes['motion']): void =>

@@ -1,9 +1,10 @@
 /** The motions on offer: ours as drawn figures, or a file at hand. */
 
-import { type KeptMotion, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
+import { canMove, deleteMotion, type KeptMotion, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName, renameMotion } from '../api';
 import { SymbolCard } from '../components/card';
+import { KeptList } from '../components/keptlist';
 import { useLoaded } from '../loading';
-import { motionName } from '../names';
+import { motionName, USUAL_MOTION } from '../names';
 import type { Motion } from '../order';
 import { plain, strings } from '../strings';
 import { JointMap } from './jointmap';
@@ -48,7 +49,9 @@ export const detailsIn = (kept: readonly KeptMotion[], name: string): MotionDeta
 };
 
 export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Props) {
-  const kept = useLoaded(listOwnMotions, 'motions').value ?? [];
+  const own = useLoaded(listOwnMotions, 'motions');
+  const all = own.value ?? [];
+  const kept = all.filter(canMove);
   const known = chosen.by === 'kept' ? detailsIn(kept, chosen.name) : null;
   return (
     <>
@@ -84,6 +87,23 @@ export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Pr
           </div>
         </fieldset>
       )}
+      <KeptList
+        items={all.map(({ name, title, created_at }) => ({ id: created_at ?? name, name, label: title || plain(name) }))}
+        rename={renameMotion}
+        remove={deleteMotion}
+        onRenamed={(name, now) => {
+          if (chosen.by === 'kept' && chosen.name === name) {
+            onChoose({ by: 'kept', name: now });
+            onJoints(joints); // it is the same motion: what was said of it holds
+            onClip(clip);
+          }
+          own.reload();
+        }}
+        onRemoved={(name) => {
+          if (chosen.by === 'kept' && chosen.name === name) onChoose({ by: 'name', name: USUAL_MOTION });
+          own.reload();
+        }}
+      />
       <h3>{words.ownMotion}</h3>
       <MotionDrop file={chosen.by === 'file' ? chosen.file : null} onFile={(file) => onChoose({ by: 'file', file })} />
       {chosen.by !== 'name' && (

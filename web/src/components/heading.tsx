@@ -3,11 +3,17 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { strings } from '../strings';
 
-export function Heading({ text }: { text: string }) {
+interface Props {
+  text: string;
+  /** The page is the one that it was: the focus stays where it is. */
+  still?: boolean;
+}
+
+export function Heading({ text, still = false }: Props) {
   const heading = useRef<HTMLHeadingElement>(null);
   useEffect(() => {
     document.title = `${text} · ${strings.name}`;
-    heading.current?.focus();
+    if (!still) heading.current?.focus();
   }, [text]);
   return (
     <h1 ref={heading} tabIndex={-1}>

@@ -1,14 +1,15 @@
 /** The performances on offer, to choose one from: ours, the user's own, or a video at hand. */
 
 import { useState } from 'preact/hooks';
-import type { Driver } from '../api';
+import { deleteDriver, type Driver, renameDriver } from '../api';
 import { isVideo, videoTypes } from '../media';
-import { AUTO } from '../names';
+import { AUTO, ofDriver } from '../names';
 import { plain, strings } from '../strings';
 import { Capture } from './capture';
 import { Card, shownOf, SymbolCard, symbols } from './card';
 import { Dropzone } from './dropzone';
 import { Keep } from './keep';
+import { KeptList } from './keptlist';
 
 /** By `reactive` there is no one performance: the portrait is to show many, on demand. */
 export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
@@ -21,7 +22,7 @@ interface Props {
   sending: boolean;
   /** A video is being kept, or no longer. */
   onKeeping: (on: boolean) => void;
-  /** There is a driver more. */
+  /** There is a driver more, or less, or one has another name. */
   onKept: () => void;
 }
 
@@ -90,6 +91,19 @@ export function Performances({ drivers, chosen, onChoose, sending, onKeeping, on
           ))}
         </fieldset>
       )}
+      <KeptList
+        items={own.map(({ name, created_at }) => ({ id: created_at ?? name, name, label: plain(name) }))}
+        rename={renameDriver}
+        remove={deleteDriver}
+        onRenamed={(before, now) => {
+          if (name !== null && ofDriver(name, before)) choose(now + name.slice(before.length));
+          onKept();
+        }}
+        onRemoved={(gone) => {
+          if (name !== null && ofDriver(name, gone)) choose(AUTO);
+          onKept();
+        }}
+      />
       <h3>{words.ownVideo}</h3>
       <Dropzone
         media="video"

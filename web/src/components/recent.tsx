@@ -1,19 +1,29 @@
-/** The latest jobs, each with its poster. */
+/** The latest works, each with its poster. */
 
-import { useJobs } from '../jobs';
+import { everything, useWorks } from '../jobs';
 import { historyLink } from '../route';
 import { strings } from '../strings';
-import { Entries } from './entry';
+import { Entry } from './entry';
 
 const LATEST = 6;
 
 export function Recent() {
-  const { jobs, more } = useJobs(LATEST, null);
+  const { jobs, more } = useWorks(LATEST, everything);
   if (!jobs) return null;
   return (
     <section class="recent" aria-labelledby="recent-title">
       <h2 id="recent-title">{strings.recent.title}</h2>
-      {jobs.length === 0 ? <p class="hint">{strings.recent.empty}</p> : <Entries jobs={jobs} />}
+      {jobs.length === 0 ? (
+        <p class="hint">{strings.recent.empty}</p>
+      ) : (
+        <ul class="entries">
+          {jobs.map((job) => (
+            <li key={job.tree}>
+              <Entry job={job} />
+            </li>
+          ))}
+        </ul>
+      )}
       {more && (
         <a class="button" href={historyLink(null)}>
           {strings.recent.all}

@@ -2,6 +2,7 @@
 
 import { character } from './en/character';
 import { failures } from './en/failures';
+import { history } from './en/history';
 import { integrators } from './en/integrators';
 import { job } from './en/job';
 import { studio } from './en/studio';
@@ -37,14 +38,6 @@ const english = {
 
   navigation: { label: 'Pages', history: 'History', keys: 'Keys', webhooks: 'Webhooks' },
 
-  history: {
-    title: 'History',
-    filter: 'Show',
-    all: 'All',
-    none: 'Nothing here yet.',
-    more: 'Show more',
-  },
-
   retry: 'Try again',
   close: 'Close',
   keep: 'Cancel',
@@ -56,6 +49,7 @@ const english = {
   ...character,
   ...viewer,
   ...job,
+  ...history,
   ...integrators,
   ...failures,
 };

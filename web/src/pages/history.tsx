@@ -1,38 +1,65 @@
-/** Everything that was made, newest first; all of it or what came to one end. */
+/** Everything that was made, newest first; all of it, what came to one end, or what is found by words. */
 
-import type { Status } from '../api';
-import { Entries } from '../components/entry';
+import type { ComponentChildren } from 'preact';
+import type { Wanted } from '../api';
 import { Heading } from '../components/heading';
+import { SearchField } from '../components/search';
 import { Trouble } from '../components/trouble';
-import { useJobs } from '../jobs';
-import { historyLink, statuses } from '../route';
+import { Work } from '../components/work';
+import { useWorks } from '../jobs';
+import { historyLink, MOST_WORDS, replaceAddress, statuses, studioLink } from '../route';
 import { strings } from '../strings';
+import '../styles/history.css';
 
 const PAGE = 24;
 const words = strings.history;
 
-export function HistoryPage({ status }: { status: Status | null }) {
+export function HistoryPage(wanted: Wanted) {
   return (
     <article class="history">
       <Heading text={words.title} />
-      <nav class="filters" aria-label={words.filter}>
-        {[null, ...statuses].map((one) => (
-          <a key={one} href={historyLink(one)} aria-current={one === status ? 'page' : undefined}>
-            {one ? strings.status[one] : words.all}
-          </a>
-        ))}
-      </nav>
-      <Jobs key={status} status={status} />
+      <div class="finding">
+        <SearchField
+          label={words.search}
+          hint={words.searchHint}
+          longest={MOST_WORDS}
+          value={wanted.words}
+          onSearch={(query) => replaceAddress(historyLink(wanted.status, query))}
+        />
+        <nav class="filters" aria-label={words.filter}>
+          {[null, ...statuses].map((one) => (
+            <a
+              key={one}
+              href={historyLink(one, wanted.words)}
+              aria-current={one === wanted.status ? 'page' : undefined}
+            >
+              {one ? strings.status[one] : words.all}
+            </a>
+          ))}
+        </nav>
+      </div>
+      <Works {...wanted} />
     </article>
   );
 }
 
-function Jobs({ status }: { status: Status | null }) {
-  const { jobs, problem, retry, more } = useJobs(PAGE, status);
+function Works(wanted: Wanted) {
+  const { jobs, versions, stale, problem, retry, more } = useWorks(PAGE, wanted);
+  const settled = jobs !== null && !stale && !problem;
   return (
     <>
-      {jobs?.length === 0 && <p class="hint">{status ? words.none : strings.recent.empty}</p>}
-      {jobs ? <Entries jobs={jobs} /> : !problem && <div aria-busy="true" />}
+      <p class="unseen" role="status">
+        {settled && wanted.words && (jobs.length ? words.found(jobs.length, more !== null) : words.nothingFound(wanted.words))}
+      </p>
+      {settled && jobs.length === 0 && <Nothing {...wanted} />}
+      {jobs && jobs.length > 0 && (
+        <ul class="works" aria-busy={stale}>
+          {jobs.map((job) => (
+            <Work key={job.tree} job={job} versions={versions[job.tree] ?? 1} />
+          ))}
+        </ul>
+      )}
+      {!jobs && !problem && <div class="works waiting" aria-busy="true" />}
       {problem && (
         <Trouble code={problem.code} detail={problem.detail}>
           <button type="button" class="button" onClick={retry}>
@@ -46,5 +73,44 @@ function Jobs({ status }: { status: Status | null }) {
         </button>
       )}
     </>
+  );
+}
+
+/** Why there is nothing, and what one can do then. */
+function Nothing({ status, words: query }: Wanted) {
+  if (query) {
+    return (
+      <Empty title={words.nothingFound(query)} hint={words.nothingFoundHint}>
+        <a class="button" href={historyLink(status)}>
+          {words.clear}
+        </a>
+      </Empty>
+    );
+  }
+  if (status) {
+    return (
+      <Empty title={words.none}>
+        <a class="button" href={historyLink(null)}>
+          {words.showAll}
+        </a>
+      </Empty>
+    );
+  }
+  return (
+    <Empty title={words.empty} hint={words.emptyHint}>
+      <a class="button primary" href={studioLink}>
+        {words.begin}
+      </a>
+    </Empty>
+  );
+}
+
+function Empty({ title, hint, children }: { title: string; hint?: string; children: ComponentChildren }) {
+  return (
+    <section class="nothing">
+      <h2>{title}</h2>
+      {hint && <p class="hint">{hint}</p>}
+      {children}
+    </section>
   );
 }

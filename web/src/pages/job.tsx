@@ -1,20 +1,22 @@
 /** One job: on its way, done, failed or canceled. */
 
-import { useState } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import { cancelJob, deleteJob, type Job, type Problem } from '../api';
 import { Heading } from '../components/heading';
 import { later } from '../components/later';
 import { Picture } from '../components/picture';
 import { type Pose, Redo, Versions } from '../components/redo';
+import { Rename } from '../components/rename';
 import { Result } from '../components/result';
 import { Stages } from '../components/stages';
 import { Sure } from '../components/sure';
 import { Trouble } from '../components/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
-import { performanceName, pictureName, pictureUrl } from '../names';
+import { LONGEST_TITLE, performanceName, pictureUrl, workName } from '../names';
 import { characterLink, studioLink } from '../route';
 import { strings } from '../strings';
+import { useTitle } from '../titles';
 
 const CharacterResult = later(() => import('../components/character_result'));
 const words = strings.job;
@@ -52,7 +54,7 @@ export function JobPage({ id }: { id: string }) {
   const performance = performanceName(job);
   return (
     <article class="job" aria-busy={!finished(job)}>
-      <Heading text={words.title(pictureName(job))} />
+      <Title key={job.tree} job={job} />
       <p class="status">
         <span class={`chip ${job.status}`}>{strings.status[job.status]}</span>
         {performance && (
@@ -85,6 +87,18 @@ export function JobPage({ id }: { id: string }) {
         </footer>
       )}
     </article>
+  );
+}
+
+function Title({ job }: { job: Job }) {
+  const [titled, rename] = useTitle(job);
+  const name = workName(titled);
+  const [arrived, setArrived] = useState(false);
+  useEffect(() => setArrived(true), []);
+  return (
+    <Rename name={name} label={strings.history.titleOf(name)} longest={LONGEST_TITLE} onRename={rename}>
+      <Heading text={words.title(name)} still={arrived} />
+    </Rename>
   );
 }
 
