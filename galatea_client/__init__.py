@@ -6,9 +6,12 @@
         job = galatea.submit("portrait", {"image": Path("portrait.jpg"), "driver": "happy"})
         job.wait().download("animation.mp4", "out")
 
+`AsyncClient` is the same for asyncio.
+
 It needs httpx and pydantic, and nothing else of this repository.
 """
 
+from galatea_client.async_client import AsyncClient
 from galatea_client.client import Client
 from galatea_client.errors import (
     ApiError,
@@ -26,7 +29,7 @@ from galatea_client.errors import (
     Unreachable,
 )
 from galatea_client.events import ArtifactEvent, Event, ProgressEvent, StatusEvent
-from galatea_client.job import Job
+from galatea_client.job import AsyncJob, Job
 from galatea_client.models import (
     Artifact,
     Attempt,
@@ -59,6 +62,8 @@ __all__ = [
     "ApiError",
     "Artifact",
     "ArtifactEvent",
+    "AsyncClient",
+    "AsyncJob",
     "Attempt",
     "Client",
     "Conflict",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import httpx
 
 if TYPE_CHECKING:
-    from galatea_client.job import Job
+    from galatea_client.job import JobDocument
 
 
 class GalateaError(Exception):
@@ -78,10 +78,11 @@ class DownloadBroken(GalateaError):
 
 
 class JobFailed(GalateaError):
-    """A job ended otherwise than well. `code` and `detail` say why; `job` is the job itself."""
+    """A job ended otherwise than well. `code` and `detail` say why; `job` is the job itself: a `Job`, or an `AsyncJob` of an
+    `AsyncClient`."""
 
-    def __init__(self, job: Job):
-        self.job = job
+    def __init__(self, job: JobDocument):
+        self.job: Any = job
         self.code = job.error.code if job.error else str(job.status)
         self.detail = job.error.detail if job.error else f"The job was {job.status}."
         super().__init__(f"{self.code}: {self.detail}")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-import time
-from collections.abc import Iterable, Iterator
+from collections.abc import AsyncGenerator, AsyncIterable
+from contextlib import aclosing
 from typing import Any
 
 import httpx
@@ -44,7 +44,7 @@ class ArtifactEvent(Model):
 Event = StatusEvent | ProgressEvent | ArtifactEvent
 
 
-def follow(transport: Transport, job_id: str, after: int = 0) -> Iterator[Event]:
+async def follow(transport: Transport, job_id: str, after: int = 0) -> AsyncGenerator[Event]:
     """The events of a job that came after one, as they come; ends after the final one.
 
     A broken line is taken up again after the last event, as often as it moves on in between.
@@ -52,45 +52,45 @@ def follow(transport: Transport, job_id: str, after: int = 0) -> Iterator[Event]
     failures = 0
     while True:
         try:
-            for event in _once(transport, job_id, after):
-                yield event
-                failures, after = 0, event.id
-                if isinstance(event, StatusEvent) and event.status.final:
-                    return
-            else:
+            async with aclosing(_once(transport, job_id, after)) as events:
+                async for event in events:
+                    yield event
+                    failures, after = 0, event.id
+                    if isinstance(event, StatusEvent) and event.status.final:
+                        return
                 return
         except (httpx.TransportError, Unavailable):
             failures += 1
             if failures > transport.retries:
                 raise
-            time.sleep(PAUSE_SECONDS)
+            await transport.line.sleep(PAUSE_SECONDS)
 
 
-def _once(transport: Transport, job_id: str, after: int) -> Iterator[Event]:
+async def _once(transport: Transport, job_id: str, after: int) -> AsyncGenerator[Event]:
     headers = {"Accept": "text/event-stream", **({"Last-Event-ID": str(after)} if after else {})}
     timeout = httpx.Timeout(30.0, read=SILENCE_SECONDS)
-    with transport.stream("follow_job", path={"job_id": job_id}, headers=headers, timeout=timeout) as response:
+    async with transport.stream("follow_job", path={"job_id": job_id}, headers=headers, timeout=timeout) as response:
         if response.status_code == 204:
             return
         ended = False
-        for fields in _parse(response.iter_lines()):
-            event = _event(fields)
+        async for fields in _parse(transport.line.lines(response)):
+            event = _event(fields, transport.context)
             if event is not None:
                 yield event
                 ended = isinstance(event, StatusEvent) and event.status.final
-        if not ended and _there(transport, job_id):
+        if not ended and await _there(transport, job_id):
             raise httpx.ReadError("the stream of events ended before the job did")
 
 
-def _there(transport: Transport, job_id: str) -> bool:
+async def _there(transport: Transport, job_id: str) -> bool:
     """Whether the job is still there: raises `NotFound` where it was erased while it was followed."""
-    return transport.call("get_job", path={"job_id": job_id}).is_success
+    return (await transport.call("get_job", path={"job_id": job_id})).is_success
 
 
-def _parse(lines: Iterable[str]) -> Iterator[dict[str, str]]:
+async def _parse(lines: AsyncIterable[str]) -> AsyncGenerator[dict[str, str]]:
     """The fields of each event (the format of HTML's server-sent events; comments are signs of life)."""
     fields: dict[str, str] = {}
-    for line in lines:
+    async for line in lines:
         if line == "":
             if "data" in fields:
                 yield fields
@@ -101,7 +101,7 @@ def _parse(lines: Iterable[str]) -> Iterator[dict[str, str]]:
             fields[name] = f"{fields[name]}\n{value}" if name == "data" and "data" in fields else value
 
 
-def _event(fields: dict[str, str]) -> Event | None:
+def _event(fields: dict[str, str], context: dict[str, str]) -> Event | None:
     """The event that the fields tell of; None for one that this client does not know."""
     data: dict[str, Any] = json.loads(fields["data"])
     number = int(fields.get("id", "0"))
@@ -111,5 +111,5 @@ def _event(fields: dict[str, str]) -> Event | None:
         case "progress":
             return ProgressEvent(id=number, progress=Progress.model_validate(data))
         case "artifact":
-            return ArtifactEvent(id=number, name=data["name"], artifact=Artifact.model_validate(data))
+            return ArtifactEvent(id=number, name=data["name"], artifact=Artifact.model_validate(data, context=context))
     return None

@@ -7,9 +7,18 @@ from __future__ import annotations
 
 from datetime import datetime
 from enum import StrEnum
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInfo
+
+
+def _absolute(link: str, info: ValidationInfo) -> str:
+    base = (info.context or {}).get("base", "")
+    return base + link if link.startswith("/") else link
+
+
+Address = Annotated[str, AfterValidator(_absolute)]
+"""A link of the service's, which begins with "/" in its answers; joined to the address that the client was given."""
 
 
 class Model(BaseModel):
@@ -67,8 +76,8 @@ class JobError(Model):
 class Artifact(Model):
     """A result: `size` in bytes, `sha256` in hex. Anybody can read `signed_url` until it expires."""
 
-    url: str
-    signed_url: str | None = None
+    url: Address
+    signed_url: Address | None = None
     size: int
     sha256: str
     content_type: str
@@ -120,8 +129,8 @@ class Moment(Model):
     seconds: float
     apex: float
     score: float
-    url: str
-    poster: str
+    url: Address
+    poster: Address
 
 
 class Driver(Model):
@@ -129,8 +138,8 @@ class Driver(Model):
 
     name: str
     source: Literal["built-in", "own"]
-    url: str
-    poster: str | None = None
+    url: Address
+    poster: Address | None = None
     title: str | None = None
     state: str | None = None
     emotion: str | None = None
@@ -172,7 +181,7 @@ class Motion(Model):
     title: str | None = None
     seconds: float | None = None
     loops: bool | None = None
-    url: str | None = None
+    url: Address | None = None
     size: int | None = None
     content_type: str | None = None
     created_at: datetime | None = None
@@ -230,8 +239,8 @@ class Link(Model):
     id: str
     owner: str
     job_id: str
-    url: str | None
-    page: str | None
+    url: Address | None
+    page: Address | None
     hint: str
     artifacts: list[str] | None
     created_at: datetime

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import io
 import os
-import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any, BinaryIO
 import httpx
 
 from galatea_client.errors import DownloadBroken, Unreachable
+from galatea_client.lines import Line
 from galatea_client.transport import Transport
 
 PIECE = 1 << 16
@@ -26,28 +26,7 @@ OnProgress = Callable[[int, int], None]
 """Called with the bytes that are through, and how many there are."""
 
 
-class Counted:
-    """An open file that tells how much of it has been read."""
-
-    def __init__(self, file: BinaryIO, size: int, progress: OnProgress | None):
-        self._file = file
-        self._size = size
-        self._progress = progress
-
-    def read(self, size: int = -1) -> bytes:
-        data = self._file.read(size)
-        if self._progress is not None:
-            self._progress(self._file.tell(), self._size)
-        return data
-
-    def seek(self, offset: int, whence: int = 0) -> int:
-        return self._file.seek(offset, whence)
-
-    def tell(self) -> int:
-        return self._file.tell()
-
-
-def send_file(
+async def send_file(
     transport: Transport,
     operation: str,
     source: Upload,
@@ -57,11 +36,17 @@ def send_file(
     """Send a file as a form, read as it goes; an open one from its beginning, and it stays open."""
     with _opened(source) as file:
         size = file.seek(0, os.SEEK_END)
-        counted: Any = Counted(file, size, progress)
+        file.seek(0)
+
+        def sent() -> None:
+            if progress is not None:
+                progress(file.tell(), size)
+
         named = getattr(file, "name", None)
         name = Path(named).name if isinstance(named, str) else "file"
-        timeout = httpx.Timeout(30.0, read=300.0, write=300.0)
-        return transport.call(operation, files={"file": (name, counted)}, data=fields or {}, timeout=timeout)
+        form: dict[str, Any] = {"files": {"file": (name, file)}, "data": fields or {}}
+        form["timeout"] = httpx.Timeout(30.0, read=300.0, write=300.0)
+        return await transport.call(operation, sent=sent, **form)
 
 
 def _opened(source: Upload) -> AbstractContextManager[BinaryIO]:
@@ -70,7 +55,7 @@ def _opened(source: Upload) -> AbstractContextManager[BinaryIO]:
     return Path(source).open("rb") if isinstance(source, str | Path) else nullcontext(source)
 
 
-def fetch(
+async def fetch(
     transport: Transport, operation: str, path: dict[str, str], to: Path, size: int, sha256: str,
     progress: OnProgress | None = None,
 ) -> Path:  # fmt: skip
@@ -86,22 +71,21 @@ def fetch(
             continue
         headers = {"Range": f"bytes={have}-", "If-Range": f'"{sha256}"'} if have else {}
         try:
-            with transport.stream(operation, path=path, headers=headers) as response:
-                _write(response, part, have if response.status_code == 206 else 0, size, progress)
+            async with transport.stream(operation, path=path, headers=headers) as response:
+                await _write(transport.line, response, part, have if response.status_code == 206 else 0, size, progress)
         except httpx.TransportError as error:
             now = part.stat().st_size if part.exists() else 0
             failures = 0 if now > have else failures + 1
             if failures > transport.retries:
                 raise Unreachable(f"{to.name}: {error or type(error).__name__}") from error
-            time.sleep(PAUSE_SECONDS)
+            await transport.line.sleep(PAUSE_SECONDS)
             continue
         if part.stat().st_size != size:
             part.unlink()
             raise DownloadBroken(f"{to.name} has another size now than the {size} bytes that were announced")
     if not part.exists():
         part.touch()
-    with part.open("rb") as file:
-        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    digest = await transport.line.aside(_digest, part)
     if digest != sha256:
         part.unlink()
         raise DownloadBroken(f"{to.name} arrived with the checksum {digest} instead of {sha256}: fetch it again")
@@ -109,10 +93,17 @@ def fetch(
     return to
 
 
-def _write(response: httpx.Response, part: Path, start: int, size: int, progress: OnProgress | None) -> None:
+async def _write(
+    line: Line, response: httpx.Response, part: Path, start: int, size: int, progress: OnProgress | None
+) -> None:
     with part.open("ab") as file:
         file.truncate(start)
-        for piece in response.iter_raw(PIECE):
-            file.write(piece)
+        async for piece in line.pieces(response, PIECE):
+            await line.aside(file.write, piece)
             if progress is not None:
                 progress(file.tell(), size)
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

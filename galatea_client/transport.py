@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import random
-import time
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import AsyncGenerator, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Any
 from urllib.parse import quote
 
 import httpx
 
 from galatea_client.errors import Unreachable, error_of
+from galatea_client.lines import Line
 from galatea_client.operations import OPERATIONS
 
 SAFE_METHODS = ("GET", "DELETE")
@@ -27,25 +27,27 @@ class Transport:
     is waited for, in seconds: beyond it the error is raised at once.
     """
 
-    def __init__(self, http: httpx.Client, retries: int, patience: float):
-        self.http = http
+    def __init__(self, line: Line, base: httpx.URL, retries: int, patience: float):
+        self.line = line
+        self.base = base
+        self.context = {"base": str(base).rstrip("/")}
         self.retries = retries
         self.patience = patience
 
-    def call(self, operation: str, again: bool | None = None, **request: Any) -> httpx.Response:
+    async def call(self, operation: str, again: bool | None = None, **request: Any) -> httpx.Response:
         """Send an operation and read its answer (see `stream`). Raises `ApiError` and `Unreachable`."""
-        with self.stream(operation, again, whole=True, **request) as response:
+        async with self.stream(operation, again, whole=True, **request) as response:
             return response
 
-    @contextmanager
-    def stream(
+    @asynccontextmanager
+    async def stream(
         self,
         operation: str,
         again: bool | None = None,
         path: Mapping[str, str] | None = None,
         whole: bool = False,
         **request: Any,
-    ) -> Iterator[httpx.Response]:
+    ) -> AsyncGenerator[httpx.Response]:
         """Send an operation; unless its `whole` answer is asked for, it is not read yet. `path` fills the gaps of its
         address.
 
@@ -57,14 +59,14 @@ class Transport:
         safe = method in SAFE_METHODS if again is None else again
         for attempt in range(self.retries + 1):
             last = attempt == self.retries
-            with ExitStack() as stack:
+            async with AsyncExitStack() as stack:
                 try:
-                    response = stack.enter_context(self.http.stream(method, address, **request))
+                    response = await stack.enter_async_context(self.line.stream(method, address, **request))
                     if whole or response.is_error:
-                        response.read()
+                        await self.line.read(response)
                 except httpx.TransportError as error:
                     if last or not (safe or isinstance(error, httpx.ConnectError)):
-                        raise Unreachable(f"{self.http.base_url}: {error or type(error).__name__}") from error
+                        raise Unreachable(f"{self.base}: {error or type(error).__name__}") from error
                     wait = self._back_off(attempt)
                 else:
                     if not response.is_error:
@@ -74,7 +76,7 @@ class Transport:
                     if last or said is None:
                         raise error_of(response)
                     wait = said
-            time.sleep(wait)
+            await self.line.sleep(wait)
 
     def _wait(self, response: httpx.Response, attempt: int) -> float | None:
         """How long to wait before the request is sent again; None: there is no use in it."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from galatea_client import Client, GalateaError, InvalidAddress, NotAName, Unreachable
+from galatea_client import AsyncClient, Client, GalateaError, InvalidAddress, NotAName, Unreachable
 from galatea_client.models import NewWebhook, OwnKey
 
 
@@ -14,9 +14,10 @@ from galatea_client.models import NewWebhook, OwnKey
     "address", ["", "127.0.0.1:8000", "localhost", "ftp://host", "http://", "http://host:port", "http://[::1"]
 )
 def test_a_malformed_address_fails_at_once(address: str) -> None:
-    with pytest.raises(InvalidAddress, match="is no address") as caught:
-        Client(address)
-    assert isinstance(caught.value, GalateaError)
+    for client in (Client, AsyncClient):
+        with pytest.raises(InvalidAddress, match="is no address") as caught:
+            client(address)
+        assert isinstance(caught.value, GalateaError)
 
 
 def test_a_text_that_is_a_file_asks_for_a_path(tmp_path: Path) -> None:

@@ -74,7 +74,14 @@ def test_all_models_are_held_against_the_document() -> None:
         for one in vars(module).values()
         if isinstance(one, type) and issubclass(one, BaseModel) and one.__module__.startswith("galatea_client")
     }
-    base = {models.Model, events.StatusEvent, events.ProgressEvent, events.ArtifactEvent}
+    base = {
+        models.Model,
+        galatea_client.job.JobDocument,
+        galatea_client.AsyncJob,
+        events.StatusEvent,
+        events.ProgressEvent,
+        events.ArtifactEvent,
+    }
     assert defined - base == set(SCHEMAS)
 
 
