@@ -88,7 +88,12 @@ class Page(StaticFiles):
                 headers["Content-Encoding"] = coding
                 break
         response = FileResponse(full_path, status_code, headers, media_type, stat_result=stat_result)
-        return NotModifiedResponse(response.headers) if self.is_not_modified(response.headers, request) else response
+        if not self.is_not_modified(response.headers, request):
+            return response
+        unchanged = NotModifiedResponse(response.headers)
+        if policy := headers.get("Content-Security-Policy"):
+            unchanged.headers["Content-Security-Policy"] = policy  # browsers keep what a 304 tells, in place of the old
+        return unchanged
 
     async def check_config(self) -> None:
         """The page may be built while the service runs: nothing to check at the start."""

@@ -76,6 +76,8 @@ def test_files_that_never_change_are_kept_and_others_asked_for_again(running: Ru
         again = running.client.get(path, headers={"If-None-Match": headers["etag"]})
         assert (again.status_code, again.content) == (304, b"")
         assert again.headers["vary"] == "Accept-Encoding" and again.headers["cache-control"] == "no-cache"
+        policies = [answer["content-security-policy"] for answer in (headers, again.headers)]
+        assert policies[0] == policies[1], "browsers put the headers of a 304 in place of those that they have"
 
 
 def test_codings_of_a_file_have_tags_of_their_own(running: Running) -> None:
