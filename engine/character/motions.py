@@ -15,19 +15,24 @@ from engine.character.rigging import Character
 from engine.errors import InputError
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
-from engine.motion.edit import in_place, keep
-from engine.motion.library import built_in
+from engine.motion.edit import in_place, keep, travel
+from engine.motion.library import CLIPS, built_in
 from engine.motion.reading import read_motion
 from engine.motion.retarget import retarget
+from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
 from engine.motion.step_out import step_out
 from engine.render.camera import Camera
+
+TRAVELS = 0.1
+"""Metres: a loop that gets further than this in one round goes somewhere."""
 
 
 @dataclass(frozen=True)
 class Played:
     """The clips of a character: `film`, from the pictured pose into the motion, is what the video shows; `all` are those
-    that are written with it; `joints` says which joint of a file's motion moves which, `{ours: the motion's}`."""
+    that are written with it, the chosen motion before the other built-in ones; `joints` says which joint of a file's
+    motion moves which, `{ours: the motion's}`."""
 
     film: Clip
     all: tuple[Clip, ...]
@@ -68,7 +73,7 @@ def choose_motion(
 ) -> Played:
     """The character's clips at `fps` frames a second, beginning from the pose `start`: the built-in one of that `name`, or a
     file's `motion`, of which `joints` overrides which joint moves which. Parts of the body that are `kept` stay as they
-    are there. In the film the person stays in the picture of `camera`.
+    are there. In the film the person stays in the picture of `camera`. The other built-in motions stay where they are.
 
     Raises
     ------
@@ -90,11 +95,24 @@ def choose_motion(
     film = replace(kept_in_frame(character, camera, stepped), name="step_out")
     if kept:
         clip = keep(skeleton, clip, start, list(kept))
-    idle = built_in("idle", skeleton, fps)
-    clips = [character.pictured, film, clip, replace(in_place(clip), name=f"{clip.name}_in_place")]
-    if clip.name != "idle":
-        clips.append(idle)
+    others = [_other_motion(skeleton, start, other, kept) for other in CLIPS if other != clip.name]
+    clips = [character.pictured, film, clip, replace(in_place(clip), name=_in_place_name(clip)), *others]
     return Played(film, tuple(clips), mapping)
+
+
+def _other_motion(skeleton: Skeleton, start: Clip, name: str, kept: Sequence[str]) -> Clip:
+    """A built-in motion that was not chosen, for whoever plays the file: in one place, and at 30 frames a second, of
+    whatever rate the film is, for players fill in between."""
+    clip = built_in(name, skeleton)
+    if kept:
+        clip = keep(skeleton, clip, start, list(kept))
+    if clip.loops and np.linalg.norm(travel(clip)) > TRAVELS:
+        return replace(in_place(clip), name=_in_place_name(clip))
+    return clip
+
+
+def _in_place_name(clip: Clip) -> str:
+    return f"{clip.name}_in_place"
 
 
 def posed_by_hand(character: Character, pose: Mapping[str, tuple[float, float, float]]) -> Clip:

@@ -63,7 +63,8 @@ def test_its_own_measures_are_good(woken: Path) -> None:
 def test_the_glb_is_valid_and_has_its_clips(woken: Path) -> None:
     assert validate(woken / "character.glb")["numErrors"] == 0
     names = [clip["name"] for clip in Glb(woken / "character.glb").json["animations"]]
-    assert names == ["pictured", "step_out", "walk", "walk_in_place", "idle"]
+    assert names[:4] == ["pictured", "step_out", "walk", "walk_in_place"]
+    assert names[4:] == ["idle", "run_in_place", "jump", "sit", "wave", "dance", "bow"]
     assert (woken / "character.glb").stat().st_size < 10e6
 
 
@@ -107,7 +108,8 @@ def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path,
 def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
     out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1).folder
     names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
-    assert names == ["pictured", "step_out", "motion", "motion_in_place", "idle"]
+    assert names[:4] == ["pictured", "step_out", "motion", "motion_in_place"]
+    assert names[4:] == ["idle", "walk_in_place", "run_in_place", "jump", "sit", "wave", "dance", "bow"]
     assert "extras" not in Glb(out / "character.glb").animation("motion")
 
 

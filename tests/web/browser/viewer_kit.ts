@@ -8,7 +8,10 @@ import { afterAll, afterEach, beforeAll, expect, inject } from 'vitest';
 import { ask, inPython, launch, LONG, samplePerson } from './page';
 import { buildViewerPage, type Files, openViewer } from './viewer_page';
 
-export const CLIPS = ['pictured', 'step_out', 'walk', 'walk_in_place', 'idle'];
+export const CLIPS = [
+  ...['pictured', 'step_out', 'walk', 'walk_in_place'],
+  ...['idle', 'run_in_place', 'jump', 'sit', 'wave', 'dance', 'bow'],
+];
 
 /** Somebody, and the same once more to the right of them: further away, so smaller, on the same floor of the picture. */
 const TWO = `
