@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { readable } from './axe';
 import { complaints, faceless, launch, open } from './page';
 
 interface Job {
@@ -69,6 +70,7 @@ describe('the history', () => {
     await search(page).fill('anything');
     await page.getByRole('heading', { name: 'Nothing found for “anything”' }).waitFor();
     await page.getByText('A search looks at titles').waitFor();
+    await readable(page);
     await page.getByRole('link', { name: 'Clear search' }).click();
     await page.getByRole('heading', { name: 'Nothing here yet' }).waitFor();
     expect(await search(page).inputValue()).toBe('');
@@ -145,7 +147,8 @@ describe('the history', () => {
     await error.waitFor();
     expect([await field.getAttribute('aria-invalid'), await field.inputValue()]).toEqual(['true', 'a\u007fb']);
     expect(await field.getAttribute('aria-describedby')).toBe(await error.getAttribute('id'));
-    expect(await field.evaluate((input) => input === document.activeElement)).toBe(true);
+    await expect.poll(() => field.evaluate((input) => input === document.activeElement)).toBe(true);
+    await readable(page);
     complaints.length = 0; // the browser reports the 422 itself
   });
 
@@ -169,7 +172,10 @@ describe('the history', () => {
     const said = await shown.locator('.others li').allTextContents();
     expect(said[0]).toContain('Version 2Changed: strength (150%), loop');
     expect(said[1]).toContain('Version 1The first version');
+    expect(await shown.locator('.others p').textContent()).toBe('Shown: version 3 Changed: strength (50%)');
     expect(await works(page).filter({ hasText: 'Between' }).locator('summary').count()).toBe(0);
+    await page.getByRole('button', { name: 'Rename: Between' }).click();
+    await readable(page);
   });
 
   it('leads page by page through all works, each of them once, however its versions are spread', async () => {

@@ -52,25 +52,33 @@ function Tree({ job, number }: { job: Job; number: number }) {
   if (tree.problem) return <Trouble code={tree.problem.code} detail={tree.problem.detail} />;
   if (!tree.value) return <div class="later" aria-busy="true" />;
   const all = tree.value;
+  const place = all.findIndex((version) => version.id === job.id);
   return (
-    <ol reversed>
-      {all
-        .map((version, place) => ({ version, place }))
-        .reverse()
-        .filter(({ version }) => version.id !== job.id)
-        .map(({ version, place }) => (
-          <li key={version.id}>
-            <a href={jobLink(version.id)}>
-              <Poster job={version} />
-              <span>
-                <strong>{words.version(place + 1)}</strong>
-                <span>{changesOf(version, all)}</span>
-                <State job={version} />
-              </span>
-            </a>
-          </li>
-        ))}
-    </ol>
+    <>
+      {place >= 0 && (
+        <p>
+          <strong>{words.above(place + 1)}</strong> <span>{changesOf(all[place]!, all)}</span>
+        </p>
+      )}
+      <ol reversed>
+        {all
+          .map((version, place) => ({ version, place }))
+          .reverse()
+          .filter(({ version }) => version.id !== job.id)
+          .map(({ version, place }) => (
+            <li key={version.id}>
+              <a href={jobLink(version.id)}>
+                <Poster job={version} />
+                <span>
+                  <strong>{words.version(place + 1)}</strong>
+                  <span>{changesOf(version, all)}</span>
+                  <State job={version} />
+                </span>
+              </a>
+            </li>
+          ))}
+      </ol>
+    </>
   );
 }
 

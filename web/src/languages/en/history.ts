@@ -23,6 +23,7 @@ export const history = {
     others: (number: number) => (number === 1 ? '1 other version' : `${number} other versions`),
     of: (name: string) => `of “${name}”`,
     version: (number: number) => `Version ${number}`,
+    above: (number: number) => `Shown: version ${number}`,
     first: 'The first version',
     same: 'Nothing changed',
     changed: (what: string) => `Changed: ${what}`,

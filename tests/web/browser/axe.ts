@@ -1,0 +1,32 @@
+/** Whether everybody can read and use a page: axe's rules, and nothing that runs out of the window. */
+
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import type { AxeResults } from 'axe-core';
+import type { Page } from 'playwright-core';
+import { expect } from 'vitest';
+
+// A browser loads it into the page: the source, not the module.
+const axe = readFileSync(createRequire(new URL('../../../web/package.json', import.meta.url)).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** Looks at a page as it stands: wide, light and dark, and on a phone. */
+export async function readable(page: Page): Promise<void> {
+  await page.evaluate(axe);
+  const found = new Map<string, string[]>();
+  for (const [width, colorScheme] of [
+    [1280, 'light'],
+    [1280, 'dark'],
+    [320, 'dark'],
+  ] as const) {
+    await page.setViewportSize({ width, height: 800 });
+    await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
+    const results = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<AxeResults> } }).axe.run());
+    for (const { id, impact, nodes } of results.violations) {
+      if (impact === 'serious' || impact === 'critical' || id === 'heading-order') {
+        found.set(`${id} at ${width} ${colorScheme}`, nodes.map((node) => `${node.html} ${node.any[0]?.message ?? ''}`));
+      }
+    }
+    expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), `${width}`).toBeLessThanOrEqual(0);
+  }
+  expect(Object.fromEntries(found)).toEqual({});
+}
