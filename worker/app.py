@@ -52,6 +52,7 @@ class Worker:
     def __init__(self, context: Context):
         self.context = context
         self.stopping = threading.Event()
+        self.interrupted = False
         self.user = user_id(context.settings.job_user)
         self.children: WarmChildren
         self.lane: ShortLane | None = None
@@ -98,7 +99,8 @@ class Worker:
         return (job, lease) if lease is not None and job is not None else None
 
     def run(self) -> None:
-        """Work until SIGTERM or SIGINT; running jobs are given back to the queue then."""
+        """Work until SIGTERM or SIGINT; running jobs are given back to the queue then. Raises `KeyboardInterrupt` at the
+        end of it where it was SIGINT, so that whoever started the worker sees by what it ended."""
         signals.worker_shutting_down.connect(self._stop, weak=False)
         signals.setup_logging.connect(_leave_logging_alone, weak=False)
         # Running as root is the operator's choice; what is warned of (pickled messages) is not accepted here.
@@ -121,6 +123,8 @@ class Worker:
         if self.lane is not None:
             self.lane.close(LONGEST_FAREWELL)
         self.children.close()
+        if self.interrupted:
+            raise KeyboardInterrupt
 
     def _short_lane(self, kinds: Sequence[str]) -> ShortLane | None:
         """The lane for the short ones of these kinds; None where there are none, or nothing else that could hold them up."""
@@ -140,15 +144,19 @@ class Worker:
             with announced(self.context, kinds):
                 rehearse(self.context.settings)
 
-    def _quit(self, *_: Any) -> None:
-        self._stop()
+    def _quit(self, number: int, *_: Any) -> None:
+        self._stop(sig=signal.Signals(number).name)
+        if self.interrupted:
+            raise KeyboardInterrupt
         sys.exit()
 
-    def _stop(self, *_: Any, **__: Any) -> None:
+    def _stop(self, sig: str = "", **_: Any) -> None:
+        """`sig` is the name of the signal that it was told by, as Celery says it."""
         if not self.stopping.is_set():
+            self.interrupted = sig == signal.SIGINT.name
             self.stopping.set()
             # Celery waits for a Redis that may be gone already. Nothing is lost by not waiting with it.
-            last = threading.Timer(LONGEST_FAREWELL, os._exit, [0])
+            last = threading.Timer(LONGEST_FAREWELL, os._exit, [128 + signal.SIGINT if self.interrupted else 0])
             last.daemon = True
             last.start()
 
