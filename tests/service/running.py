@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import httpx
 import psutil
@@ -58,8 +58,12 @@ class Running:
                 stderr=output,
                 cwd=self.cwd,
             )
-        self.client = httpx.Client(base_url=self._address(), timeout=60)
-        eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
+        try:
+            self.client = httpx.Client(base_url=self._address(), timeout=60)
+            eventually(lambda: self.client.get("/readyz").status_code == 200, "the service is ready")
+        except BaseException:
+            self._end()
+            raise
 
     def _address(self) -> str:
         for _ in range(2400):
@@ -71,8 +75,17 @@ class Running:
         self.process.terminate()
         raise AssertionError(self.output.read_text())
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
     def stop(self) -> None:
         self.client.close()
+        self._end()
+
+    def _end(self) -> None:
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGTERM)
             self.process.wait(90)

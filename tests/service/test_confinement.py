@@ -18,12 +18,11 @@ from service.redis_server import socket_path
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     data = tmp_path_factory.mktemp("confined") / "data"
-    running = Running(
+    with Running(
         data, kinds="hostile_kind:KIND", job_memory_mb=700, job_cpu_seconds=4, sweep_seconds=0.5, lease_seconds=5
-    )
-    eventually(lambda: bool(running.processes("shell.main worker")), "the worker starts")
-    yield running
-    running.stop()
+    ) as running:
+        eventually(lambda: bool(running.processes("shell.main worker")), "the worker starts")
+        yield running
 
 
 def ended(running: Running, act: str, **options: Any) -> dict[str, Any]:

@@ -28,9 +28,8 @@ PARTIAL_HEAD = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Slow: a"
 def impatient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     """A service that waits two seconds for anything."""
     bounds = {"head_seconds": 2, "body_seconds": 2, "idle_seconds": 2, "body_bytes_per_second": 500}
-    service = Running(tmp_path_factory.mktemp("impatient") / "data", worker="false", **bounds)
-    yield service
-    service.stop()
+    with Running(tmp_path_factory.mktemp("impatient") / "data", worker="false", **bounds) as service:
+        yield service
 
 
 def healthy(running: Running) -> bool:

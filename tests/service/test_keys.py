@@ -32,10 +32,9 @@ def keyed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     token = galatea(data, "create", "root", "--scope", "admin", "--scope", "read", "--scope", "submit").stdout.strip()
     # Tests ask again and again until something is so, for as long as it takes: only limits of a key's own count here.
     rate = {"requests_per_minute": 1_000_000}
-    service = Running(data, require_keys=True, lease_seconds=3, sweep_seconds=0.5, **rate)
-    service.client.headers["Authorization"] = f"Bearer {token}"
-    yield service
-    service.stop()
+    with Running(data, require_keys=True, lease_seconds=3, sweep_seconds=0.5, **rate) as service:
+        service.client.headers["Authorization"] = f"Bearer {token}"
+        yield service
 
 
 @pytest.fixture

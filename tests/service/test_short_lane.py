@@ -16,11 +16,12 @@ KINDS = "tiny_kind:KIND,tiny_kind:SHORT,tiny_kind:BRIEF"
 def busy(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterator[tuple[Running, dict[str, Any]]]:
     """A service whose only slot has a job that lasts, and that job."""
     data = tmp_path_factory.mktemp("busy") / "data"
-    running = Running(data, kinds=f"{KINDS},engine.character.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5)
-    long = running.submit(picture, seconds=3000)
-    running.until_at_rest(long["id"])
-    yield running, long
-    running.stop()
+    with Running(
+        data, kinds=f"{KINDS},engine.character.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5
+    ) as running:
+        long = running.submit(picture, seconds=3000)
+        running.until_at_rest(long["id"])
+        yield running, long
 
 
 def submit(running: Running, kind: str, like: dict[str, Any], **options: Any) -> str:

@@ -33,7 +33,11 @@ class Stopped:
 @pytest.fixture(scope="module")
 def stopped(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterator[Stopped]:
     """No worker takes the jobs: they wait."""
-    running = Running(tmp_path_factory.mktemp("stopping") / "data", worker="false")
+    with Running(tmp_path_factory.mktemp("stopping") / "data", worker="false") as running:
+        yield _stopped(running, picture)
+
+
+def _stopped(running: Running, picture: bytes) -> Stopped:
     image = running.client.post("/v1/files", files={"file": ("a.png", picture)}).raise_for_status().json()["id"]
     order = json.dumps({"kind": "tiny", "inputs": {"image": image}}).encode()
     ended = running.submit(picture)["id"]
@@ -74,8 +78,7 @@ def stopped(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterato
     answers = {name: first.get(name, b"") + until_closed(line) for name, line in lines.items()}
     status, log = running.process.wait(60), running.output.read_text()
     running.start()
-    yield Stopped(running, answers, status, log, upload, content)
-    running.stop()
+    return Stopped(running, answers, status, log, upload, content)
 
 
 def _queued(running: Running) -> list[str]:
