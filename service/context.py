@@ -39,7 +39,7 @@ class Context:
         keep_ballast(settings)
         kinds = load_kinds(settings.kinds)
         require_known(settings.worker_kinds, kinds)
-        database = Database(settings.database, settings.database_connections)
+        database = Database(settings.database, settings.database_connections, settings.vault)
         database.upgrade()
         traces = Traces(settings.traces_url, part)
         return cls(settings, kinds, database, open_storage(settings), Queue(settings, kinds), traces)

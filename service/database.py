@@ -13,11 +13,25 @@ from contextlib import contextmanager
 from datetime import UTC, datetime
 from typing import Any
 
+import structlog
 from alembic import command
 from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import DateTime, Dialect, Float, TypeDecorator, inspect, literal
+from sqlalchemy import (
+    ColumnClause,
+    DateTime,
+    Dialect,
+    Float,
+    MetaData,
+    String,
+    TableClause,
+    TypeDecorator,
+    inspect,
+    literal,
+    select,
+    update,
+)
 from sqlalchemy.engine import Connection
 from sqlalchemy.exc import DBAPIError, InterfaceError, TimeoutError
 from sqlalchemy.ext.compiler import compiles
@@ -26,6 +40,7 @@ from sqlalchemy.sql.functions import GenericFunction
 
 from engine.package_data import package_folder
 from service import postgresql, sqlite
+from service.vault import STORED_CHARACTERS, Secret, Vault
 
 SET_BACK_SECONDS = 1800.0
 """What lies further ahead (leases are far shorter) was written before the clock was set back."""
@@ -58,6 +73,19 @@ class UTCDateTime(TypeDecorator[datetime]):
         return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
 
 
+class Sealed(TypeDecorator[Secret]):
+    """A secret, kept as the vault of the database says (`Database` gives it to its dialect)."""
+
+    impl = String(STORED_CHARACTERS)
+    cache_ok = True
+
+    def process_bind_param(self, value: Secret | None, dialect: Dialect) -> str | None:
+        return None if value is None else dialect.galatea_vault.seal(value.reveal())  # type: ignore[attr-defined]
+
+    def process_result_value(self, value: str | None, dialect: Dialect) -> Secret | None:
+        return None if value is None else dialect.galatea_vault.open(value)  # type: ignore[attr-defined]
+
+
 class moment_in(GenericFunction[datetime]):
     """`moment_in(seconds)`: the database's own now, and so many seconds on (or back).
 
@@ -85,11 +113,14 @@ def _moment_on_sqlite(element: moment_in, compiler: Any, **keywords: Any) -> str
 class Database:
     """An open database."""
 
-    def __init__(self, url: str, connections: int = 20):
-        """`connections` are the most that this process opens to a PostgreSQL server."""
+    def __init__(self, url: str, connections: int = 20, vault: Vault | None = None):
+        """`connections` are the most that this process opens to a PostgreSQL server; without a `vault`, secrets are
+        kept in clear."""
+        self._vault = vault or Vault()
         self.url = url
         self._kind = postgresql if postgresql.speaks(url) else sqlite
         self._engine = self._kind.engine(url, connections)
+        self._engine.dialect.galatea_vault = self._vault  # type: ignore[attr-defined]
         self._writing = self._engine.execution_options(galatea_writes=True)
         self._writers = self._kind.writers()
 
@@ -106,10 +137,36 @@ class Database:
             yield session
 
     def upgrade(self) -> None:
-        """Bring the tables to the newest version; safe when several processes start at once, and beside a release that
+        """Bring the tables to the newest version, and secrets under the first key of the vault; safe when several processes start at once, and beside a release that
         is still running: what it does not know of does not disturb it."""
         with self._kind.alone(self.url) as connection:
-            _move(connection, "head", down=False)
+            _move(connection, "head", False, self._vault)
+        self._seal_anew()
+
+    def _seal_anew(self) -> None:
+        """Encrypt with the first key what is in clear or under an older one."""
+        sealed = lost = 0
+        for name, of in _secrets(Base.metadata):
+            # The text as it is stored, and not what the column's own type makes of it.
+            stored = TableClause(name, ColumnClause("id", String), ColumnClause(of, String))
+            with self.read() as session:
+                rows = session.execute(select(stored.c.id, stored.c[of]).where(stored.c[of].is_not(None))).all()
+            old = [row for row in rows if not self._vault.is_current(row[1])]
+            readable = [(id_, text, secret.clear) for id_, text in old if (secret := self._vault.open(text)).clear]
+            lost += len(old) - len(readable)
+            if not readable:
+                continue
+            with self.write() as session:
+                for id_, text, clear in readable:
+                    unchanged = (stored.c.id == id_, stored.c[of] == text)
+                    session.execute(update(stored).where(*unchanged).values({of: self._vault.seal(clear)}))
+            sealed += len(readable)
+        if sealed:
+            structlog.get_logger().info("secrets_encrypted", number=sealed)
+            self.tidy()  # the log of SQLite still has them as they were
+        if lost:
+            why = "no key in GALATEA_SECRETS_KEY opens them: put the one back that encrypted them"
+            structlog.get_logger().error("secrets_unreadable", number=lost, why=why)
 
     def migrate(self, revision: str, forget: bool = False) -> None:
         """Bring the tables to a version, up or down, while nobody works with them.
@@ -129,7 +186,7 @@ class Database:
             with self._kind.unused(self.url, connection) as free:
                 if not free:
                     raise DatabaseInUse
-                _move(connection, revision, down)
+                _move(connection, revision, down, self._vault)
 
     def forgets(self, revision: str) -> list[str]:
         """What going to a version would erase, in words: tables, and columns of tables. Empty where it is not older."""
@@ -168,10 +225,16 @@ class Database:
         self._engine.dispose()
 
 
-def _move(connection: Connection, revision: str, down: bool) -> None:
+def _move(connection: Connection, revision: str, down: bool, vault: Vault) -> None:
     config = alembic_config()
-    config.attributes["connection"] = connection
+    config.attributes |= {"connection": connection, "vault": vault}
     (command.downgrade if down else command.upgrade)(config, revision)
+
+
+def _secrets(tables: MetaData) -> list[tuple[str, str]]:
+    """The columns that hold secrets, each with its table, whose rows have an `id`."""
+    found = [(table.name, column) for table in tables.sorted_tables for column in table.columns]
+    return [(name, column.name) for name, column in found if isinstance(column.type, Sealed)]
 
 
 def _scripts() -> ScriptDirectory:

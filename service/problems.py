@@ -25,6 +25,7 @@ from service.database import database_unavailable
 from service.postgresql import UNTRANSLATABLE, error_code
 from service.storage import StorageUnavailable
 from service.traces.current import current_request
+from service.vault import SecretUnreadable
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_SECONDS = 5
@@ -180,6 +181,11 @@ def install(app: FastAPI) -> None:
             405: f"{request.method} is not offered at this address.",
         }.get(error.status_code, str(error.detail))
         return Problem(error.status_code, code, detail, headers=error.headers).response()
+
+    @app.exception_handler(SecretUnreadable)
+    async def locked(request: Request, error: SecretUnreadable) -> JSONResponse:
+        structlog.get_logger().error("secret_unreadable", path=request.url.path)
+        return Problem(503, "secret_unreadable", str(error)).response()
 
     @app.exception_handler(ClientDisconnect)
     async def disconnected(request: Request, error: ClientDisconnect) -> Response:

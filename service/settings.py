@@ -13,6 +13,7 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 from engine.media.limits import Limits
 from service.installed import page_folder
 from service.loopback import is_loopback
+from service.vault import Vault
 
 MEGABYTE = 1_000_000
 
@@ -24,11 +25,16 @@ def _listed(value: object) -> object:
 class Settings(BaseSettings):
     """What an operator can choose. `docs/settings.md` is held against these fields by a test."""
 
-    model_config = SettingsConfigDict(env_prefix="GALATEA_", frozen=True, extra="ignore")
+    model_config = SettingsConfigDict(env_prefix="GALATEA_", frozen=True, extra="ignore", hide_input_in_errors=True)
 
     data_dir: Path = Field(Path("~/.local/share/galatea"), description="Where everything is kept.")
     database_url: str | None = Field(None, description="Where jobs are recorded; a file in DATA_DIR if not set.")
     database_connections: int = Field(20, ge=2, description="The most connections of one process to PostgreSQL.")
+    secrets_key: Annotated[list[SecretStr], NoDecode] = Field(
+        [],
+        description="Keys, separated by commas, that encrypt the secrets in the database: the first encrypts, all "
+        "decrypt; in clear if not set.",
+    )
     redis_url: str | None = Field(None, description="A Redis of your own; the embedded one if not set.")
     storage_url: str | None = Field(None, description="Where files and artifacts lie; a folder in DATA_DIR if not set.")
     storage_endpoint: str | None = Field(None, description="The address of an S3 service other than Amazon's.")
@@ -138,7 +144,16 @@ class Settings(BaseSettings):
         listed = _listed(value)
         return [ip_network(part, strict=False) for part in listed] if isinstance(listed, list) else listed
 
-    @field_validator("kinds", "cors_origins", "worker_kinds", mode="before")
+    @field_validator("secrets_key")
+    @classmethod
+    def _fernet_keys(cls, value: list[SecretStr]) -> list[SecretStr]:
+        try:
+            Vault([key.get_secret_value() for key in value])
+        except ValueError:
+            raise ValueError("a key is 32 bytes in url-safe base64; `galatea keys secrets-key` makes one") from None
+        return value
+
+    @field_validator("kinds", "cors_origins", "worker_kinds", "secrets_key", mode="before")
     @classmethod
     def _names(cls, value: object) -> object:
         return _listed(value)
@@ -195,6 +210,11 @@ class Settings(BaseSettings):
     @property
     def database(self) -> str:
         return self.database_url or f"sqlite:///{self.data_dir / 'galatea.db'}"
+
+    @property
+    def vault(self) -> Vault:
+        """What encrypts secrets and opens them."""
+        return Vault([key.get_secret_value() for key in self.secrets_key])
 
     @property
     def limits(self) -> Limits:

@@ -17,6 +17,7 @@ from service.auth.schemas import KeyIn
 from service.database import Database
 from service.links import repository as links
 from service.problems import Problem
+from service.vault import new_key
 from shell.complaint import Complaint
 from shell.settings import read_settings
 
@@ -107,11 +108,17 @@ def revoke_link(link_id: str | None, everything: bool, key_id: str | None) -> No
     click.echo(f"Links that were taken back: {gone}.")
 
 
+@keys.command("secrets-key")
+def secrets_key() -> None:
+    """A fresh key for GALATEA_SECRETS_KEY. It is printed alone, and kept nowhere: keep it safe."""
+    click.echo(new_key())
+
+
 @contextmanager
 def _writing() -> Iterator[Session]:
     settings = read_settings()
     settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
-    database = Database(settings.database)
+    database = Database(settings.database, vault=settings.vault)
     database.upgrade()
     try:
         with database.write() as session:

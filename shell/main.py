@@ -125,10 +125,12 @@ def migrate(version: str, down: bool) -> None:
     from alembic.util import CommandError
 
     from service.database import Database, DatabaseInUse, WouldForget
+    from service.vault import SecretUnreadable
     from shell.complaint import Complaint
     from shell.settings import read_settings
 
-    database = Database(read_settings().database)
+    settings = read_settings()
+    database = Database(settings.database, vault=settings.vault)
     try:
         if down and (lost := database.forgets(version)):
             click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
@@ -143,6 +145,8 @@ def migrate(version: str, down: bool) -> None:
             "The service runs: stop `galatea serve` and every `galatea worker` that uses this database, on all "
             "machines, then migrate. Nothing was done."
         ) from None
+    except SecretUnreadable as error:
+        raise Complaint(f"{error} Nothing was done.") from None
     except CommandError as error:
         raise Complaint(f"{version}: {error}") from error
     click.echo(f"The tables are at version {database.revision()}.")

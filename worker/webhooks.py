@@ -24,7 +24,7 @@ from service.outbound.client import client
 from service.traces.current import origin_logged
 from service.traces.tracer import fail, parent_of, trace_id
 from service.webhooks import course
-from service.webhooks.course import Claim, Outcome
+from service.webhooks.course import UNREADABLE, Claim, Outcome
 from service.webhooks.signing import signed_headers
 from worker.insist import insist
 
@@ -100,6 +100,8 @@ class Courier:
 
 def send(http: httpx.Client, claim: Claim, moment: datetime) -> Outcome:
     """Make one attempt. Whatever comes of it is an outcome, no error."""
+    if claim.fault is not None:
+        return Outcome(0.0, code=UNREADABLE, detail=claim.fault)
     began = time.monotonic()
     headers = signed_headers(claim.secrets, claim.delivery_id, moment, claim.body)
     headers["Content-Type"] = "application/json"

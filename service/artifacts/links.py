@@ -25,7 +25,7 @@ class Signer:
 
     @classmethod
     def of(cls, key: Key, settings: Settings) -> Signer:
-        return cls(key.link_secret, settings.link_hours * 3600)
+        return cls(key.link_secret.reveal(), settings.link_hours * 3600)
 
     def link(self, job_id: str, name: str) -> str:
         """The address of an artifact, good for at least the time that the settings say, and for half as long again at
@@ -40,4 +40,4 @@ def good(key: Key, job_id: str, name: str, expires: str, given: str) -> bool:
     """Whether a link's expiry lies ahead and its signature is that of the key."""
     if not (expires.isascii() and expires.isdigit() and len(expires) < 12) or int(expires) < time.time():
         return False
-    return signed_by(key.link_secret, given, "artifact", job_id, name, expires)
+    return signed_by(key.link_secret.reveal(), given, "artifact", job_id, name, expires)

@@ -7,7 +7,8 @@ from datetime import datetime
 from sqlalchemy import JSON, String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, UTCDateTime
+from service.database import Base, Sealed, UTCDateTime
+from service.vault import Secret
 
 LOCAL = "local"
 """The id of the one key without a token: it stands for callers on this machine where no key is needed."""
@@ -25,9 +26,9 @@ class Key(Base):
     hint: Mapped[str] = mapped_column(String(16))
     """The token's first characters, to tell keys apart."""
     scopes: Mapped[list[str]] = mapped_column(JSON)
-    signing_secret: Mapped[str] = mapped_column(String(64))
+    signing_secret: Mapped[Secret] = mapped_column(Sealed)
     """Signs the webhooks that jobs name themselves; shown to the key's owner."""
-    link_secret: Mapped[str] = mapped_column(String(64))
+    link_secret: Mapped[Secret] = mapped_column(Sealed)
     """Signs links and sessions; shown to nobody."""
     requests_per_minute: Mapped[int | None]
     jobs_at_once: Mapped[int | None]

@@ -89,7 +89,7 @@ class OwnKeyOut(BaseModel):
             id=key.id,
             name=key.name,
             scopes=key.scopes,
-            signing_secret=key.signing_secret if "submit" in key.scopes else None,
+            signing_secret=key.signing_secret.reveal() if "submit" in key.scopes else None,
             requests_per_minute=limits.requests_per_minute,
             jobs_at_once=limits.jobs_at_once,
             stored_mb=limits.stored_mb,

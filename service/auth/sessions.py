@@ -21,7 +21,7 @@ SECONDS = 12 * 3600
 def new_session(key: Key) -> str:
     """The cookie's value for a key."""
     expires = str(int(time.time()) + SECONDS)
-    return f"{key.id}.{expires}.{signature(key.link_secret, 'session', key.id, expires)}"
+    return f"{key.id}.{expires}.{signature(key.link_secret.reveal(), 'session', key.id, expires)}"
 
 
 def key_of_session(session: Session, value: str) -> Key | None:
@@ -31,6 +31,10 @@ def key_of_session(session: Session, value: str) -> Key | None:
     if not (expires.isascii() and expires.isdigit() and len(expires) < 12) or int(expires) < time.time():
         return None
     key = repository.get(session, key_id)
-    if key is None or key.token_hash is None or not signed_by(key.link_secret, given, "session", key_id, expires):
+    if (
+        key is None
+        or key.token_hash is None
+        or not signed_by(key.link_secret.reveal(), given, "session", key_id, expires)
+    ):
         return None
     return key

@@ -7,6 +7,8 @@ import hmac
 import secrets
 from base64 import b64encode, urlsafe_b64encode
 
+from service.vault import Secret
+
 PREFIX = "galatea_"
 HINT_CHARACTERS = len(PREFIX) + 4
 
@@ -21,14 +23,14 @@ def digest(token: str) -> str:
     return hashlib.sha256(token.encode()).hexdigest()
 
 
-def new_signing_secret() -> str:
+def new_signing_secret() -> Secret:
     """A fresh secret in the form that Standard Webhooks prescribes: `whsec_` and 24 to 64 bytes in base64."""
-    return "whsec_" + b64encode(secrets.token_bytes(32)).decode()
+    return Secret("whsec_" + b64encode(secrets.token_bytes(32)).decode())
 
 
-def new_link_secret() -> str:
+def new_link_secret() -> Secret:
     """A fresh secret for links and sessions."""
-    return secrets.token_hex(32)
+    return Secret(secrets.token_hex(32))
 
 
 def signature(secret: str, *parts: str) -> str:

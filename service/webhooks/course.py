@@ -21,10 +21,14 @@ from service.database import UTCDateTime, moment_in
 from service.figures import counters
 from service.jobs.models import Job
 from service.settings import Settings
+from service.vault import SecretUnreadable
 from service.webhooks import schedule
 from service.webhooks.message import body
 from service.webhooks.models import Delivery, DeliveryAttempt, DeliveryStatus, Webhook
 from service.webhooks.signing import live_secrets
+
+UNREADABLE = "secret_unreadable"
+"""The code of an attempt that could not be signed."""
 
 SET_BACK = timedelta(minutes=10)
 """A lease that ends so much later than it could was given before the clock was set back. Less than that is no proof:
@@ -46,6 +50,8 @@ class Claim:
     """The id of the request that submitted the job."""
     trace: str | None
     """Its span, as a `traceparent`."""
+    fault: str | None = None
+    """Why nothing can be sent, for there are no secrets to sign it with."""
 
 
 @dataclass(frozen=True)
@@ -178,16 +184,23 @@ def _claim(session: Session, settings: Settings, delivery_id: str, moment: datet
     key = session.get_one(Key, delivery.owner)
     job = session.get(Job, delivery.job_id) if delivery.job_id is not None else None
     webhook = session.get_one(Webhook, delivery.webhook_id) if delivery.webhook_id is not None else None
+    secrets, said, fault = tuple[str, ...](), "", None
+    try:
+        secrets = live_secrets(webhook, moment) if webhook is not None else (key.signing_secret.reveal(),)
+        said = body(delivery, Signer.of(key, settings), settings.public_url)
+    except SecretUnreadable as error:
+        fault = str(error)
     return Claim(
         delivery_id=delivery.id,
         token=delivery.lease_token,
         url=webhook.url if webhook is not None else delivery.url,
-        secrets=live_secrets(webhook, moment) if webhook is not None else (key.signing_secret,),
-        body=body(delivery, Signer.of(key, settings), settings.public_url),
+        secrets=secrets,
+        body=said,
         event=delivery.event,
         job_id=delivery.job_id,
         request=job.request if job is not None else None,
         trace=job.trace if job is not None else None,
+        fault=fault,
     )
 
 
@@ -212,7 +225,7 @@ def _fail(session: Session, delivery: Delivery, outcome: Outcome, moment: dateti
     delivery.next_attempt_at = None if pause is None else moment + pause
     if pause is None:
         delivery.status = DeliveryStatus.FAILED
-    if delivery.webhook_id is not None:
+    if delivery.webhook_id is not None and outcome.code != UNREADABLE:  # of that the receiver knows nothing
         _blame(session, delivery.webhook_id, outcome.gone, pause is None, moment)
     elif outcome.gone:
         session.execute(

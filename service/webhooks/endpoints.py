@@ -48,7 +48,7 @@ def create_webhook(asked: WebhookIn, caller: Submitter, response: Response, cont
         webhook = service.create(session, caller.owner, asked, context.settings.allowed_networks)
     response.headers["Location"] = f"/v1/webhooks/{webhook.id}"
     response.headers["Cache-Control"] = "no-store"
-    return NewWebhookOut(secret=webhook.secret, **WebhookOut.of(webhook).model_dump())
+    return NewWebhookOut(secret=webhook.secret.reveal(), **WebhookOut.of(webhook).model_dump())
 
 
 @router.get("/deliveries", operation_id="list_deliveries", responses=responses(422))

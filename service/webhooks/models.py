@@ -9,7 +9,8 @@ from typing import Any
 from sqlalchemy import JSON, BigInteger, Float, ForeignKey, Index, Integer, String, Text
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, UTCDateTime
+from service.database import Base, Sealed, UTCDateTime
+from service.vault import Secret
 
 URL_CHARACTERS = 2000
 
@@ -56,8 +57,8 @@ class Webhook(Base):
     """The first attempt that failed after the last one that succeeded."""
     given_up: Mapped[int] = mapped_column(default=0)
     """Deliveries whose last attempt failed since then."""
-    secret: Mapped[str] = mapped_column(String(100))
-    previous_secret: Mapped[str | None] = mapped_column(String(100))
+    secret: Mapped[Secret] = mapped_column(Sealed)
+    previous_secret: Mapped[Secret | None] = mapped_column(Sealed)
     previous_until: Mapped[datetime | None] = mapped_column(UTCDateTime)
     """Until then the previous secret signs too."""
     created_at: Mapped[datetime] = mapped_column(UTCDateTime)

@@ -128,9 +128,10 @@ class SecretOut(BaseModel):
     @classmethod
     def of(cls, webhook: Webhook, moment: datetime) -> SecretOut:
         live = webhook.previous_until is not None and webhook.previous_until > moment
+        previous = webhook.previous_secret if live else None
         return cls(
-            secret=webhook.secret,
-            previous_secret=webhook.previous_secret if live else None,
+            secret=webhook.secret.reveal(),
+            previous_secret=previous.reveal() if previous is not None else None,
             previous_until=webhook.previous_until if live else None,
         )
 

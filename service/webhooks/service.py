@@ -71,7 +71,10 @@ def change(session: Session, owner: str, webhook_id: str, asked: WebhookChange, 
 def rotate(session: Session, owner: str, webhook_id: str, overlap: timedelta) -> Webhook:
     """Give an endpoint a new secret; the old one signs beside it for a while. Raises `Problem`."""
     webhook = found(session, owner, webhook_id)
-    webhook.previous_secret, webhook.previous_until = webhook.secret, now() + overlap
+    if webhook.secret.clear is None:  # so that an endpoint whose secret is lost can be had to work again
+        webhook.previous_secret = webhook.previous_until = None
+    else:
+        webhook.previous_secret, webhook.previous_until = webhook.secret, now() + overlap
     webhook.secret = new_signing_secret()
     return webhook
 

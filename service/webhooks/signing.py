@@ -11,10 +11,11 @@ from service.webhooks.models import Webhook
 
 
 def live_secrets(webhook: Webhook, moment: datetime) -> tuple[str, ...]:
-    """The secrets that sign for an endpoint at a moment: the current one first, the previous one until it expires."""
+    """The secrets that sign for an endpoint at a moment: the current one first, the previous one until it expires.
+    Raises `SecretUnreadable`."""
     if webhook.previous_secret is None or webhook.previous_until is None or webhook.previous_until <= moment:
-        return (webhook.secret,)
-    return webhook.secret, webhook.previous_secret
+        return (webhook.secret.reveal(),)
+    return webhook.secret.reveal(), webhook.previous_secret.reveal()
 
 
 def signed_headers(secrets: Sequence[str], message_id: str, moment: datetime, body: str) -> dict[str, str]:

@@ -15,6 +15,7 @@ from service.ids import new_id
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
 from service.jobs.models import Job, Priority, Status
+from service.vault import Secret
 from worker.sweep import take_back_expired
 
 
@@ -112,7 +113,7 @@ def places(context: Context, *jobs: str) -> list[int | None]:
 def test_the_place_in_the_queue_is_the_order_in_which_jobs_are_taken(context: Context, job_id: str) -> None:
     with context.database.write() as session:
         for name in ("key1", "key2"):
-            secrets = {"token_hash": name, "signing_secret": name, "link_secret": name}
+            secrets = {"token_hash": name, "signing_secret": Secret(name), "link_secret": Secret(name)}
             session.add(Key(id=name, name=name, hint="", scopes=[], created_at=now(), **secrets))
     assert claim(context, job_id) is not None  # one of `local` runs
     jobs = [waiting(context, owner=owner) for owner in ("local", "local", "key1", "key1", "key1", "key2")]
@@ -222,7 +223,7 @@ def test_keys_have_their_turns(context: Context) -> None:
     """Whoever submits a hundred jobs does not keep the others waiting for all of them."""
     with context.database.write() as session:
         for name in ("a", "b"):
-            secrets = {"signing_secret": "s", "link_secret": "l"}
+            secrets = {"signing_secret": Secret("s"), "link_secret": Secret("l")}
             session.add(Key(id=name, name=name, hint="", scopes=[], created_at=now(), **secrets))
     many = [waiting(context, owner="a") for _ in range(4)]
     few = [waiting(context, owner="b") for _ in range(2)]

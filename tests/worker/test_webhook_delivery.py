@@ -147,7 +147,7 @@ def test_a_job_s_end_is_told_signed(context: Context, courier: Courier, receive:
     job_id = succeeded(context)
     deliver(courier, now())
     (call,) = receiver.calls
-    told = standardwebhooks.Webhook(webhook.secret).verify(call.body, call.headers)
+    told = standardwebhooks.Webhook(webhook.secret.reveal()).verify(call.body, call.headers)
     assert call.headers["content-type"] == "application/json"
     assert call.headers["user-agent"].startswith("Galatea/")
     assert told["type"] == "job.succeeded"
@@ -165,7 +165,7 @@ def test_a_job_s_end_is_told_signed(context: Context, courier: Courier, receive:
     (attempt,) = attempts(context, delivery)
     assert (attempt.response_status, attempt.response_excerpt, attempt.error_code) == (200, "ok", None)
     with pytest.raises(standardwebhooks.WebhookVerificationError):
-        standardwebhooks.Webhook(webhook.secret).verify(call.body.replace("succeeded", "failed"), call.headers)
+        standardwebhooks.Webhook(webhook.secret.reveal()).verify(call.body.replace("succeeded", "failed"), call.headers)
 
 
 def test_every_way_to_end_is_told_and_no_other_event(context: Context, courier: Courier, receive: Receive) -> None:
@@ -302,7 +302,7 @@ def test_the_address_of_a_job_is_signed_with_the_key_s_secret(
     succeeded(context, webhook_url=receiver.url)
     deliver(courier, now())
     with context.database.read() as session:
-        secret = session.get_one(Key, LOCAL).signing_secret
+        secret = session.get_one(Key, LOCAL).signing_secret.reveal()
     (call,) = receiver.calls
     assert standardwebhooks.Webhook(secret).verify(call.body, call.headers)["type"] == "job.succeeded"
     assert deliveries(context)[0].webhook_id is None
@@ -319,7 +319,7 @@ def test_two_secrets_sign_until_the_old_one_expires(context: Context, courier: C
     call = receiver.calls[-1]
     assert len(call.headers["webhook-signature"].split(" ")) == 2
     for secret in (webhook.secret, rotated.secret):
-        assert standardwebhooks.Webhook(secret).verify(call.body, call.headers)
+        assert standardwebhooks.Webhook(secret.reveal()).verify(call.body, call.headers)
     succeeded(context)
     deliver(courier, now() + 2 * HOUR)
     assert len(receiver.calls[-1].headers["webhook-signature"].split(" ")) == 1

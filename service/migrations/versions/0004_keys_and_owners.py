@@ -41,8 +41,8 @@ def upgrade() -> None:
         "name": "This machine",
         "hint": "",
         "scopes": ["read", "submit", "admin"],
-        "signing_secret": new_signing_secret(),
-        "link_secret": new_link_secret(),
+        "signing_secret": new_signing_secret().reveal(),
+        "link_secret": new_link_secret().reveal(),
         "created_at": now(),
     }
     op.bulk_insert(keys, [local])
