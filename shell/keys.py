@@ -14,6 +14,7 @@ from sqlalchemy.orm import Session
 from service.auth import repository, service
 from service.auth.models import Key
 from service.auth.schemas import KeyIn
+from service.auth.tokens import HINT_CHARACTERS
 from service.database import Database
 from service.links import repository as links
 from service.problems import Problem
@@ -61,7 +62,9 @@ def show() -> None:
     longest = max((len(key.id) for key in found), default=0)
     table.add_column("id", no_wrap=True, min_width=longest)  # it is copied, and asked for by other programs
     for heading in ("name", "begins with", "scopes", "state", "last used"):
-        table.add_column(heading, overflow="fold")
+        # What a key begins with is looked for, too: it stays in one piece.
+        whole = HINT_CHARACTERS if heading == "begins with" else None
+        table.add_column(heading, overflow="fold", min_width=whole)
     for key in found:
         used = f"{key.last_used_at:%Y-%m-%d %H:%M}" if key.last_used_at else "never"
         table.add_row(key.id, key.name, key.hint, " ".join(key.scopes), _state(key), used)
