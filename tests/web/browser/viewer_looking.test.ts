@@ -3,11 +3,30 @@
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import type { AxeResults } from 'axe-core';
+import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { launch } from './page';
 import { aViewer, CLIPS, differing, drawings, mode, ready, shot, still } from './viewer_kit';
 
 const { open } = aViewer();
+
+/** Until what was asked for before is drawn. */
+const drawnAnew = (page: Page) =>
+  page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
+
+/** Until the clip that plays has begun anew by itself. */
+async function wentAround(page: Page): Promise<void> {
+  const farthest = await page.evaluateHandle(() => ({ second: 0 }));
+  await page.waitForFunction(
+    (so) => {
+      const now = document.querySelector<HTMLInputElement>('.scrub')!.valueAsNumber;
+      so.second = Math.max(so.second, now);
+      return now < so.second;
+    },
+    farthest,
+    { timeout: 60_000 },
+  );
+}
 
 describe('a character in three', () => {
   it('has every clip, and each moves the mesh with its joints', async () => {
@@ -16,7 +35,7 @@ describe('a character in three', () => {
     const { clips } = await page.evaluate(() => window.measure());
     expect(Object.keys(clips)).toEqual(CLIPS);
     expect(clips.pictured).toMatchObject({ vertex: 0, joint: 0, loops: false });
-    for (const [name, least] of [['step_out', 0.3], ['walk', 0.3], ['walk_in_place', 0.2], ['idle', 0.001]] as const) {
+    for (const [name, least] of [['step_out', 0.3], ['walk', 0.3], ['walk_in_place', 0.2], ['idle', 0.001], ['dance', 0.1], ['bow', 0.2], ['sit', 0.2]] as const) {
       expect(clips[name]!.joint, `joints of ${name}`).toBeGreaterThan(least);
       expect(clips[name]!.vertex, `mesh of ${name}`).toBeGreaterThan(least);
     }
@@ -51,6 +70,52 @@ describe('looking around', () => {
     await page.getByRole('button', { name: 'Play' }).waitFor({ timeout: 60_000 }); // it ends by itself
     expect(await tall(), 'the person has come nearer').toBeGreaterThan(1.1 * before);
     expect(Number(await position.inputValue())).toBeGreaterThan(1.5);
+  });
+
+  it('shows the chosen motion first, and any other by its plain name, all of it within the stage', async () => {
+    const page = await open();
+    await ready(page);
+    const motion = page.getByRole('combobox', { name: 'Motion' });
+    expect(await motion.inputValue()).toBe('walk_in_place');
+    expect(await motion.getByRole('option').allTextContents()).toEqual([
+      ...['Pose from the picture', 'Out of the picture', 'Walk', 'Walk, in place'],
+      ...['Idle', 'Run, in place', 'Jump', 'Sit down', 'Wave', 'Dance', 'Bow'],
+    ]);
+    const position = page.getByRole('slider', { name: 'Position' });
+    const { width, height } = (await page.locator('.viewer-stage').boundingBox())!;
+    const pictures = new Set<string>();
+    for (const name of CLIPS.slice(4)) {
+      await motion.selectOption(name);
+      const end = Number(await position.getAttribute('max'));
+      for (let moment = 0; moment <= 8; moment++) {
+        await position.fill(String((moment * end) / 8));
+        await drawnAnew(page);
+        for (const joint of ['Head', 'LeftHand', 'RightHand', 'LeftFoot', 'RightFoot']) {
+          const [x, y] = await page.evaluate((one) => window.joint(one), joint);
+          const seen = x > 0 && x < width && y > 0 && y < height;
+          expect(seen, `${joint} of ${name} at ${moment}/8: ${x}, ${y} of ${width} x ${height}`).toBe(true);
+        }
+        if (moment === 3) pictures.add((await shot(page)).toString('base64'));
+      }
+    }
+    expect(pictures.size, 'each is another one').toBe(CLIPS.length - 4);
+  });
+
+  it('plays on and on what ends as it begins, and once what does not', async () => {
+    const page = await open();
+    await ready(page);
+    const motion = page.getByRole('combobox', { name: 'Motion' });
+    const position = page.getByRole('slider', { name: 'Position' });
+    for (const name of ['jump', 'run_in_place']) {
+      await motion.selectOption(name);
+      await page.getByRole('button', { name: 'Play' }).click();
+      await wentAround(page);
+      await page.getByRole('button', { name: 'Pause' }).click();
+    }
+    await motion.selectOption('sit');
+    await page.getByRole('button', { name: 'Play' }).click();
+    await page.getByRole('button', { name: 'Play' }).waitFor({ timeout: 60_000 }); // seated, they stay
+    expect(Number(await position.inputValue())).toBeGreaterThan(2.9);
   });
 
   it('is circled around by mouse and keys, and comes back', async () => {

@@ -4,6 +4,7 @@ import {
   type AnimationClip,
   AnimationMixer,
   type Group,
+  type KeyframeTrack,
   type Material,
   Object3D,
   type Quaternion,
@@ -14,6 +15,9 @@ import {
 } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { CROWN } from './handles';
+
+/** Of metres, and of the numbers of quaternions: what differs by less is the same. */
+const SAME = 2e-3;
 
 /** The clip that holds the pose of the picture. */
 export const PICTURED = 'pictured';
@@ -129,8 +133,16 @@ export async function loadCharacter(url: string, signal: AbortSignal): Promise<C
   throw new DOMException('called off', 'AbortError');
 }
 
-/** Whether a clip ends where it begins. */
-export const loops = (clip: AnimationClip): boolean => clip.userData.loops === true;
+/** Whether a clip can be played on and on: it is made to, or moves and stands at its end as at its beginning. */
+export function repeats(clip: AnimationClip): boolean {
+  if (clip.userData.loops === true) return true;
+  const leaves = ({ values, times }: KeyframeTrack, from: number): boolean => {
+    const size = values.length / times.length;
+    return values.slice(from).some((value, index) => Math.abs(value - values[index % size]!) > SAME);
+  };
+  const ends = (track: KeyframeTrack): number => track.values.length - track.values.length / track.times.length;
+  return clip.tracks.some((track) => leaves(track, 0)) && !clip.tracks.some((track) => leaves(track, ends(track)));
+}
 
 /** The way of the hips, the one joint that goes anywhere. */
 export const rootOf = (clip: AnimationClip): VectorKeyframeTrack | undefined =>

@@ -5,7 +5,7 @@ import { useEffect, useMemo, useState } from 'preact/hooks';
 import { Box3, Vector3 } from 'three';
 import { Transport } from '../components/transport';
 import { plain, strings } from '../strings';
-import { type Character, IN_PLACE, rootOf } from './character';
+import { type Character, IN_PLACE } from './character';
 import { placeOf } from './reach';
 import { Playback } from './playback';
 import type { Stage } from './stage';
@@ -15,6 +15,8 @@ import { Tool } from '../stage/tools';
 const words = strings.viewer;
 /** Metres from the joints to the outline of the body. */
 const FLESH = 0.16;
+/** At how many moments of a clip it is seen what room it takes: jumps go up, arms are raised. */
+const MOMENTS = 16;
 
 interface Props {
   stage: Stage;
@@ -109,19 +111,21 @@ export function resetView(stage: Stage, cast: readonly Standing[], clip?: string
 }
 
 function roomFor(character: Character, clip?: string): Box3 {
-  const body = new Box3();
-  for (const joint of character.joints.values()) body.expandByPoint(placeOf(joint));
-  body.expandByScalar(FLESH);
-  // arms that swing and legs that stride stay within a person's width
-  const middle = body.getCenter(new Vector3());
-  body.expandByPoint(new Vector3(middle.x - 0.5, 0, middle.z)).expandByPoint(new Vector3(middle.x + 0.5, 0, middle.z));
   const played = clip === undefined ? undefined : character.clip(clip);
-  const way = played && rootOf(played)?.values;
-  const hips = character.joints.get('Hips')?.position;
-  if (way && hips) {
-    const now = body.clone();
-    for (let key = 0; key < way.length; key += 3) {
-      body.union(now.clone().translate(new Vector3(way[key]! - hips.x, 0, way[key + 2]! - hips.z)));
+  const body = new Box3();
+  const takeIn = (): void => {
+    const now = new Box3();
+    for (const joint of character.joints.values()) now.expandByPoint(placeOf(joint));
+    body.union(now.expandByScalar(FLESH));
+    // arms that swing and legs that stride stay within a person's width
+    const middle = now.getCenter(new Vector3());
+    body.expandByPoint(new Vector3(middle.x - 0.5, 0, middle.z)).expandByPoint(new Vector3(middle.x + 0.5, 0, middle.z));
+  };
+  if (!played) takeIn();
+  else {
+    for (let moment = 0; moment <= MOMENTS; moment++) {
+      character.show(played, (played.duration * moment) / MOMENTS);
+      takeIn();
     }
   }
   return body;

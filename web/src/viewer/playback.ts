@@ -1,13 +1,14 @@
 /** A clip that everybody on the stage plays, each their own of that name, and where in it they are. */
 
 import type { AnimationClip } from 'three';
-import { type Character, loops } from './character';
+import { type Character, repeats } from './character';
 import type { Performer } from './stage';
 
 export class Playback implements Performer {
   playing = false;
   speed = 1;
   private elapsed = 0;
+  private looping = false;
   private parts: { character: Character; clip: AnimationClip }[] = [];
 
   constructor(
@@ -61,10 +62,7 @@ export class Playback implements Performer {
       const clip = character.clip(name);
       return clip ? [{ character, clip }] : [];
     });
-  }
-
-  private get looping(): boolean {
     const [first] = this.parts;
-    return first !== undefined && first.clip.duration > 0 && loops(first.clip);
+    this.looping = first !== undefined && first.clip.duration > 0 && repeats(first.clip);
   }
 }
