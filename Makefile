@@ -5,10 +5,10 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup tools demo test lint types imports unit coverage web-test web-unit web-browser client lock bench picture pictures samples docs licences wheel clean
+.PHONY: help setup tools demo test lint types imports unit coverage s3-trial web-test web-unit web-browser client lock bench picture pictures samples docs licences wheel clean
 
 help:  ## this list
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## /\1\t/' | expand -t 14
+	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z0-9-]+):[^#]*## /\1\t/' | expand -t 14
 
 setup:  ## install into .venv/, build web/dist/ and the player of reactive profiles
 	@scripts/setup.sh
@@ -47,6 +47,11 @@ web-unit:
 
 web-browser:
 	@cd web && npm run --silent browser -- --reporter=dot --reporter=junit --outputFile=../$(REPORTS)/web-browser.xml
+
+s3-trial: tools  ## the tests of the storage once more, against a real server of another make (OpenStack Swift)
+	@scripts/setup.sh --for-s3-trial
+	@GALATEA_TESTS_S3=swift $(BIN)/pytest -s $(addprefix tests/,service/test_storage.py worker/test_mirror.py \
+		service/test_shared.py service/test_machines.py service/trial_s3.py)
 
 client:  ## the page's types anew from the service's OpenAPI document
 	@cd web && npm run --silent client

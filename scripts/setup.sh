@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs Galatea into this checkout: .venv/ from requirements.lock, web/dist/ from web/package-lock.json. With
-# --for-tests also requirements-dev.lock and what tests need of Debian.
+# --for-tests also requirements-dev.lock and what tests need of Debian; with --for-s3-trial what `make s3-trial` does.
 # Runs again at no cost: each step is skipped while the files that it depends on are unchanged.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -110,6 +110,14 @@ install_test_tools() {
   [ -n "${GALATEA_CHROMIUM:-}" ] || command -v chromium >/dev/null || install_debian chromium fonts-dejavu-core
 }
 
+# A real S3 server. Debian starts what it installs: memcached is then a service of the machine (on loopback); Swift's
+# stores have no rings and do not start. The trial uses neither, it starts its own.
+install_s3_server() {
+  command -v memcached >/dev/null || install_debian memcached
+  command -v swift-proxy-server >/dev/null && command -v swift-object-server >/dev/null ||
+    install_debian swift-proxy swift-account swift-container swift-object
+}
+
 locks=(requirements.lock)
 # What is installed for tests is kept up to date by whoever runs the demo next: one environment serves both.
 if [ "${1:-}" = --for-tests ] || [ -x .venv/bin/pytest ]; then locks+=(requirements-dev.lock); fi
@@ -117,3 +125,4 @@ install_python "${locks[@]}"
 build_web
 build_player
 if [ "${1:-}" = --for-tests ]; then install_test_tools; fi
+if [ "${1:-}" = --for-s3-trial ]; then install_s3_server; fi

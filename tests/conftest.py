@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
+from swift import s3_server
 
 ROOT = Path(__file__).parent.parent
 
@@ -59,9 +60,9 @@ def postgres(postgres_installed: None) -> Iterator[PostgresServer]:
 @pytest.fixture(scope="session")
 def s3() -> Iterator[S3Server]:
     """A server that speaks S3."""
-    server = S3Server()
+    server = s3_server()
     yield server
-    server.stop()
+    server.remove()
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])

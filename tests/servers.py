@@ -16,17 +16,19 @@ import sys
 import tempfile
 import threading
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
-from urllib.request import Request, urlopen
+from urllib.request import urlopen
 
+import botocore.config
+import botocore.session
 import pg8000.native
 
 PASSWORD = "a password of the tests'"
 Reach = Callable[[Callable[[], Any]], Any]
-ACCESS_KEY, SECRET_KEY = "tests", "a-secret-of-the-tests"
 
 
 def free_port() -> int:
@@ -130,54 +132,81 @@ def _unprivileged() -> pwd.struct_passwd | None:
     return names.get("postgres") or names["nobody"]
 
 
-class S3Server:
-    """moto's server: it speaks S3, keeps everything in its memory, and takes any credentials."""
+class S3Server(ABC):
+    """A server that speaks S3."""
+
+    access_key, secret_key = "tests", "a-secret-of-the-tests"
 
     def __init__(self, host: str = "127.0.0.1", wrapper: Sequence[str] = (), reach: Reach = lambda ask: ask()):
-        """`reach` asks where the server can be reached."""
+        """`wrapper` is put before its commands, `reach` asks where the server can be reached."""
         self.host, self.port = host, free_port()
         self._wrapper, self._reach = wrapper, reach
         self._buckets = 0
         self._log = tempfile.NamedTemporaryFile(prefix="galatea-s3-", suffix=".log")  # noqa: SIM115
-        self.start()
 
     @property
     def address(self) -> str:
         return f"http://{self.host}:{self.port}"
 
+    @abstractmethod
     def start(self) -> None:
-        serve = [sys.executable, "-m", "moto.server", "-H", self.host, "-p", str(self.port)]
-        self._process = subprocess.Popen(
-            [*self._wrapper, "setpriv", "--pdeathsig", "KILL", *serve],
-            stdout=self._log,
-            stderr=self._log,
-            env=os.environ | {"MOTO_S3_DEFAULT_MAX_KEYS": "50"},  # lists come in pages
-        )
-        answers = lambda: urlopen(f"{self.address}/moto-api/", timeout=5).status == 200  # noqa: E731
-        await_(lambda: self._reach(answers), "the S3 server answers", self._process)
+        """Start it, and wait until it answers."""
 
+    @abstractmethod
     def stop(self) -> None:
-        self._process.kill()
-        self._process.wait(30)
+        """Kill it."""
+
+    def remove(self) -> None:
+        """Kill it for good."""
+        self.stop()
 
     def settings(self, bucket: str) -> dict[str, str]:
         """The settings of a service that stores in a bucket."""
         return {
             "storage_url": f"s3://{bucket}/galatea",
             "storage_endpoint": self.address,
-            "storage_access_key": ACCESS_KEY,
-            "storage_secret_key": SECRET_KEY,
+            "storage_access_key": self.access_key,
+            "storage_secret_key": self.secret_key,
         }
 
     def new_bucket(self) -> dict[str, str]:
         """A fresh, empty bucket: the settings of a service that stores in it."""
         self._buckets += 1
         bucket = f"bucket-{self._buckets}"
-        # moto looks at no signature, but wants to see one.
-        signed = {"Authorization": f"AWS4-HMAC-SHA256 Credential={ACCESS_KEY}/20260101/us-east-1/s3/aws4_request"}
-        make = Request(f"{self.address}/{bucket}", method="PUT", headers=signed)
-        self._reach(lambda: urlopen(make, timeout=10).close())
+        self._reach(lambda: self.client().create_bucket(Bucket=bucket))
         return self.settings(bucket)
+
+    def client(self) -> Any:
+        """A client of the server that is not the service's."""
+        keys = {"aws_access_key_id": self.access_key, "aws_secret_access_key": self.secret_key}
+        config = botocore.config.Config(s3={"addressing_style": "path"}, read_timeout=60, retries={"max_attempts": 3})
+        session = botocore.session.Session()
+        return session.create_client("s3", region_name="us-east-1", endpoint_url=self.address, config=config, **keys)
+
+    def _run(self, command: Sequence[str], **environment: str) -> subprocess.Popen[bytes]:
+        """A process that ends with this one, at the latest."""
+        ending = ["setpriv", "--pdeathsig", "KILL"]
+        return subprocess.Popen(
+            [*self._wrapper, *ending, *command], stdout=self._log, stderr=self._log, env=os.environ | environment
+        )
+
+
+class Moto(S3Server):
+    """moto's server: it keeps everything in its memory, and takes any credentials."""
+
+    def __init__(self, host: str = "127.0.0.1", wrapper: Sequence[str] = (), reach: Reach = lambda ask: ask()):
+        super().__init__(host, wrapper, reach)
+        self.start()
+
+    def start(self) -> None:
+        serve = [sys.executable, "-m", "moto.server", "-H", self.host, "-p", str(self.port)]
+        self._process = self._run(serve, MOTO_S3_DEFAULT_MAX_KEYS="50")  # lists come in pages
+        answers = lambda: urlopen(f"{self.address}/moto-api/", timeout=5).status == 200  # noqa: E731
+        await_(lambda: self._reach(answers), "the S3 server answers", self._process)
+
+    def stop(self) -> None:
+        self._process.kill()
+        self._process.wait(30)
 
 
 class Gate:

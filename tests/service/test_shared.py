@@ -30,6 +30,10 @@ from test_jobs import (  # noqa: F401
     test_the_list_is_newest_first_filtered_and_paged,
 )
 from test_killed import attempts, test_a_worker_killed_in_mid_job_finishes_it_later_once  # noqa: F401
+from test_links import (  # noqa: F401
+    test_a_link_ends_with_its_time_and_with_its_job,
+    test_a_link_opens_what_it_names_to_pages_of_any_origin,
+)
 from test_revisions import (  # noqa: F401
     done,
     revise,
