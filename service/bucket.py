@@ -13,7 +13,8 @@ from service.settings import Settings
 from service.storage import Storage, StorageUnavailable, understood
 
 PATIENCE = timedelta(seconds=30)
-"""How long a request is tried again before the storage counts as unavailable."""
+"""How long a request is tried again, at most, before the storage counts as unavailable: tries that are refused at once
+are used up within seconds."""
 
 PROBE = timedelta(seconds=2)
 

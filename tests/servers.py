@@ -234,7 +234,11 @@ class Gate:
         with suppress(OSError):
             while True:
                 near, _ = door.accept()
-                far = socket.create_connection(self._behind)
+                try:
+                    far = socket.create_connection(self._behind)
+                except OSError:  # nobody is at home: whoever comes is sent away
+                    near.close()
+                    continue
                 self._ways += [near, far]
                 for source, target in ((near, far), (far, near)):
                     threading.Thread(target=self._pass_on, args=[source, target], daemon=True).start()
