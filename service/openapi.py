@@ -48,6 +48,7 @@ def describe(app: FastAPI, keys_required: bool) -> None:
             _name_schemas(app, document)
             for path, _, operation in _operations(document):
                 _tell_of_problems(operation)
+                _tell_of_bodies(operation)
                 if path == "/metrics" or (path.startswith("/v1/") and not path.startswith(OPEN)):
                     _tell_of_keys(operation, keys_required)
                 for parameter in operation.get("parameters", ()):
@@ -86,6 +87,13 @@ def _tell_of_problems(operation: dict[str, Any]) -> None:
     answers = operation["responses"]
     if "HTTPValidationError" in str(answers.get("422")):
         answers["422"] = responses(422)[422]
+
+
+def _tell_of_bodies(operation: dict[str, Any]) -> None:
+    """No body may be of any length (`service.bodies`)."""
+    if "requestBody" in operation:
+        for status, answer in responses(413).items():
+            operation["responses"].setdefault(str(status), answer)
 
 
 def _tell_of_keys(operation: dict[str, Any], required: bool) -> None:

@@ -6,6 +6,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.artifacts.delivery import DELIVERED, DELIVERED_IN_PARTS, deliver
+from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.context import InContext
 from service.drivers import service
@@ -16,7 +17,7 @@ from service.kept.request import KeptChange, body
 from service.kept.shelves import DRIVERS
 from service.problems import responses
 
-router = APIRouter(prefix="/drivers", tags=["drivers"])
+router = APIRouter(prefix="/drivers", tags=["drivers"], route_class=AskedRoute)
 
 
 @router.get("", operation_id="list_drivers")

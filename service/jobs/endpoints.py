@@ -11,6 +11,7 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Header, Query, Request
 from starlette.responses import Response
 
+from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.clock import Moment
 from service.connections.stopping import InStopping, Stopping
@@ -24,7 +25,7 @@ from service.jobs.schemas import JobChange, JobOut, JobPage, JobTree
 from service.jobs.search import words
 from service.problems import Problem, responses
 
-router = APIRouter(prefix="/jobs", tags=["jobs"])
+router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=AskedRoute)
 
 WAIT_POLL_SECONDS = 0.2
 TITLE = {"type": "string", "minLength": 1, "maxLength": TITLE_CHARACTERS, "pattern": TITLE_PATTERN}

@@ -6,6 +6,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
+from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.context import InContext
 from service.kept import endpoints as kept
@@ -16,7 +17,7 @@ from service.motions import service
 from service.motions.schemas import MotionList, MotionOut
 from service.problems import responses
 
-router = APIRouter(prefix="/motions", tags=["motions"])
+router = APIRouter(prefix="/motions", tags=["motions"], route_class=AskedRoute)
 
 
 @router.get("", operation_id="list_motions")
