@@ -23,6 +23,8 @@ from shell.complaint import Complaint
 from shell.settings import read_settings
 
 MOST_LINKS = 1000
+LONGEST_ROW = 10_000
+"""Characters of a row that another program reads."""
 
 
 @click.group()
@@ -68,7 +70,7 @@ def show() -> None:
     for key in found:
         used = f"{key.last_used_at:%Y-%m-%d %H:%M}" if key.last_used_at else "never"
         table.add_row(key.id, key.name, key.hint, " ".join(key.scopes), _state(key), used)
-    Console().print(table)
+    _print(table)
 
 
 @keys.command()
@@ -93,7 +95,7 @@ def show_links() -> None:
     for link in found:
         until = f"{link.expires_at:%Y-%m-%d %H:%M}" if link.expires_at else "it is revoked"
         table.add_row(link.id, link.hint, link.owner, link.job_id, f"{link.created_at:%Y-%m-%d}", until)
-    Console().print(table)
+    _print(table)
 
 
 @keys.command("revoke-link")
@@ -134,3 +136,11 @@ def _state(key: Key) -> str:
     if key.revoked_at is not None:
         return f"revoked {key.revoked_at:%Y-%m-%d}"
     return "good" if key.expires_at is None else f"until {key.expires_at:%Y-%m-%d %H:%M}"
+
+
+def _print(table: Table) -> None:
+    """As wide as the terminal; for another program, each row on one line, however long."""
+    console = Console()
+    if not console.is_terminal:
+        console.width = LONGEST_ROW
+    console.print(table)
