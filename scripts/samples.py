@@ -20,6 +20,7 @@ from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
 from galatea import animate
 from scripts.sample_figures import FIGURES, paint_figure
+from scripts.sample_portraits import painted_actor, rendered_actor
 
 OUT = Path(__file__).parent.parent / "web" / "public" / "samples"
 QUALITY = 90
@@ -70,6 +71,9 @@ def main() -> None:
         picture = sample.picture()
         write_image(OUT / f"{sample.name}.jpg", picture, quality=QUALITY)
         write_image(OUT / f"{sample.name}-small.jpg", small(picture, *sample.face), quality=QUALITY)
+    for name, picture in (("rendered-man", rendered_actor()), ("painted-man", painted_actor())):
+        write_image(OUT / f"{name}.jpg", picture, quality=QUALITY)
+        write_image(OUT / f"{name}-small.jpg", small(picture, 0.5, 0.45, 0.85), quality=QUALITY)
     for figure in FIGURES:
         picture = paint_figure(figure)
         write_image(OUT / f"{figure.name}.jpg", picture, quality=QUALITY)

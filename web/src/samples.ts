@@ -1,6 +1,6 @@
 /** Pictures to begin with, for who has none at hand: the service hands them out, under addresses that programs may use too. */
 
-export const portraitSamples = ['grace-hopper', 'eileen-collins'] as const;
+export const portraitSamples = ['grace-hopper', 'eileen-collins', 'painted-man', 'rendered-man'] as const;
 export const figureSamples = ['woman-in-red', 'man-in-green'] as const;
 
 export type SampleName = (typeof portraitSamples)[number] | (typeof figureSamples)[number];

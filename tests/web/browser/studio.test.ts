@@ -80,7 +80,7 @@ describe('choosing', () => {
       await page.keyboard.press('Tab');
       expect(await focused(page)).toBe(place);
     }
-    for (const place of ['Pause', 'Grace Hopper', 'Eileen Collins']) {
+    for (const place of ['Pause', 'Grace Hopper', 'Eileen Collins', 'A man, painted', 'A man, rendered']) {
       await page.keyboard.press('Tab');
       expect(await named(page)).toContain(place);
     }

@@ -9,6 +9,8 @@ export const studio = {
     names: {
       'grace-hopper': 'Grace Hopper, photographed by the US Navy',
       'eileen-collins': 'Eileen Collins, photographed by NASA',
+      'painted-man': 'A man, painted for Galatea',
+      'rendered-man': 'A man, rendered for Galatea',
       'woman-in-red': 'A woman in red, painted for Galatea',
       'man-in-green': 'A man in green, painted for Galatea',
     } satisfies Record<SampleName, string>,
