@@ -74,13 +74,13 @@ describe('what was chosen', () => {
     const page = await open(browser);
     await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
     await page.locator('form').getByText('Surprise', { exact: true }).click();
-    await page.getByRole('link', { name: 'Character' }).click();
+    await page.getByRole('link', { name: 'Character', exact: true }).click();
     await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
-    await page.getByRole('link', { name: 'Keys' }).click();
+    await page.getByRole('link', { name: 'Keys', exact: true }).click();
     await page.getByRole('link', { name: 'Galatea' }).click();
     await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
     expect(await page.getByRole('radio', { name: 'Surprise' }).isChecked()).toBe(true);
-    await page.getByRole('link', { name: 'Character' }).click();
+    await page.getByRole('link', { name: 'Character', exact: true }).click();
     await page.getByLabel('Picture: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
   });
 });

@@ -31,7 +31,9 @@ export function Redo({ job, pose, onPoseTaken, onProblem }: Props) {
   }, [pose]);
   return (
     <details class="choices redo" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
-      <summary>{needed ? words.mend : words.title}</summary>
+      <summary>
+        <h2>{needed ? words.mend : words.title}</h2>
+      </summary>
       {open &&
         (job.kind === 'character' ? (
           <CharacterPanel job={job} pose={pose} onPoseTaken={onPoseTaken} onProblem={onProblem} />
