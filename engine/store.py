@@ -170,9 +170,10 @@ def _unpack(kind: Any, value: Any, arrays: dict[str, np.ndarray], folder: Path, 
 
 
 def _entries(stores: Iterable[Path]) -> Iterator[tuple[float, int, Path]]:
-    """(seconds since the epoch of its last use, bytes, folder) of each output and draft in these stores."""
+    """(seconds since the epoch of its last use, bytes, folder) of each output and draft in these stores; what is no folder
+    is none."""
     for store in stores:
-        with suppress(FileNotFoundError):
+        with suppress(FileNotFoundError, NotADirectoryError):
             for one in store.iterdir():
                 with suppress(FileNotFoundError):
                     yield one.stat().st_mtime, _size(one), one

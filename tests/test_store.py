@@ -181,6 +181,18 @@ def test_a_trimmed_store_loses_what_was_not_used_for_longest(tmp_path: Path) -> 
     assert store.find("d") is not None
 
 
+def test_what_is_no_store_stops_no_trimming(tmp_path: Path) -> None:
+    """The human template keeps single files beside the stores of drivers' analyses."""
+    kept = tmp_path / "template" / "bodies.npz"
+    kept.parent.mkdir()
+    kept.write_bytes(bytes(1000))
+    store = StageStore(tmp_path / "owner" / "driver")
+    store.save("a", (np.zeros(10),))
+    os.utime(store.folder / "a", (1, 1))
+    trim(tmp_path.glob("*/*"), 0)
+    assert kept.exists() and not list(store.folder.iterdir())
+
+
 def test_a_store_is_trimmed_while_others_publish_and_erase(tmp_path: Path) -> None:
     """Two writers whose outputs and drafts come and go, and two that trim: nobody stumbles, and what is new stays."""
     until, errors, saved = time.time() + 2, [], [0, 0]

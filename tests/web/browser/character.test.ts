@@ -124,7 +124,7 @@ describe('ordering a character', () => {
     await page.getByLabel('Head').check();
     await page.getByLabel('Camera').selectOption('Orbit');
     await page.getByLabel('Length of the video').fill('2');
-    await page.getByLabel('picture under lamps').check();
+    await page.getByLabel('Also a lit preview image').check();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
     const sent = request.postDataJSON();
     expect(sent).toEqual({
@@ -135,7 +135,7 @@ describe('ordering a character', () => {
     });
     expect(request.headers()['idempotency-key']).toMatch(/./);
     await page.getByRole('heading', { name: 'Somebody' }).waitFor();
-    await page.getByText('does “Dance”').waitFor();
+    await page.getByText('Motion: Dance', { exact: true }).waitFor();
     await cancel(page);
   });
 
@@ -183,11 +183,11 @@ describe('ordering a character', () => {
     await expect.poll(checked, { timeout: LONG }).toBe('ready');
     const page = await open(browser, '#/character');
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
-    await page.getByText('Arm swing', { exact: true }).click();
+    await page.locator('.cards').getByText('Arm swing', { exact: true }).click();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
     const sent = request.postDataJSON();
     expect([sent.inputs.motion, sent.metadata.motion]).toEqual(['arm-swing', 'Arm swing']);
-    await page.getByText('does “Arm swing”').waitFor();
+    await page.getByText('Motion: Arm swing', { exact: true }).waitFor();
     await cancel(page);
     await fetch(`${inject('address')}/v1/motions/arm-swing`, { method: 'DELETE' });
   });
@@ -198,7 +198,7 @@ describe('ordering a character', () => {
     await page.getByText('This is not a motion file.').waitFor();
     await page.evaluate(() => {
       const data = new DataTransfer();
-      data.items.add(new File(['x'], 'cartwheel.bvh'));
+      data.items.add(new File(['HIERARCHY\n'], 'cartwheel.bvh'));
       document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
     });
     await page.getByLabel('Motion: cartwheel.bvh. Choose another').waitFor({ state: 'attached' });
@@ -223,7 +223,7 @@ describe('ordering a character', () => {
     await slow(-1);
     await page.getByRole('button', { name: 'Resume upload' }).click();
     await page.getByRole('heading', { name: 'Somebody' }).waitFor();
-    await page.getByText('does “Long walk”').waitFor();
+    await page.getByText('Motion: Long walk', { exact: true }).waitFor();
     const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
     expect((await ask<{ content_type: string }>(`/v1/files/${job.inputs.motion}`)).content_type).toBe('text/x-bvh');
     await page.getByRole('alert').waitFor({ timeout: LONG }); // it is no whole motion, and the page says so
@@ -260,7 +260,8 @@ describe('a finished character', () => {
   it('is found among the recent ones and in the history', async () => {
     for (const hash of ['#/character', '#/history']) {
       const page = await open(browser, hash);
-      await page.locator(`a[href="#/jobs/${done}"] img`).waitFor();
+      const link = page.locator(`a[href="#/jobs/${done}"]`);
+      await page.locator('.entry').filter({ has: link }).or(link).locator('img').first().waitFor();
     }
   });
 
@@ -300,7 +301,7 @@ describe('corrections of a character', () => {
     for (const key of ['Shift+ArrowDown', 'ArrowDown', 'Control+z', 'Control+z', 'ArrowRight']) await page.keyboard.press(key);
     await use(page).click();
     await page.getByText('joints are placed by hand.').waitFor();
-    await page.getByLabel('Motion', { exact: true }).selectOption('Bow');
+    await page.locator('.redo').getByLabel('Motion', { exact: true }).selectOption('Bow');
     const sent = await revision(page);
     expect(sent.options).toEqual({ motion: 'bow' });
     expect(Object.keys(sent.corrections)).toEqual(['joints']);
@@ -314,7 +315,7 @@ describe('corrections of a character', () => {
     expect(joints.LeftAnkle[0]).toBeGreaterThan(before.LeftAnkle!.place[0] + 0.5);
 
     await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
-    await page.getByText('does “Bow”').waitFor();
+    await page.getByText('Motion: Bow', { exact: true }).waitFor();
     await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
     const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
     expect([job.revision_of, job.options.motion, job.options.joints]).toEqual([done, 'bow', joints]);

@@ -70,7 +70,7 @@ export const history = {
     levels: 'levels of detail',
     vrm: 'VRM file',
     vrm_author: 'author',
-    lit: 'picture under lamps',
+    lit: 'lit preview image',
     partial: 'incomplete figure',
     pose: 'pose',
     joints: 'joints',
