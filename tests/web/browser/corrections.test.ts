@@ -78,7 +78,7 @@ describe('corrections by hand', () => {
     await again(page).click({ timeout: LONG });
     await page.getByLabel('Seamless loop').check();
     await page.getByLabel('Turn the head in 3D').uncheck();
-    const calm = page.getByRole('slider', { name: 'Calm frame' });
+    const calm = page.getByRole('slider', { name: 'Neutral frame' });
     await calm.fill('3');
     await page.getByRole('spinbutton', { name: 'From' }).fill('0.5');
     await page.keyboard.press('Tab');

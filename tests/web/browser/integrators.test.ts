@@ -109,7 +109,7 @@ describe('a link', () => {
     await expect.poll(() => shown.evaluate((video: HTMLVideoElement) => video.readyState)).toBeGreaterThan(0);
     await shown.click();
     await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
-    expect(await other.getByRole('navigation').count()).toBe(0);
+    expect(await other.getByRole('banner').getByRole('navigation').count()).toBe(0);
     await page.getByRole('button', { name: 'Revoke' }).click();
     await page.getByRole('button', { name: 'Revoke' }).waitFor({ state: 'detached' });
     await other.reload();
