@@ -61,7 +61,7 @@ afterEach(async () => {
 
 const table = (page: Page) => page.getByText('Joints of the motion');
 const mover = (page: Page, joint: string) => page.getByRole('combobox', { name: joint, exact: true });
-const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'Nothing moves these yet' });
+const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'These joints are required' });
 
 /** A character that moves by a file. */
 async function moving(motion: string): Promise<string> {
