@@ -60,7 +60,7 @@ describe('a mask from a file', () => {
   it('is sent with what is painted over it, stays in what comes of it, and can be taken back', async () => {
     const page = await corrections();
     await file(page, 'Mask').setInputFiles(mask);
-    await page.getByText('“mask.png” stands in place of what was found.').waitFor();
+    await page.getByText('“mask.png” is used instead of the detected one.').waitFor();
     await file(page, 'Body parts').setInputFiles(mask);
     const forget = page.getByRole('button', { name: 'Remove the file' });
     await expect.poll(() => forget.count()).toBe(2);
@@ -77,7 +77,7 @@ describe('a mask from a file', () => {
 
     await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
     await openCorrections(page);
-    await page.getByText('A file of yours stands in place of what was found.').waitFor();
+    await page.getByText('Your file is used instead of the detected one.').waitFor();
     await page.getByRole('button', { name: 'Remove the file' }).click();
     const back = await revised(page);
     expect(back.postDataJSON().corrections).toEqual({ mask: null, mask_strokes: null });
@@ -94,7 +94,7 @@ describe('a mask from a file', () => {
     await page.getByText('The mask is not as large as the picture', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('make it as large as the picture, 450 x 600').waitFor();
     await file(page, 'Mask').setInputFiles(mask);
-    await page.getByText('“mask.png” stands in place of what was found.').waitFor();
+    await page.getByText('“mask.png” is used instead of the detected one.').waitFor();
     const request = await revised(page);
     expect(Object.keys(request.postDataJSON().corrections)).toEqual(['mask']);
     await accepted(request);
