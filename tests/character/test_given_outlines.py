@@ -160,9 +160,9 @@ def test_colours_that_jpeg_changed_are_read_and_those_of_soft_edges_are_not(own:
     read = read_labels(tmp_path / "labels.jpg", [rgb.shape[1::-1]], LIMITS)
     inner = cv2.erode((own >= 0).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     assert (read == own)[inner].mean() > 0.9
-    between = np.full((8, 8, 3), LABEL_COLOURS[[TORSO, LEFT_ARM]].mean(0), np.uint8)
+    between = np.full((16, 16, 3), LABEL_COLOURS[[TORSO, LEFT_ARM]].mean(0), np.uint8)
     write_image(tmp_path / "between.png", between)
-    assert (read_labels(tmp_path / "between.png", [(8, 8)], LIMITS) == -1).all()
+    assert (read_labels(tmp_path / "between.png", [(16, 16)], LIMITS) == -1).all()
 
 
 def test_a_map_unlike_the_skeleton_is_doubted(

@@ -49,7 +49,10 @@ def test_a_picture_and_a_motion_become_a_character(service: Running, photo: str,
     artifacts = job["artifacts"]
     assert {"character.glb", "character.usdz", "character.vrm", "animation.mp4", "posed.png"} <= set(artifacts)
     warned = [one["code"] for one in service.client.get(artifacts["report.json"]["url"]).json()["warnings"]]
-    assert warned == ([] if "lit.png" in artifacts else ["gl_unavailable"]), "drawn behind the job's walls"
+    usual = {"motion_joints_unmapped"}  # the motion made here moves more than a person has
+    assert set(warned) - usual == (set() if "lit.png" in artifacts else {"gl_unavailable"}), (
+        "drawn behind the job's walls"
+    )
     assert artifacts["character.glb"]["content_type"] == "model/gltf-binary"
     assert service.client.get(artifacts["character.glb"]["url"]).content[:4] == b"glTF"
     correction = {"corrections": {"joints": {"LeftElbow": [300.0, 290.0]}}}

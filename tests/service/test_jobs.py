@@ -213,7 +213,7 @@ def test_the_list_is_newest_first_filtered_and_paged(running: Running, picture: 
     seen = [job["id"] for page in (first, second) for job in page.json()["items"]]
     assert seen == made[:0:-1]
     assert first.json()["next_cursor"] == seen[1]
-    assert running.client.get("/v1/jobs", params={"kind": "nothing"}).json() == {"items": [], "next_cursor": None}
+    assert running.client.get("/v1/jobs", params={"kind": "nothing"}).json()["items"] == []
     recent = running.client.get("/v1/jobs", params={"created_after": running.job(made[3])["created_at"]}).json()
     assert [job["id"] for job in recent["items"]] == [made[4]]
     assert code(running.client.get("/v1/jobs", params={"status": "lost"}))[0] == 422
