@@ -3,14 +3,30 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import Any
 
+from uvicorn.protocols.http.flow_control import FlowControl
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 SLICE_BYTES = 1 << 15
 """As much is read in one go."""
 FINE_SLICE_BYTES = 1 << 12
 """The same of a body in chunks: where each has one byte, it takes a thousand times as long as it is worth."""
+
+
+class _InTurns(FlowControl):
+    """Lets the line bring more only when what it brought before was read: whoever takes a piece asks for more, and a piece
+    is a small part of what one look at the line brings."""
+
+    def __init__(self, transport: asyncio.Transport, go_on: Callable[[], None]):
+        super().__init__(transport)
+        self._go_on = go_on
+
+    def resume_reading(self) -> None:
+        if self.read_paused:
+            self.read_paused = False
+            self._go_on()
 
 
 class InTurns(H11Protocol):
@@ -20,6 +36,10 @@ class InTurns(H11Protocol):
         super().__init__(*arguments, **more)
         self._backlog = bytearray()
         self._held_back = False
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self.flow = _InTurns(transport, self._go_on)
 
     def data_received(self, data: bytes) -> None:
         """Read what came, a slice at a time: the others have their turn in between, and no more comes meanwhile."""
@@ -31,7 +51,15 @@ class InTurns(H11Protocol):
         self._backlog.clear()
         super().connection_lost(exc)
 
+    def _go_on(self) -> None:
+        if self._held_back:
+            asyncio.get_running_loop().call_soon(self._read_slice)
+        else:
+            self.transport.resume_reading()
+
     def _read_slice(self) -> None:
+        if self._held_back and self.flow.read_paused:
+            return  # until what was read is taken
         size = FINE_SLICE_BYTES if self._in_chunks() else SLICE_BYTES
         piece = bytes(self._backlog[:size])
         del self._backlog[:size]
@@ -42,7 +70,8 @@ class InTurns(H11Protocol):
         elif self._backlog:
             self._held_back = True
             self.transport.pause_reading()
-            asyncio.get_running_loop().call_soon(self._read_slice)
+            if not self.flow.read_paused:
+                asyncio.get_running_loop().call_soon(self._read_slice)
         elif self._held_back:
             self._held_back = False
             if not self.flow.read_paused:
