@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
-from engine.imaging.nearest import nearest_in
+from engine.imaging.nearest import nearest_colours
 from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
@@ -91,12 +91,7 @@ def _without_hidden_colours(rgb: np.ndarray, alpha: np.ndarray) -> np.ndarray:
             "image_transparent",
             "The picture is transparent everywhere, nothing is to be seen: save it anew with its alpha.",
         )
-    if not hidden.any():
-        return rgb
-    shown = rgb.copy()
-    rows, columns = nearest_in(~hidden)
-    shown[hidden] = rgb[rows[hidden], columns[hidden]]
-    return shown
+    return nearest_colours(rgb, ~hidden) if hidden.any() else rgb
 
 
 def write_image(path: Path, rgb: np.ndarray, alpha: np.ndarray | None = None, quality: int = 90) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.imaging.nearest import nearest_in
+from engine.imaging.nearest import nearest_colours, nearest_in
 
 
 def test_none_is_much_nearer_than_the_one_that_is_found() -> None:
@@ -30,3 +30,9 @@ def test_within_the_mask_each_is_its_own() -> None:
 def test_an_empty_mask_leaves_the_first_pixel() -> None:
     rows, columns = nearest_in(np.zeros((4, 5), np.bool_))
     assert not rows.any() and not columns.any()
+
+
+def test_colours_are_those_of_the_nearest() -> None:
+    rng = np.random.default_rng(5)
+    rgb, own = rng.integers(0, 256, (40, 60, 3), dtype=np.uint8), rng.random((40, 60)) < 0.05
+    np.testing.assert_array_equal(nearest_colours(rgb, own), rgb[nearest_in(own)])
