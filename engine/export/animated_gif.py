@@ -27,7 +27,9 @@ from engine.export.encoders import Target
 LONGEST_SIDE = 640
 """Pixels of the longer side where no size is asked for: files grow with the area, and hold no video's compression."""
 SAMPLE = 25
-"""Frames of which the palette is made."""
+"""Frames of which the palette is made, at most."""
+HELD = 200_000_000
+"""Bytes of frames that wait for it: of large ones there are fewer."""
 _TICKS = 100
 """Of the format's clock, a second."""
 _SHORTEST = 2
@@ -42,6 +44,7 @@ class GifEncoder:
         self._target, self._transparent = target, transparent
         self._waiting: list[VideoFrame] = []
         self._graph: Graph | None = None
+        self._sample = min(SAMPLE, max(1, HELD // (4 * target.size[0] * target.size[1])))
         self._count, self._ended = 0, -_SHORTEST
         last = (
             target.begins(len(target.times) - 1) - target.begins(len(target.times) - 2)
@@ -70,7 +73,7 @@ class GifEncoder:
         self._ended = at
         prepared.pts, prepared.time_base = at, Fraction(1, _TICKS)
         self._waiting.append(prepared)
-        if self._graph is not None or len(self._waiting) >= SAMPLE:
+        if self._graph is not None or len(self._waiting) >= self._sample:
             self._code()
 
     def finish(self) -> None:

@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.export import animated_gif
+from engine.export.encoders import Target
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video, read_video
 
@@ -380,6 +382,20 @@ def test_the_dither_of_a_gif_stays_where_it_is(tmp_path: Path) -> None:
     assert np.ptp(frames[:, :48], axis=0).max() == 0, "no flicker, and no crawling"
     rough = cv2.blur(frames[0].astype(np.float32), (8, 8)) - cv2.blur(still.astype(np.float32), (8, 8))
     assert np.abs(rough[8:40, 8:-8]).mean() < 5
+
+
+def test_few_large_frames_of_a_gif_are_held(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A quarter of a hundred of 4096 x 4096 pixels would be 1.7 GB."""
+    monkeypatch.setattr(animated_gif, "HELD", 3 * 4 * 224 * 64)
+    target = Target(tmp_path / "out.gif", (224, 64), 10, "gif", *[None] * 3, False, None, None, None, True)
+    encoder = animated_gif.GifEncoder(target, False)
+    held = []
+    for k in range(6):
+        encoder.add(encoder.prepare(chart(k), None))
+        held.append(len(encoder._waiting))
+    encoder.finish()
+    assert held == [1, 2, 0, 0, 0, 0]
+    assert [frame.time for frame in read_video(tmp_path / "out.gif")] == pytest.approx(np.arange(6) / 10)
 
 
 def test_a_gif_leaves_out_frames_that_browsers_would_hold_too_long(tmp_path: Path) -> None:
