@@ -76,8 +76,9 @@ class GltfFile:
         self._required = frozenset(self.parts.extensionsRequired or ())
         self._buffers: dict[int, bytes] = {}
 
-    def view(self, index: Any) -> tuple[bytes, Part]:
-        """The bytes of a buffer view, and what the file says of it.
+    def view(self, index: Any) -> tuple[memoryview, Part]:
+        """The bytes of a buffer view, which are not copied (thousands of accessors may share a view of 64 MB), and what the
+        file says of it.
 
         Raises
         ------
@@ -88,7 +89,7 @@ class GltfFile:
         data = self._buffer(part.buffer)
         if start + size > len(data):
             raise unreadable("a view reaches beyond its buffer")
-        return data[start : start + size], part
+        return memoryview(data)[start : start + size], part
 
     def part(self, kind: str, index: Any) -> Part:
         """An element of one of the file's lists, of which everything that must be known is known.
