@@ -94,9 +94,13 @@ def at_own_times(frames: Iterable[tuple[float, Shown]], start: float) -> Iterato
     that is. Of frames of the same moment, the last is shown."""
     held: tuple[float, Shown] | None = None
     for time, frame in frames:
-        if held is not None and time > held[0] + SHORTEST_SPAN and time > start + SHORTEST_SPAN:
+        if held is None:
+            held = max(time, start), frame
+        elif time > held[0] + SHORTEST_SPAN:
             yield held
-        held = max(time, start), frame
+            held = time, frame
+        else:
+            held = held[0], frame
     if held is not None:
         yield held
 

@@ -98,6 +98,13 @@ def test_of_frames_of_one_moment_the_last_is_shown() -> None:
     assert list(at_own_times(frames, 0.3)) == [(0.3, "c"), (0.5, "d")]
 
 
+def test_of_many_frames_too_short_to_be_seen_some_are_shown() -> None:
+    """Each is on show for less than a frame can be; together they last for two seconds."""
+    shown = list(at_own_times([(0.0005 * k, k) for k in range(4000)], 0.0))
+    assert 500 < len(shown) <= 2000
+    assert all(time <= 0.0005 * frame <= time + 0.001 for time, frame in shown)
+
+
 def test_nothing_in_nothing_out() -> None:
     assert list(at_own_times([], 0.0)) == []
     assert list(resample([], 25, 0.0, 1.0)) == []
