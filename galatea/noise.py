@@ -2,7 +2,7 @@
 
 Their native code writes to file descriptor 2, and neither an environment variable nor a function of theirs stops it. So
 the descriptor leads through a pipe meanwhile: lines that are theirs end there; what other threads and libraries write is
-passed on as it comes.
+passed on as it comes. A process that was started meanwhile has inherited the pipe: for it, that goes on as long as it lives.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class _Sieve:
         self._users = 0
         self._real = -1
         self._wake = -1
-        self._thread: threading.Thread | None = None
+        self._passed: threading.Event | None = None
 
     def enter(self) -> None:
         with self._lock:
@@ -51,20 +51,21 @@ class _Sieve:
             os.dup2(sink, STANDARD_ERROR)
             os.close(sink)
             os.set_blocking(source, False)
-            self._thread = threading.Thread(target=_pass_on, args=(source, self._real, asked), daemon=True)
-            self._thread.start()
+            self._passed = threading.Event()
+            way = (source, os.dup(self._real), asked, self._passed)
+            threading.Thread(target=_pass_on, args=way, daemon=True).start()
 
     def leave(self) -> None:
         with self._lock:
             self._users -= 1
-            if self._users or self._thread is None:
+            if self._users or self._passed is None:
                 return
             _flush()
             os.dup2(self._real, STANDARD_ERROR)
-            os.close(self._wake)
-            self._thread.join()
-            self._thread = None
             os.close(self._real)
+            os.close(self._wake)
+            self._passed.wait()
+            self._passed = None
 
 
 _SIEVE = _Sieve()
@@ -86,24 +87,38 @@ def _flush() -> None:
         sys.stderr.flush()
 
 
-def _pass_on(source: int, target: int, asked: int) -> None:
-    """Pass on what comes until the other end of `asked` is closed; what has come by then, too."""
-    rest = b""
-    with selectors.DefaultSelector() as selector:
-        for descriptor in (source, asked):
-            selector.register(descriptor, selectors.EVENT_READ)
-        ending = False
-        while True:
-            ready = {key.fd for key, _ in selector.select(0 if ending else None)}
-            text = os.read(source, PIECE) if source in ready else b""
-            if not text and (ending or source in ready):  # all has come, or nobody is left who could write
-                break
-            rest = _sift(rest + text, target)
-            ending = ending or asked in ready
+def _pass_on(source: int, target: int, asked: int, passed: threading.Event) -> None:
+    """Pass on what comes until nobody is left who could write. Once the other end of `asked` is closed, all that has come by
+    then is passed on, and `passed` is set."""
+    rest, ending = b"", False
+    try:
+        with selectors.DefaultSelector() as selector:
+            for descriptor in (source, asked):
+                selector.register(descriptor, selectors.EVENT_READ)
+            while True:
+                ready = {key.fd for key, _ in selector.select(0 if ending else None)}
+                text = os.read(source, PIECE) if source in ready else b""
+                rest = _sift(rest + text, target)
+                if source in ready and not text:
+                    break
+                if ending and not text:
+                    rest, ending = _told(rest, target), False
+                    passed.set()
+                if asked in ready:
+                    selector.unregister(asked)
+                    ending = True
+        _told(rest, target)
+    finally:
+        passed.set()
+        for descriptor in (source, target, asked):
+            os.close(descriptor)
+
+
+def _told(rest: bytes, target: int) -> bytes:
+    """Pass on what was held back, unless it is noise; nothing is then."""
     if not NOISE.match(rest):
         _write(target, rest)
-    os.close(source)
-    os.close(asked)
+    return b""
 
 
 def _sift(text: bytes, target: int) -> bytes:

@@ -251,6 +251,34 @@ def test_a_script_hears_itself_and_no_library(tmp_path: Path) -> None:
     assert heard[-1] == "after"
 
 
+CHILD = """
+import subprocess, sys, time
+from pathlib import Path
+from galatea.noise import native_noise_left_out
+heard = Path(sys.argv[1])
+with native_noise_left_out():
+    print("within", file=sys.stderr)
+    child = subprocess.Popen([sys.executable, "-c", "input(); import os; os.write(2, b'child')"], stdin=subprocess.PIPE)
+with native_noise_left_out():
+    print("again", file=sys.stderr)
+child.communicate(b"go\\n")
+print(child.returncode)
+deadline = time.monotonic() + 60
+while "child" not in heard.read_text() and time.monotonic() < deadline:
+    time.sleep(0.01)
+"""
+
+
+def test_a_process_started_meanwhile_is_heard_after_it(tmp_path: Path) -> None:
+    """It has inherited the way that standard error took: that does not end under it."""
+    heard = tmp_path / "heard"
+    with heard.open("w") as file:
+        script = [sys.executable, "-c", CHILD, str(heard)]
+        done = subprocess.run(script, cwd=ROOT, stdout=subprocess.PIPE, stderr=file, text=True, check=True)
+    assert done.stdout == "0\n"
+    assert heard.read_text() == "within\nagain\nchild"
+
+
 USER = """
 import numpy as np
 import galatea
