@@ -31,6 +31,9 @@ USUAL = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.
 USUAL_BELOW = np.array([0.03, 0.10, 0.04, 0.04, 0.05, 0.05, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
 """The same below the general rest: brows lie higher by much on some people, and lower by much only where they frown."""
 
+LIDS_VARY = 0.2
+"""The share of how far lids are usually open by which they vary while they are."""
+
 JAW_TAKES_CORNERS = 0.25
 """An opening jaw takes the corners of the mouth down by this share of the opening (0.22 to 0.29 in the built-in
 performances of surprise, whose corners do nothing of themselves): what is left is their own doing."""
@@ -62,6 +65,12 @@ def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
 def general_rest() -> NDArray[np.float32]:
     """The measures (12,) of a face at rest that is nobody's in particular."""
     return measure(canonical_face()[None].astype(float))[0]
+
+
+def lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) by which share of how far they are `usual`ly open (2,) the lids of measures (N, 12) are lowered, beyond what these
+    vary by."""
+    return np.asarray(np.clip(1 - LIDS_VARY - values[:, LIDS] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float)
 
 
 def _angles(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

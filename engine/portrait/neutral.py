@@ -19,10 +19,21 @@ from engine.portrait.driver import DriverTrack
 from engine.portrait.expression import lopsided
 from engine.portrait.eyes import look
 from engine.portrait.head_motion import turns
-from engine.portrait.measures import FACE, LIDS, MEASURES, MOUTH, SPREAD, USUAL, USUAL_BELOW, general_rest, measure
+from engine.portrait.measures import (
+    FACE,
+    LIDS,
+    MEASURES,
+    MOUTH,
+    SPREAD,
+    USUAL,
+    USUAL_BELOW,
+    general_rest,
+    lowered,
+    measure,
+)
 
-LOWERED, LIDS_VARY = 4.0, 0.2
-"""How much lowered lids count, as a share of how far they are usually open, beyond what these vary by."""
+LOWERED = 4.0
+"""How much lowered lids count, as a share of how far they are usually open."""
 
 ALIKE = 0.5
 """Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
@@ -85,14 +96,15 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
     rest = probable_rest(values[track.found])
     worn = worn_expression(target)
     face = (
-        _face_unlike(values, rest + worn) + _torn(track, target, values, rest) + LOWERED * _lowered(values, rest[LIDS])
+        _face_unlike(values, rest + worn) + _torn(track, target, values, rest) + LOWERED * lowered(values, rest[LIDS])
     )
     face = np.where(track.found, face, np.inf)
     place = (turns(track.meshes, target) / TURN) ** 2 + _gaze_unlike(track.meshes, target)
     frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
-    if worn.any():
+    taken = values[[frame]]
+    if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
         return NeutralFrame(frame, "like_the_target")
-    return NeutralFrame(frame, "at_rest" if unrest(values[frame][None])[0] <= CALM else "nearest_to_rest")
+    return NeutralFrame(frame, "at_rest" if unrest(taken)[0] <= CALM else "nearest_to_rest")
 
 
 def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
@@ -111,11 +123,14 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     The most probable one, where people at rest are distributed about the general rest by `USUAL`, and one person at rest
     about their own by `SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
     for a driver may laugh through most of a clip; likeness alone would not, for people differ.
+
+    `moments.rest.own_rest` looks for what a person comes back to between emotions; here it is a face that anybody would call
+    calm, however rarely this one is.
     """
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
     apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
-    lowered = _lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
-    cost = unrest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * lowered
+    blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
+    cost = unrest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
     alike = apart[int(np.argmin(cost))] < ALIKE**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
@@ -135,11 +150,6 @@ def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
     worn = np.zeros(len(MEASURES))
     worn[MOUTH] = np.maximum(shown[MOUTH] - 1, 0)
     return np.asarray(np.where(worn > WORN, worn, 0) * USUAL, float)
-
-
-def _lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) by which share of how far they are `usual`ly open (2,) lids are lowered, beyond what these vary by."""
-    return np.asarray(np.clip(1 - LIDS_VARY - values[:, LIDS] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float)
 
 
 def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:

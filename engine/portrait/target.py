@@ -233,7 +233,7 @@ def _check_face(
     ]:
         warn(
             "target_not_neutral",
-            f"The face {' and '.join(shown)}: the driver's frame nearest to it was taken as neutral.",
+            f"The face {' and '.join(shown)}: what the driver does is added to that. A calm face from the front can do more.",
         )
     if float(eye_opening(mesh).min()) < SHUT:
         warn(

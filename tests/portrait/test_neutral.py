@@ -198,6 +198,13 @@ def test_an_expressive_frame_is_taken_where_the_target_wears_it(tmp_path: Path, 
     assert choice.reason == "like_the_target"
 
 
+def test_no_expression_is_said_to_be_shared_that_the_driver_never_shows(tmp_path: Path, rest: NDArray) -> None:
+    grin = opened(smiling(rest, 0.3), 0.12)
+    assert choose_neutral_frame(driver(tmp_path, [rest] * 4), grin, None).reason == "at_rest"
+    shouting = [opened(raised(rest, 0.15), 0.3 + 0.01 * i) for i in range(4)]
+    assert choose_neutral_frame(driver(tmp_path, shouting), smiling(rest, 0.3), None).reason == "nearest_to_rest"
+
+
 def test_of_frames_at_rest_the_one_that_looks_where_the_target_looks_is_taken(tmp_path: Path, rest: NDArray) -> None:
     turned = placed(50, (100, 100), yaw=20)
     talking = [opened(turned, 0.2)] * 4  # turned further towards the target, but not at rest
