@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -102,7 +103,7 @@ class _Maker:
     """Makes the film with a step back by some metres, at `most` by that, within a room beside and before it."""
 
     def __init__(self, character: Character, film: Callable[[float], Clip]):
-        self._film, self._skeleton = film, character.mesh.skeleton
+        self._film, self._skeleton = cache(film), character.mesh.skeleton
         self.first = film(0.0)
         ahead = self.first.root[:, 2] - self.first.root[0, 2]
         self._comes = float(ahead.max()) > COMES
