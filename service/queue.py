@@ -5,8 +5,8 @@ A message makes a worker look, and no more: which job of that kind it takes is d
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
 
 import redis
 import structlog
@@ -26,6 +26,9 @@ killed, and only then may the message come back."""
 
 SENDING = {"socket_timeout": 2, "socket_connect_timeout": 1}
 """Seconds that sending waits for a Redis that does not answer: a client waits meanwhile, and the sweep sends again."""
+
+
+Answer = TypeVar("Answer")
 
 
 def queue_name(kind: str) -> str:
@@ -52,7 +55,7 @@ class Queue:
 
     def __init__(self, settings: Settings, kinds: Iterable[str]):
         url = settings.redis_url or f"unix://{socket_path(settings.data_dir)}"
-        self.redis = redis.Redis.from_url(url, **SENDING)
+        self._redis = redis.Redis.from_url(url, **SENDING)
         self._breaker = Breaker("redis", self._answers)
         self.celery = _Hints("galatea", broker=url.replace("unix://", "redis+socket://"))
         self.celery.conf.update(
@@ -96,29 +99,32 @@ class Queue:
 
     def waiting(self, kind: str) -> int:
         """How many messages of a kind wait. Raises `redis.RedisError` if the queue cannot be reached."""
-        if self._breaker.open:
-            raise redis.ConnectionError("Redis does not answer")
-        try:
-            return int(self.redis.llen(queue_name(kind)))
-        except redis.RedisError:
-            self._breaker.trip()
-            raise
+        return int(self.ask(lambda client: client.llen(queue_name(kind))))
 
     def reachable(self) -> bool:
         """Whether Redis answers."""
-        if self._breaker.open:
+        try:
+            return bool(self.ask(lambda client: client.ping()))
+        except redis.RedisError:
             return False
-        if not (answers := self._answers()):
+
+    def ask(self, question: Callable[[redis.Redis], Answer]) -> Answer:
+        """What Redis answers to anything. Raises `redis.RedisError` if it does not: at once where that is known."""
+        if self._breaker.open:
+            raise redis.ConnectionError("Redis does not answer")
+        try:
+            return question(self._redis)
+        except (redis.ConnectionError, redis.TimeoutError):
             self._breaker.trip()
-        return answers
+            raise
 
     def _answers(self) -> bool:
         try:
-            return bool(self.redis.ping())
+            return bool(self._redis.ping())
         except redis.RedisError:
             return False
 
     def close(self) -> None:
         self._breaker.end()
-        self.redis.close()
+        self._redis.close()
         self.celery.close()

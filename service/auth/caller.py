@@ -77,7 +77,7 @@ def _known(request: Request, context: Context) -> Caller:
         raise not_known("key_unknown", "There is no such key: it was revoked, or it never was.")
     if not repository.usable(key, now()):
         raise not_known("key_expired", "The key has expired: use another one.")
-    take_one(context.queue.redis, key.id, key.requests_per_minute or context.settings.requests_per_minute)
+    take_one(context.queue, key.id, key.requests_per_minute or context.settings.requests_per_minute)
     _note_use(context, key)
     return Caller(key.id, frozenset(key.scopes))
 

@@ -13,6 +13,7 @@ import structlog
 from redis.commands.core import Script
 
 from service.problems import Problem
+from service.queue import Queue
 
 BURST_SECONDS = 15.0
 
@@ -28,23 +29,24 @@ return '0'
 """
 
 
-def waits(client: redis.Redis, bucket: str, per_minute: float, burst_seconds: float) -> int:
+def waits(queue: Queue, bucket: str, per_minute: float, burst_seconds: float) -> int:
     """Take one from a bucket. Returns 0, or in how many seconds there will be one; 0 while Redis is away."""
     try:
-        count = Script(client, SCRIPT)  # sent whole only where Redis does not know it yet
-        waited = count([bucket], [60 / per_minute, max(burst_seconds, 60 / per_minute)])
+        # A script is sent whole only where Redis does not know it yet.
+        limits = [60 / per_minute, max(burst_seconds, 60 / per_minute)]
+        waited = queue.ask(lambda client: Script(client, SCRIPT)([bucket], limits))
     except redis.RedisError as error:
         structlog.get_logger().warning("rate_not_counted", reason=str(error))
         return 0
     return math.ceil(float(waited))  # type: ignore[arg-type]
 
 
-def take_one(client: redis.Redis, key_id: str, per_minute: float) -> None:
+def take_one(queue: Queue, key_id: str, per_minute: float) -> None:
     """Count one request. Raises a 429 problem that says when the next one will be answered.
 
     While Redis is away nothing is counted: the service goes on without it, and so do its callers.
     """
-    seconds = waits(client, f"galatea:rate:{key_id}", per_minute, BURST_SECONDS)
+    seconds = waits(queue, f"galatea:rate:{key_id}", per_minute, BURST_SECONDS)
     if seconds > 0:
         raise Problem(
             429,

@@ -31,10 +31,9 @@ def count_wrong_key(context: Context, request: Request) -> None:
     """Count a key that opened nothing. Raises a 429 problem where there are too many."""
     most = context.settings.wrong_keys_per_minute
     place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % PLACES
-    redis = context.queue.redis
     seconds = max(
-        waits(redis, f"galatea:wrong:{place}", most, BURST_SECONDS),
-        waits(redis, "galatea:wrong:all", most * ALL_TIMES, BURST_SECONDS),
+        waits(context.queue, f"galatea:wrong:{place}", most, BURST_SECONDS),
+        waits(context.queue, "galatea:wrong:all", most * ALL_TIMES, BURST_SECONDS),
     )
     if seconds > 0:
         raise Problem(

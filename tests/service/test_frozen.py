@@ -65,6 +65,22 @@ def test_a_frozen_redis_is_missed_and_replaced_and_holds_nobody_up(start: Start,
     assert "redis_answers" in running.output.read_text()
 
 
+def test_a_frozen_redis_holds_nobody_up_whose_requests_are_counted(start: Start) -> None:
+    running = start(worker="false", silent_seconds=600)
+    token = running.client.post("/v1/keys", json={"name": "somebody"}).raise_for_status().json()["token"]
+    good, wrong = ({"Authorization": f"Bearer {key}"} for key in (token, "galatea_wrong"))
+    (server,) = running.processes("redis-server")
+    server.suspend()
+    assert running.client.get("/v1/jobs", headers=good).status_code == 200
+    began = time.monotonic()
+    assert [running.client.get("/v1/jobs", headers=good).status_code for _ in range(20)] == [200] * 20
+    assert [running.client.get("/v1/jobs", headers=wrong).status_code for _ in range(5)] == [401] * 5
+    held_up = time.monotonic() - began
+    server.resume()
+    assert held_up < 30, "waiting for Redis each time would take a minute, however fast the machine"
+    eventually(lambda: checks(running)["redis"], "it is heard again")
+
+
 def test_a_service_that_was_frozen_itself_misses_nobody(start: Start) -> None:
     running = start(silent_seconds=6)
     worker = next(one for one in running.processes("shell.main worker") if one.ppid() == running.process.pid)
