@@ -179,9 +179,15 @@ class Protocol(InTurns):
         if self.cycle is not None and not self.cycle.response_complete:  # whoever answers it is to let go
             self.cycle.disconnected = True
             self.cycle.message_event.set()
-            if self.cycle.response_started:
-                self.transport.abort()
-                return
+        if self.conn.our_state is h11.SEND_BODY:  # an answer is cut short, and has to look like it
+            self.transport.abort()
+            return
+        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):  # else the request was answered already
+            self._answer(problem)
+        self.transport.close()
+        self._look()
+
+    def _answer(self, problem: Problem) -> None:
         problem.headers["Connection"] = "close"
         answer = problem.response()
         browser.mark(answer.headers)
@@ -193,8 +199,6 @@ class Protocol(InTurns):
             h11.EndOfMessage(),
         ):
             self.transport.write(self.conn.send(event) or b"")
-        self.transport.close()
-        self._look()
 
 
 def crowded() -> Problem:

@@ -58,6 +58,9 @@ class InTurns(H11Protocol):
             self.transport.resume_reading()
 
     def _read_slice(self) -> None:
+        if self.transport.is_closing():  # whoever was refused is not served as well
+            self._backlog.clear()
+            return
         if self._held_back and self.flow.read_paused:
             return  # until what was read is taken
         size = FINE_SLICE_BYTES if self._in_chunks() else SLICE_BYTES

@@ -12,6 +12,8 @@ from service.connections.census import Census
 from service.connections.protocol import Config, Protocol
 from service.connections.turns import FINE_SLICE_BYTES, SLICE_BYTES
 
+Answer = tuple[bytes, list[str]]
+
 BODY = bytes(range(251)) * 1000
 HEAD = b"POST / HTTP/1.1\r\nHost: localhost\r\n"
 
@@ -61,3 +63,57 @@ def test_requests_that_come_one_behind_the_other() -> None:
     bodies = asyncio.run(taken(one + two + one, 3))
     assert [b"".join(pieces) for pieces in bodies] == [BODY] * 3
     assert max(len(piece) for pieces in bodies for piece in pieces) <= 2 * SLICE_BYTES
+
+
+async def refused(between: Any) -> Answer:
+    """What is answered to whoever sends a request of which `between(protocol, writer)` decides what becomes; and what
+    went wrong meanwhile."""
+    faults: list[str] = []
+    asyncio.get_running_loop().set_exception_handler(lambda _, told: faults.append(str(told)))
+    protocols: list[Protocol] = []
+
+    async def app(scope: Any, receive: Any, send: Any) -> None:
+        faults.extend(["it is worked on"] if scope["path"] == "/refused" else [])
+        await send({"type": "http.response.start", "status": 415, "headers": [(b"content-length", b"0")]})
+        await send({"type": "http.response.body", "body": b""})
+
+    config = Config(app, Census(10), 60, 60, ws="none", lifespan="off", log_config=None)
+
+    def accept() -> Protocol:
+        protocols.append(Protocol(config, ServerState(), {}))
+        return protocols[-1]
+
+    server = await asyncio.get_running_loop().create_server(accept, "127.0.0.1", 0)
+    async with server:
+        reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
+        while not protocols:
+            await asyncio.sleep(0)
+        answer = await between(protocols[0], reader, writer)
+        answer += await reader.read()
+        writer.close()
+        await writer.wait_closed()
+    return answer, faults
+
+
+def test_a_body_that_goes_wrong_after_it_was_answered_is_no_fault() -> None:
+    async def between(_: Protocol, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bytes:
+        writer.write(HEAD + b"Transfer-Encoding: chunked\r\n\r\n1\r\na\r\n")
+        answer = await reader.readuntil(b"\r\n\r\n")
+        writer.write(b"no length\r\n")
+        return answer
+
+    answer, faults = asyncio.run(refused(between))
+    assert answer.startswith(b"HTTP/1.1 415") and answer.count(b"HTTP/1.1") == 1
+    assert faults == []
+
+
+def test_who_was_turned_away_in_mid_request_is_not_served_as_well() -> None:
+    async def between(protocol: Protocol, *_: Any) -> bytes:
+        head = b"POST /refused HTTP/1.1\r\nHost: localhost\r\nX: " + b"a" * int(1.5 * FINE_SLICE_BYTES)
+        protocol.data_received(head + b"\r\nContent-Length: 0\r\n\r\n")
+        protocol.make_room()  # the second slice has not had its turn
+        return b""
+
+    answer, faults = asyncio.run(refused(between))
+    assert answer.startswith(b"HTTP/1.1 503") and answer.count(b"HTTP/1.1") == 1
+    assert faults == []
