@@ -31,7 +31,8 @@ class Pulse:
                 left.unlink(missing_ok=True)
 
     def beat(self) -> None:
-        self._file.touch()
+        if not self._file.exists():  # `touch` leaves the time of day for a moment, which looks like no sign at all
+            self._file.touch()
         moment = time.monotonic_ns()
         os.utime(self._file, ns=(moment, moment))
 
@@ -54,7 +55,7 @@ def least_silence(data_dir: Path) -> float:
 def _silence(file: Path) -> float:
     try:
         beaten = file.stat().st_mtime_ns
-    except FileNotFoundError:
+    except OSError:  # mostly because it is not there
         return float("inf")
     seconds = (time.monotonic_ns() - beaten) / 1e9
     return seconds if seconds >= 0 else float("inf")  # from before the machine was started anew
