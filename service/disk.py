@@ -37,6 +37,8 @@ def keep_ballast(settings: Settings) -> None:
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o600)
         try:
             os.posix_fallocate(descriptor, 0, BALLAST_MB * MEGABYTE)
+        except OSError:
+            path.unlink(missing_ok=True)  # what is too small would be taken for it ever after
         finally:
             os.close(descriptor)
 

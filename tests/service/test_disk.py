@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import shutil
 import sqlite3
 import subprocess
@@ -13,6 +14,9 @@ from pathlib import Path
 
 import pytest
 from running import ROOT, Running
+
+from service.disk import keep_ballast
+from service.settings import Settings
 
 
 @pytest.mark.parametrize("reserve", [0, 20])
@@ -74,6 +78,19 @@ def test_on_a_full_disk_a_job_can_be_erased(
     assert running.client.post("/v1/files", files={"file": picture}).status_code == 201
     assert spare.stat().st_size == 8_000_000, "and made again when there is room"
     running.stop()
+
+
+def test_a_spare_file_that_found_no_room_is_made_again(tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path)
+    bounds = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1_000_000, bounds[1]))
+    try:
+        keep_ballast(settings)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, bounds)
+    assert list(tmp_path.iterdir()) == []
+    keep_ballast(settings)
+    assert (tmp_path / "ballast").stat().st_size == 8_000_000
 
 
 def a_key(data_dir: Path) -> str:
