@@ -6,14 +6,15 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from service.ids import is_id
+
 LONGEST = 60
 """Characters of each part."""
 
 PICTURE = ("portrait", "photo")
-"""Names in a job's metadata that tell of its picture; likewise of what it does:"""
+"""Names in a job's metadata that tell of its picture."""
 PERFORMANCE = ("performance", "motion")
-
-_ID = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
+"""Those that tell of what it does."""
 
 
 def download_name(
@@ -28,7 +29,7 @@ def download_name(
     if not picture:
         return artifact
     named = inputs.get("driver") or inputs.get("motion") or options.get("motion")
-    known = named if isinstance(named, str) and not _ID.fullmatch(named) and "://" not in named else ""
+    known = named if isinstance(named, str) and not is_id(named) and "://" not in named else ""
     parts = [picture, _words(_first(metadata, PERFORMANCE) or known)]
     stem, _, ending = artifact.rpartition(".")
     if stem != "animation":
