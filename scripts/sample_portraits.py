@@ -1,5 +1,5 @@
-"""Two portraits of nobody, for those who have no picture at hand: the actor of the built-in performances, as he is rendered, and
-painted in oil."""
+"""Two portraits of nobody, for those who have no picture at hand: the actor of the built-in performances, as he is
+rendered, and painted in oil."""
 
 from __future__ import annotations
 

@@ -137,8 +137,11 @@ class Database:
             yield session
 
     def upgrade(self) -> None:
-        """Bring the tables to the newest version, and secrets under the first key of the vault; safe when several processes start at once, and beside a release that
-        is still running: what it does not know of does not disturb it."""
+        """Bring the tables to the newest version, and secrets under the first key of the vault.
+
+        Safe when several processes start at once. An older release that is still running beside it goes on, but for what
+        was renamed since (public links) and what a key has encrypted.
+        """
         with self._kind.alone(self.url) as connection:
             _move(connection, "head", False, self._vault)
         self._seal_anew()

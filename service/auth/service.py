@@ -50,9 +50,9 @@ def create(session: Session, asked: KeyIn) -> tuple[Key, str]:
 
 
 def revoke(session: Session, key_id: str) -> Key:
-    """Make a key's token, its sessions, its signed links and its public ones worthless. Raises a 404 problem if there is no such key.
+    """Make a key's token, its sessions, its signed links and its public ones worthless.
 
-    What belongs to it stays; its jobs go on.
+    Raises a 404 problem if there is no such key. What belongs to it stays; its jobs go on.
     """
     key = repository.get(session, key_id)
     if key is None or key.id == LOCAL:

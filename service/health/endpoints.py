@@ -18,8 +18,8 @@ router = APIRouter(tags=["health"])
 
 
 @router.get("/healthz", operation_id="healthz")
-async def healthz() -> dict[str, str]:
-    """The process lives."""  # `async`: what waits for nothing needs no thread
+async def healthz() -> dict[str, str]:  # `async`: what waits for nothing needs no thread
+    """The process lives."""
     return {"status": "ok"}
 
 

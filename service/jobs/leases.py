@@ -149,8 +149,8 @@ def give_back(
     """End an attempt that did not end by itself: the job is queued again, or fails after three fruitless ones.
 
     `death` is how its process died where it did so by itself: one that dies a second time in the same way, and got no
-    further, would do so a third time. `counts=False` where the attempt is not to blame (the worker was told to stop); `only_expired` where the worker
-    may have renewed its lease in the meantime. Returns the job's new status, None if the lease was lost (or stands).
+    further, would do so a third time. `counts=False` where the attempt is not to blame (the worker was told to stop);
+    `only_expired` where the worker may have renewed its lease in the meantime. Returns the job's new status, None if the lease was lost (or stands).
     """
     mine = select(Job.fruitless_attempts, Job.last_death).where(Job.id == lease.job_id, Job.lease_token == lease.token)
     if only_expired:
