@@ -25,6 +25,7 @@ from benchmarks.character_steps import wake
 from benchmarks.tables import machine, table
 from engine.character.cast_shadow import ground_shadow
 from engine.character.film import film, film_size
+from engine.character.measures import picture_camera
 from engine.character.motions import choose_motion
 from engine.character.stages import fill_background
 from engine.export.video import VideoWriter
@@ -82,8 +83,11 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
     woken = wake(photo, {})
     background = fill_background(woken.figure, (woken.silhouette,))
     shadow = ground_shadow(background.shadow, woken.character, woken.fitted)
-    clip = choose_motion(woken.character, woken.character.pictured, "walk", None, (), seconds, FPS).film
     height, width = woken.figure.rgb.shape[:2]
+    camera = picture_camera(woken.character, woken.fitted, (height, width))
+    clip = choose_motion(
+        *(woken.character, lambda second: camera, woken.character.pictured, "walk", None, (), seconds, FPS)
+    ).film
     size = film_size((width, height), (1280, 720) if width > height else (720, 1280))
 
     def drawn() -> Iterator[NDArray[np.uint8]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import cv2
 import numpy as np
@@ -51,10 +51,16 @@ def film(
     camera = resized_camera(picture_camera(main, fitted, (height, width)), size)
     small = np.asarray(cv2.resize(plate, size, interpolation=cv2.INTER_AREA), np.uint8)
     backdrop = Backdrop(small, camera, float(main.eye[2]) + WALL)
-    target = main.pictured.root[0]
-    return film_cast(
-        cast_of(people), lambda second: camera_at(move, camera, target, second), backdrop.seen_by, shadow, alone
-    )
+    return film_cast(cast_of(people), moving_camera(main, camera, move), backdrop.seen_by, shadow, alone)
+
+
+def moving_camera(
+    main: Character, camera: Camera, move: Move, of: Character | None = None
+) -> Callable[[float], Camera]:
+    """The film's camera by second, which begins as `camera` and moves about `main`; in the world of another character, `of`,
+    if `camera` is in that."""
+    target = main.pictured.root[0] - (0 if of is None else main.eye - of.eye)
+    return lambda second: camera_at(move, camera, target, second)
 
 
 def cast_of(people: Sequence[tuple[Character, Clip]]) -> list[Actor]:

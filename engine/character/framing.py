@@ -43,18 +43,19 @@ ARMS = ("Arm", "Hand")
 @dataclass(frozen=True)
 class _View:
     """What decides whether a character is in the picture: the outermost vertices of every bone, `arms` (V,) which of them
-    hands and arms carry, and the box in which they must be, `low` and `high` (x, y) in pixels."""
+    hands and arms carry, and the box in which they must be, `low` and `high` (x, y) in pixels of `camera_at(second)`, which
+    is where the picture was taken at second 0."""
 
     mesh: SkinnedMesh
-    camera: Camera
+    camera_at: Callable[[float], Camera]
     outer: NDArray[np.intp]
     arms: NDArray[np.bool_]
     low: Array
     high: Array
 
     def posed(self, clip: Clip) -> Array:
-        """(F, V, 3) the outermost vertices in the frames that are looked at, the last one among them."""
-        frames = np.unique(np.linspace(0, len(clip.root) - 1, min(len(clip.root), MOST_FRAMES)).round().astype(int))
+        """(F, V, 3) the outermost vertices in the frames that are looked at."""
+        frames = _looked_at(clip)
         moves = pose_transforms(self.mesh.skeleton, clip.rotations[frames], clip.root[frames])
         rest = (self.mesh.vertices[self.outer], self.mesh.bones[self.outer], self.mesh.weights[self.outer])
         return np.stack([skin(*rest, move) for move in moves]).astype(np.float64)
@@ -62,10 +63,14 @@ class _View:
     def outside(self, clip: Clip) -> tuple[float, float]:
         """By how many pixels the clip leaves the box: head, trunk and legs in any frame, or anything in the last; and
         anything in any frame."""
-        points = self.posed(clip)
-        flat = self.camera.project(points.reshape(-1, 3)).astype(np.float64)
-        beyond = np.maximum(self.low - flat[:, :2], flat[:, :2] - self.high).max(1)
-        beyond = np.where(flat[:, 2] > 0, beyond, np.inf).reshape(points.shape[:2])
+        flat = np.stack(
+            [
+                self.camera_at(frame / clip.fps).project(points)
+                for frame, points in zip(_looked_at(clip), self.posed(clip), strict=True)
+            ]
+        ).astype(np.float64)
+        beyond = np.maximum(self.low - flat[..., :2], flat[..., :2] - self.high).max(2)
+        beyond = np.where(flat[..., 2] > 0, beyond, np.inf)
         return float(max(beyond[:, ~self.arms].max(), beyond[-1].max())), float(beyond.max())
 
     def holds(self, clip: Clip, everything: bool) -> bool:
@@ -73,9 +78,10 @@ class _View:
         return self.outside(clip)[everything] <= 0
 
     def room(self, clip: Clip) -> Room:
-        """How far the clip may be moved as it is: nearer, and then to the sides."""
+        """How far the clip may be moved as it is, before a camera at rest: nearer, and then to the sides."""
         x, y, z = np.moveaxis(self.posed(clip), 2, 0)
-        eye, focal, centre = self.camera.eye, self.camera.focal, self.camera.centre
+        camera = self.camera_at(0.0)
+        eye, focal, centre = camera.eye, camera.focal, camera.centre
         away = eye[2] - z
         reach = np.where(y > eye[1], centre[1] - self.low[1], self.high[1] - centre[1])
         ahead = max(float((away - focal * np.abs(y - eye[1]) / np.maximum(reach, 1)).min()), 0.0)
@@ -83,14 +89,14 @@ class _View:
         return Room(ahead, BEHIND, max(float(sides[1].min()), 0.0), max(float(-sides[0].max()), 0.0))
 
 
-def kept_in_frame(character: Character, camera: Camera, film: Callable[[float], Clip]) -> Clip:
-    """The film within the picture of `camera`; `film(back)` begins with a step back by so many metres.
+def kept_in_frame(character: Character, camera_at: Callable[[float], Camera], film: Callable[[float], Clip]) -> Clip:
+    """The film within the picture of `camera_at(second)`; `film(back)` begins with a step back by so many metres.
 
     Everything is in the picture if that takes no more than a step back. Else raised hands may leave it, and if that is not
     enough, leaps become lower.
     """
     maker = _Maker(character, film)
-    view = _view(character, camera, maker.first)
+    view = _view(character, camera_at, maker.first)
     for everything in (True, False):
         found = _framed(view, maker, everything)
         if found is not None:
@@ -142,18 +148,22 @@ def _least(fits: Callable[[float], bool]) -> float:
     return high
 
 
-def _view(character: Character, camera: Camera, film: Clip) -> _View:
-    mesh = character.mesh
+def _view(character: Character, camera_at: Callable[[float], Camera], film: Clip) -> _View:
+    mesh, camera = character.mesh, camera_at(0.0)
     bone = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     outer = np.concatenate([_outermost(mesh.vertices, np.flatnonzero(bone == one)) for one in np.unique(bone)])
     arms = np.array([any(part in name for part in ARMS) for name in mesh.skeleton.names])[bone[outer]]
     height, width = camera.size
     margin = MARGIN * height
-    view = _View(mesh, camera, outer, arms, np.full(2, margin), np.array([width, height]) - 1 - margin)
+    view = _View(mesh, camera_at, outer, arms, np.full(2, margin), np.array([width, height]) - 1 - margin)
     pictured = camera.project(view.posed(film)[0]).astype(np.float64)[:, :2]
-    return _View(
-        *(mesh, camera, outer, arms), np.minimum(view.low, pictured.min(0)), np.maximum(view.high, pictured.max(0))
-    )
+    return replace(view, low=np.minimum(view.low, pictured.min(0)), high=np.maximum(view.high, pictured.max(0)))
+
+
+def _looked_at(clip: Clip) -> NDArray[np.intp]:
+    """The frames of a clip that are looked at, the last one among them."""
+    count = len(clip.root)
+    return np.unique(np.linspace(0, count - 1, min(count, MOST_FRAMES)).round().astype(np.intp))
 
 
 def _outermost(vertices: NDArray[np.float32], of: NDArray[np.intp]) -> NDArray[np.intp]:

@@ -62,7 +62,7 @@ def motion_in_use(
 
 def choose_motion(
     character: Character,
-    camera: Camera,
+    camera_at: Callable[[float], Camera],
     start: Clip,
     name: str,
     motion: SourceMotion | None,
@@ -73,7 +73,8 @@ def choose_motion(
 ) -> Played:
     """The character's clips at `fps` frames a second, beginning from the pose `start`: the built-in one of that `name`, or a
     file's `motion`, of which `joints` overrides which joint moves which. Parts of the body that are `kept` stay as they
-    are there. In the film the person stays in the picture of `camera`. The other built-in motions stay where they are.
+    are there. In the film the person stays in the picture of `camera_at(second)`. The other built-in motions stay where they
+    are.
 
     Raises
     ------
@@ -92,7 +93,7 @@ def choose_motion(
         film = _lasting(step_out(skeleton, start, clip, length=length, back=back), seconds)
         return keep(skeleton, film, start, list(kept)) if kept else film
 
-    film = replace(kept_in_frame(character, camera, stepped), name="step_out")
+    film = replace(kept_in_frame(character, camera_at, stepped), name="step_out")
     if kept:
         clip = keep(skeleton, clip, start, list(kept))
     others = [_other_motion(skeleton, start, other, kept) for other in CLIPS if other != clip.name]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from engine.character.figure import Figure
+from engine.character.film import moving_camera
 from engine.character.label_map import Labels
 from engine.character.measures import picture_camera
 from engine.character.motions import choose_motion, posed_by_hand
@@ -25,12 +26,14 @@ class Person:
     labels: Labels
     character: Character
 
-    def act(self, options: CharacterOptions, motion: SourceMotion | None) -> None:
-        """Choose the pose they `start` from and what is `played`."""
+    def act(self, options: CharacterOptions, motion: SourceMotion | None, main: Character) -> None:
+        """Choose the pose they `start` from and what is `played`, before a camera that moves about the `main` character."""
         height, width = self.figure.rgb.shape[:2]
         camera = picture_camera(self.character, self.fitted, (height, width))
         self.start = posed_by_hand(self.character, options.pose)
         self.played = choose_motion(
-            *(self.character, camera, self.start, options.motion, motion, options.keep, options.seconds, options.fps),
+            self.character,
+            moving_camera(main, camera, options.camera, of=self.character),
+            *(self.start, options.motion, motion, options.keep, options.seconds, options.fps),
             options.motion_joints,
         )

@@ -87,7 +87,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
     with run.timed("write_character"):
         source = motion_in_use(motion, options.motion_clip, options.motion_joints, run.warn)
         for person in people:
-            person.act(options, source)
+            person.act(options, source, people[0].character)
         if source and (lost := lost_warning(source, people[0].played.joints)):
             run.warn("motion_joints_unmapped", lost)
         for name, person in zip(character_names(people), people, strict=True):

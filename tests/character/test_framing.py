@@ -9,6 +9,7 @@ import pytest
 from template_character import still, template_character
 
 from engine.body.skinning import pose_transforms, skin
+from engine.character.film import moving_camera
 from engine.character.motions import choose_motion
 from engine.character.options import MOTIONS
 from engine.character.rigging import Character
@@ -20,6 +21,7 @@ from engine.motion.rotation import about
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
 from engine.render.camera import Camera
+from engine.render.camera_moves import MOVES, Move, camera_at
 
 DISTANCE = 4.0
 
@@ -34,14 +36,14 @@ def camera(character: Character, above: float, below: float, beside: float = 0.5
     """A picture 1000 pixels high, in which so much of the height is free above the person's head and below their soles, and
     `beside` of the person's height beside the middle; fewer than none: that much of them is cut off."""
     x, y, z = character.eye.tolist()
-    flat = Camera((x, y, z), 1000.0, (0.0, 0.0), (1, 1)).project(projected_at(character, character.pictured, 0))
+    flat = Camera((x, y, z), 1000.0, (0.0, 0.0), (1, 1)).project(posed_at(character, character.pictured, 0))
     top, bottom = flat[:, 1].min(), flat[:, 1].max()
     scale = (1 - above - below) * 1000 / (bottom - top)
     width = round(2 * beside * 1000)
     return Camera((x, y, z), 1000 * scale, ((width - 1) / 2, above * 1000 - top * scale), (1000, width))
 
 
-def projected_at(character: Character, clip: object, frame: int) -> np.ndarray:
+def posed_at(character: Character, clip: object, frame: int) -> np.ndarray:
     mesh = character.mesh
     moves = pose_transforms(mesh.skeleton, clip.rotations[[frame]], clip.root[[frame]])[0]  # type: ignore[attr-defined]
     return skin(mesh.vertices, mesh.bones, mesh.weights, moves)
@@ -53,7 +55,7 @@ def boxes(character: Character, seen: Camera, clip: object, arms: bool) -> np.nd
     bone = mesh.bones[np.arange(len(mesh.bones)), mesh.weights.argmax(1)]
     raised = np.array(["Arm" in name or "Hand" in name for name in mesh.skeleton.names])[bone]
     kept = np.ones(len(bone), bool) if arms else ~raised
-    points = [seen.project(projected_at(character, clip, f)[kept])[:, :2] for f in range(len(clip.root))]  # type: ignore[attr-defined]
+    points = [seen.project(posed_at(character, clip, f)[kept])[:, :2] for f in range(len(clip.root))]  # type: ignore[attr-defined]
     return np.array([[one.min(0), one.max(0)] for one in points])
 
 
@@ -63,7 +65,7 @@ def inside(found: np.ndarray, seen: Camera, margin: float = 0.0) -> bool:
 
 
 def played(character: Character, seen: Camera, name: str, motion: SourceMotion | None = None, fps: float = 10.0):  # type: ignore[no-untyped-def]
-    return choose_motion(character, seen, character.pictured, name, motion, (), 4.0, fps)
+    return choose_motion(character, lambda second: seen, character.pictured, name, motion, (), 4.0, fps)
 
 
 @pytest.mark.parametrize(
@@ -91,6 +93,33 @@ def test_the_walk_uses_the_room_that_there_is(character: Character) -> None:
     assert film.root[-1, 2] - film.root[0, 2] > 0.7, "it comes nearer"
     assert len(film.root) == 40, "for as long as it was asked for"
     assert boxes(character, seen, film, arms=True)[:, 1, 1].max() > 850, "until the picture is filled"
+
+
+@pytest.mark.parametrize("move", MOVES)
+def test_whoever_comes_nearer_stays_in_sight_of_a_camera_that_moves(character: Character, move: Move) -> None:
+    """Nearer than what the camera goes around, they are off to the side when it swings."""
+    seen = camera(character, 0.3, 0.3, beside=0.3)
+    film = choose_motion(
+        *(character, moving_camera(character, seen, move), character.pictured, "walk", None, (), 8.0, 10.0)
+    ).film
+    for frame in range(len(film.root)):
+        moved = camera_at(move, seen, character.pictured.root[0], frame / film.fps)
+        shown = moved.project(posed_at(character, film, frame))[:, :2]
+        height, width = seen.size
+        assert (shown >= 0).all() and (shown <= [width - 1, height - 1]).all()
+
+
+@pytest.mark.parametrize("move", MOVES)
+def test_a_group_is_seen_by_one_camera_that_goes_around_the_first(character: Character, move: Move) -> None:
+    """Each is in a world of their own: a point of the second is where the film shows it."""
+    seen = camera(character, 0.3, 0.3)
+    aside = np.array([-0.7, 0.1, 0.4])
+    second = replace(character, eye=character.eye + aside)
+    own = moving_camera(character, replace(seen, eye=tuple(second.eye.tolist())), move, of=second)
+    points = posed_at(character, character.pictured, 0)[::50].astype(np.float64)
+    for moment in (0.0, 1.1, 5.0):
+        shown = camera_at(move, seen, character.pictured.root[0], moment).project(points - aside)
+        assert own(moment).project(points) == pytest.approx(shown, abs=1e-2)
 
 
 def test_feet_that_the_picture_cuts_off_stay_cut_and_the_head_in_it(character: Character) -> None:
@@ -132,7 +161,7 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
     rotations[120:] = aside.rotations[120:]
     motion = replace(straight, rotations=rotations, translations=translations)
     seen = camera(character, 0.1, 0.08)
-    film = choose_motion(character, seen, character.pictured, "", motion, (), 8.0, 15.0).film
+    film = choose_motion(character, lambda second: seen, character.pictured, "", motion, (), 8.0, 15.0).film
     assert len(film.root) > 100
     assert inside(boxes(character, seen, film, arms=False), seen)
     assert np.ptp(sole_places(skeleton, film)[..., 1].min(2), axis=0).min() > 0.05, "and runs on"
@@ -143,5 +172,5 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
 def test_a_film_is_as_long_as_it_was_asked_for(character: Character, name: str, seconds: float) -> None:
     """A bow that is done once is over before: its last pose is held."""
     seen = camera(character, 0.15, 0.1)
-    film = choose_motion(character, seen, character.pictured, name, None, (), seconds, 10.0).film
+    film = choose_motion(character, lambda second: seen, character.pictured, name, None, (), seconds, 10.0).film
     assert len(film.rotations) == len(film.root) == 10 * seconds

@@ -38,7 +38,7 @@ def character() -> Character:
 
 def chosen(character: Character, name: str, kept: tuple[str, ...] = (), fps: float = 30.0) -> Played:
     seen = Camera((0.0, 1.0, 4.0), 1500.0, (499.5, 499.5), (1000, 1000))
-    return choose_motion(character, seen, character.pictured, name, None, kept, 1.0, fps)
+    return choose_motion(character, lambda second: seen, character.pictured, name, None, kept, 1.0, fps)
 
 
 @pytest.fixture(scope="module")
