@@ -1,6 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
-import { complaints, launch, open, played, portrait } from './page';
+import { complaints } from './complaints';
+import { launch, open, played, portrait } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -9,7 +10,7 @@ beforeAll(async () => {
 afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
-  expect(complaints).toEqual([]);
+  expect(complaints.splice(0)).toEqual([]);
 });
 
 const start = (page: Page) => page.getByRole('button', { name: 'Bring it to life' });

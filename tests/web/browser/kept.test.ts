@@ -1,8 +1,9 @@
 import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { answered, complaints, expectComplaint } from './complaints';
 import { readable } from './axe';
-import { complaints, inPython, launch, open } from './page';
+import { inPython, launch, open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -14,7 +15,7 @@ afterEach(async () => {
   for (const shelf of ['drivers', 'motions']) {
     for (const { name } of await own(shelf)) await fetch(`${inject('address')}/v1/${shelf}/${name}`, { method: 'DELETE' });
   }
-  expect(complaints).toEqual([]);
+  expect(complaints.splice(0)).toEqual([]);
 });
 
 const video = inPython('from engine.performances import video; print(video("wink"))');
@@ -92,7 +93,8 @@ describe('saved videos', () => {
     await expect.poll(() => focused(page)).toBe('Rename: Wink one');
     expect(await page.getByRole('alert').count()).toBe(0);
     expect(await ownNames('drivers')).toEqual(['wink-one']);
-    complaints.length = 0; // the browser reports 409 and 422 itself
+    expectComplaint(answered(409));
+    expectComplaint(answered(422));
   });
 
   it('are deleted after a question, and the focus is not lost with them', async () => {

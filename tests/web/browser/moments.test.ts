@@ -1,6 +1,7 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, inject, it } from 'vitest';
-import { ask, complaints, inPython, launch, LONG, open, portrait } from './page';
+import { complaints } from './complaints';
+import { ask, inPython, launch, LONG, open, portrait } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -9,7 +10,7 @@ beforeAll(async () => {
 afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
-  expect(complaints).toEqual([]);
+  expect(complaints.splice(0)).toEqual([]);
 });
 
 const video = inPython('from engine.performances import video; print(video("surprise"))');

@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { type Browser, chromium, type Page } from 'playwright-core';
 import { expect, inject } from 'vitest';
+import { watch } from './complaints';
 
 const root = resolve(import.meta.dirname, '../../..');
 const python = join(root, '.venv/bin/python');
@@ -41,9 +42,7 @@ export const faceless = join(portrait, '../Minduka_Present_Blue_Pack.png');
  */
 export async function open(browser: Browser, hash = '', options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
-  complaints.length = 0;
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  watch(page);
   await page.addInitScript(() =>
     addEventListener('securitypolicyviolation', ({ violatedDirective, blockedURI, sourceFile, lineNumber }) =>
       console.error(`not allowed: ${violatedDirective}, ${blockedURI} (${sourceFile}:${lineNumber})`),
@@ -52,9 +51,6 @@ export async function open(browser: Browser, hash = '', options: Parameters<Brow
   await page.goto(`${inject('address')}/${hash}`);
   return page;
 }
-
-/** Errors that scripts and the network left in the console of the page that was opened last. */
-export const complaints: string[] = [];
 
 /** Asks the service as any other client would; JSON. */
 export const ask = async <T,>(path: string): Promise<T> => (await (await fetch(inject('address') + path)).json()) as T;

@@ -8,6 +8,7 @@ import { join, resolve } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import type { Profile } from '../../../web/reactive/src/profile';
+import { answered, complaints, expectComplaint, watch } from './complaints';
 import { launch, portrait } from './page';
 
 const root = resolve(import.meta.dirname, '../../..');
@@ -18,7 +19,6 @@ const site = join(folder, 'site');
 let browser: Browser;
 let server: ChildProcess;
 let address: string;
-const complaints: string[] = [];
 
 beforeAll(async () => {
   const options = JSON.stringify({ reactive: ['happy', 'surprise'], size: [240, 300] });
@@ -44,7 +44,7 @@ afterAll(async () => {
 });
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
-  expect(complaints).toEqual([]);
+  expect(complaints.splice(0)).toEqual([]);
 });
 
 /** A frame that was shown: when, of what, and what of the picture is asked for. */
@@ -61,9 +61,7 @@ interface Seen {
 /** Open the bundle's page and note every frame that is shown, and every change of state. */
 async function open(options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> {
   const page = await browser.newPage({ viewport: { width: 1000, height: 700 }, ...options });
-  complaints.length = 0;
-  page.on('pageerror', (error) => complaints.push(error.message));
-  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  watch(page);
   await page.addInitScript(() => {
     Object.assign(window, { seen: [], changes: [], shifts: [], look: false });
     new PerformanceObserver((list) => shifts.push(...list.getEntries())).observe({ type: 'layout-shift', buffered: true });
@@ -268,7 +266,7 @@ describe('a profile from a plain file server', () => {
         }),
     );
     expect(message).toContain('nowhere/profile.json answered 404');
-    complaints.length = 0; // the browser's own word about it
+    expectComplaint(answered(404));
   });
 });
 

@@ -5,6 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect, inject } from 'vitest';
+import { complaints, watch } from './complaints';
 import { ask, inPython, launch, LONG, samplePerson } from './page';
 import { buildViewerPage, type Files, openViewer } from './viewer_page';
 
@@ -38,7 +39,6 @@ const OPTIONS = { one: {}, two: { person_index: 'all' }, crouching: { pose: CROU
 /** What a file of tests has: called once in it, it sets up a browser and a job, one for all files that ask for the same. */
 export function aViewer(of: keyof typeof OPTIONS = 'one') {
   const picture = join(tmpdir(), `galatea-viewer-${process.pid}-${of}.png`);
-  const complaints: string[] = [];
   let browser: Browser;
   let files: Files;
   let job: string;
@@ -56,14 +56,12 @@ export function aViewer(of: keyof typeof OPTIONS = 'one') {
   });
   afterEach(async () => {
     for (const context of browser.contexts()) await context.close();
-    expect(complaints).toEqual([]);
+    expect(complaints.splice(0)).toEqual([]);
   });
 
   const open = async (options: Parameters<Browser['newPage']>[0] = {}, by = browser): Promise<Page> => {
     const page = await by.newPage({ viewport: { width: 760, height: 1000 }, reducedMotion: 'reduce', ...options });
-    complaints.length = 0;
-    page.on('pageerror', (error) => complaints.push(error.message));
-    page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+    watch(page);
     await page.addInitScript(countDrawings);
     await openViewer(page, files, job);
     return page;
