@@ -41,11 +41,11 @@ def body(model: str, named: str, required: Sequence[str] = (), **properties: Any
         "type": "object",
         "required": list(required),
         "properties": {
-            **properties,
             "priority": {"type": "string", "enum": ["high", "normal", "low"]},
             **{name: {"type": "object"} for name in parts if name != "webhook_events"},
             "webhook_url": {"type": "string"},
-            "webhook_events": {"type": "array", "items": {"type": "string"}},
+            "webhook_events": {"type": ["array", "null"], "items": {"type": "string"}},
+            **properties,
         },
         "additionalProperties": {"type": "string", "format": "binary"},
         "description": f"Every other part is one of the {named} by that name: a file, or the text of an id or name.",
@@ -86,7 +86,7 @@ async def create_job(
     "/{job_id}/revisions",
     status_code=202,
     operation_id="revise_job",
-    openapi_extra=body("RevisionIn", "corrections"),
+    openapi_extra=body("RevisionIn", "corrections", metadata={"type": ["object", "null"]}),
     responses=responses(404, 409, 413, 415, 422, 507),
 )
 async def revise_job(

@@ -3054,15 +3054,15 @@ export interface operations {
             content: {
                 "application/json": components["schemas"]["JobIn"];
                 "multipart/form-data": {
-                    kind: string;
-                    title?: string;
                     /** @enum {string} */
                     priority?: "high" | "normal" | "low";
                     inputs?: Record<string, never>;
                     options?: Record<string, never>;
                     metadata?: Record<string, never>;
                     webhook_url?: string;
-                    webhook_events?: string[];
+                    webhook_events?: string[] | null;
+                    kind: string;
+                    title?: string;
                 } & {
                     [key: string]: string;
                 };
@@ -3278,9 +3278,9 @@ export interface operations {
                     priority?: "high" | "normal" | "low";
                     corrections?: Record<string, never>;
                     options?: Record<string, never>;
-                    metadata?: Record<string, never>;
+                    metadata?: Record<string, never> | null;
                     webhook_url?: string;
-                    webhook_events?: string[];
+                    webhook_events?: string[] | null;
                 } & {
                     [key: string]: string;
                 };
