@@ -103,9 +103,8 @@ def only(phase: str) -> tuple[str, ...]:
 
 def faultless(running: Running, picture: bytes, folder: Path, *arguments: str, key: str = "") -> None:
     file = running.client.post("/v1/files", files={"file": ("picture.png", picture)}).raise_for_status().json()
-    running.submit(picture)  # so that the file is used, and stays whatever is erased
     job = {"kind": "tiny", "inputs": {"image": file["id"]}}
-    running.client.post("/v1/jobs", json=job).raise_for_status()
+    keeping = running.client.post("/v1/jobs", json=job).raise_for_status().json()
     (folder / "schemathesis.toml").write_text(CONFIGURATION)
     command = [
         *(sys.executable, "-m", "schemathesis.cli", "--no-color", "--config-file", "schemathesis.toml"),
@@ -118,7 +117,7 @@ def faultless(running: Running, picture: bytes, folder: Path, *arguments: str, k
         "SCHEMATHESIS_HOOKS": "schemathesis_hooks",
         "PYTHONPATH": str(HERE),
         "GALATEA_TEST_FILE_ID": file["id"],
-        "GALATEA_TEST_KEY_ID": key,
+        "GALATEA_TEST_KEPT": f"{keeping['id']} {key}",
     }
     done = subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout[-20_000:] + done.stderr[-2000:] + running.output.read_text()[-4000:]

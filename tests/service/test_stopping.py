@@ -75,8 +75,10 @@ def _stopped(running: Running, picture: bytes) -> Stopped:
     eventually(lambda: spool.stat().st_size > 0, "the piece comes in")
     eventually(lambda: len(list((running.data_dir / "incoming").iterdir())) == 2, "the forms come in")
     running.process.send_signal(signal.SIGTERM)
+    download = lines.pop("download")
     answers = {name: first.get(name, b"") + until_closed(line) for name, line in lines.items()}
     status, log = running.process.wait(60), running.output.read_text()
+    answers["download"] = first["download"] + until_closed(download)  # now: whoever reads on may get all of it in time
     running.start()
     return Stopped(running, answers, status, log, upload, content)
 
