@@ -109,7 +109,7 @@ def get_shared(token: str, response: Response, context: InContext) -> SharedOut:
             raise _gone()
         made = artifacts.of_jobs(session, [job.id])[job.id]
     response.headers.update({**FROM_ANYWHERE, "Cache-Control": "no-cache"})
-    return SharedOut.of(link, token, job.kind, job.finished_at, made)
+    return SharedOut.of(link, token, job, made)
 
 
 @router.head("/public/{token}/{name}", include_in_schema=False)

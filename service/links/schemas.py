@@ -11,6 +11,7 @@ from pydantic import BaseModel, Field
 
 from service.artifacts.models import Artifact
 from service.asked import ASKED
+from service.jobs.models import Job
 from service.links.models import PublicLink
 
 
@@ -86,14 +87,14 @@ class SharedOut(BaseModel):
     """What a public link opens."""
 
     kind: str
+    title: str | None
+    """What its owner calls it; null where they gave it no title. Nothing else that the job was given is told."""
     finished_at: datetime | None
     expires_at: datetime | None
     artifacts: dict[str, SharedArtifactOut]
 
     @classmethod
-    def of(
-        cls, link: PublicLink, token: str, kind: str, finished_at: datetime | None, artifacts: Sequence[Artifact]
-    ) -> SharedOut:
+    def of(cls, link: PublicLink, token: str, job: Job, artifacts: Sequence[Artifact]) -> SharedOut:
         shared = {
             artifact.name: SharedArtifactOut(
                 url=f"{_address(token)}/{quote(artifact.name)}",
@@ -104,7 +105,13 @@ class SharedOut(BaseModel):
             for artifact in artifacts
             if opens(link, artifact.name)
         }
-        return cls(kind=kind, finished_at=finished_at, expires_at=link.expires_at, artifacts=shared)
+        return cls(
+            kind=job.kind,
+            title=job.title,
+            finished_at=job.finished_at,
+            expires_at=link.expires_at,
+            artifacts=shared,
+        )
 
 
 def opens(link: PublicLink, name: str) -> bool:

@@ -48,6 +48,21 @@ def test_a_link_opens_all_results_where_none_are_named(running: Running, picture
     assert days == timedelta(days=30), "as the settings say where nothing else was said"
 
 
+def test_a_link_tells_the_title_and_nothing_else_that_the_job_was_given(running: Running, picture: bytes) -> None:
+    given = {"photo": "Aunt Mary at 12 Elm Street", "note": "for the lawyer"}
+    inputs = {"image": running.submit(picture)["inputs"]["image"]}
+    asked = running.client.post("/v1/jobs", json={"kind": "tiny", "inputs": inputs, "metadata": given})
+    job_id = running.until(asked.raise_for_status().json()["id"], "succeeded")["id"]
+    made = link(running, job_id, artifacts=["preview.jpg"])
+    untitled = running.client.get(made["url"])
+    assert untitled.json()["title"] is None
+    running.client.patch(f"/v1/jobs/{job_id}", json={"title": "My aunt"}).raise_for_status()
+    titled = running.client.get(made["url"])
+    assert titled.json()["title"] == "My aunt"
+    assert set(titled.json()) == {"kind", "title", "finished_at", "expires_at", "artifacts"}
+    assert "Elm" not in untitled.text + titled.text and "lawyer" not in untitled.text + titled.text
+
+
 def test_an_address_is_told_once_and_kept_nowhere(running: Running, picture: bytes) -> None:
     job_id = finished(running, picture)
     answer = running.client.post(f"/v1/jobs/{job_id}/links", json={})

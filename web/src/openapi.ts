@@ -1366,6 +1366,7 @@ export interface components {
         /** @description What a public link opens. */
         SharedOut: {
             kind: string;
+            title: string | null;
             finished_at: string | null;
             expires_at: string | null;
             artifacts: {
