@@ -6,7 +6,7 @@ import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { peopleOf } from '../viewer/people';
 import { later } from './later';
-import { Files, InCode, Sharing, Took, Warnings } from './left';
+import { Left, Took, Warnings } from './left';
 import { Player } from './player';
 import type { Pose } from './redo';
 
@@ -29,7 +29,7 @@ export default function CharacterResult({ job, onPose }: Props) {
     <div class="result">
       {film && !film[1].content_type.endsWith('/zip') && <Film job={job} artifact={film[1]} />}
       {artifacts['character.glb'] && <Viewer job={job} onPose={onPose} />}
-      <div class="actions">
+      <Left job={job} filesOpen={!film}>
         {peopleOf(job, skeleton).map(({ name, number }) => (
           <Download key={name} job={job} name={`${name}.glb`} label={several ? words.glbOf(number) : words.glb} primary />
         ))}
@@ -37,10 +37,7 @@ export default function CharacterResult({ job, onPose }: Props) {
         <Download job={job} name="character.vrm" label={words.vrm1} />
         <Download job={job} name="lit.png" label={words.litPicture} />
         {film && <Download job={job} name={film[0]} label={words.video} />}
-        <Files job={job} open={!film} />
-        <Sharing job={job} />
-        <InCode job={job} />
-      </div>
+      </Left>
       <Warnings report={report.value} />
       <Took job={job} />
     </div>

@@ -1,6 +1,7 @@
 /** What a finished run has left: its files, links to them, and what it has to say. */
 
-import { useState } from 'preact/hooks';
+import type { ComponentChildren } from 'preact';
+import { useId, useState } from 'preact/hooks';
 import { archiveUrl, type Job, type Report } from '../api';
 import { duration, size } from '../format';
 import { strings } from '../strings';
@@ -10,11 +11,61 @@ const SharePanel = later(() => import('../share/panel'));
 const CodePanel = later(() => import('../share/code'));
 const words = strings.job;
 
-/** Everything that the run left, each to be saved by itself. */
-export function Files({ job, open }: { job: Job; open: boolean }) {
+type Panel = 'files' | 'share' | 'code';
+const panels = { files: words.files, share: strings.share.title, code: words.use };
+
+interface LeftProps {
+  job: Job;
+  /** The list of files is open from the first: there is nothing else to see. */
+  filesOpen: boolean;
+  /** What is downloaded most. */
+  children: ComponentChildren;
+}
+
+/** What can be done with a result, in one row that stays as it is; what that takes opens below it. */
+export function Left({ job, filesOpen, children }: LeftProps) {
+  const [open, setOpen] = useState<readonly Panel[]>(filesOpen ? ['files'] : []);
+  const id = useId();
+  const toggle = (panel: Panel): void =>
+    setOpen(open.includes(panel) ? open.filter((one) => one !== panel) : [...open, panel]);
   return (
-    <details class="files" open={open}>
-      <summary class="button">{words.files}</summary>
+    <div class="left">
+      <div class="toolbar">
+        <div class="actions">{children}</div>
+        <div class="actions">
+          {(Object.keys(panels) as Panel[]).map((panel) => (
+            <button
+              key={panel}
+              type="button"
+              class="button"
+              aria-expanded={open.includes(panel)}
+              aria-controls={`${id}-${panel}`}
+              onClick={() => toggle(panel)}
+            >
+              {panels[panel]}
+            </button>
+          ))}
+        </div>
+      </div>
+      {(Object.keys(panels) as Panel[]).map((panel) => (
+        <div key={panel} id={`${id}-${panel}`} hidden={!open.includes(panel)}>
+          {!open.includes(panel) ? null : panel === 'files' ? (
+            <Files job={job} />
+          ) : panel === 'share' ? (
+            <SharePanel job={job} />
+          ) : (
+            <CodePanel job={job} />
+          )}
+        </div>
+      ))}
+    </div>
+  );
+}
+
+/** Everything that the run left, each to be saved by itself. */
+function Files({ job }: { job: Job }) {
+  return (
+    <section class="panel files" aria-label={words.files}>
       <ul>
         <li>
           <a href={archiveUrl(job.id)} download>
@@ -30,29 +81,7 @@ export function Files({ job, open }: { job: Job; open: boolean }) {
           </li>
         ))}
       </ul>
-    </details>
-  );
-}
-
-/** Links to the result, made where somebody looks for them. */
-export function Sharing({ job }: { job: Job }) {
-  const [open, setOpen] = useState(false);
-  return (
-    <details class="files" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
-      <summary class="button">{strings.share.title}</summary>
-      {open && <SharePanel job={job} />}
-    </details>
-  );
-}
-
-/** The request that made the result, for who wants to make more of them. */
-export function InCode({ job }: { job: Job }) {
-  const [open, setOpen] = useState(false);
-  return (
-    <details class="files" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
-      <summary class="button">{words.use}</summary>
-      {open && <CodePanel job={job} />}
-    </details>
+    </section>
   );
 }
 

@@ -5,7 +5,7 @@ import { size } from '../format';
 import { useLoaded } from '../loading';
 import { performanceUrl } from '../names';
 import { strings } from '../strings';
-import { Files, InCode, Sharing, Took, Warnings } from './left';
+import { Left, Took, Warnings } from './left';
 import { Living } from './living';
 import { Moods } from './moods';
 import { Player } from './player';
@@ -35,16 +35,13 @@ export function Result({ job }: { job: Job }) {
       ) : (
         <p>{words.otherKind}</p>
       )}
-      <div class="actions">
+      <Left job={job} filesOpen={!found}>
         {main && (
           <a class="button primary" href={main[1].url} download={main[0]}>
             {profile ? words.downloadProfile : words.download} <small>{size(main[1].size)}</small>
           </a>
         )}
-        <Files job={job} open={!found} />
-        <Sharing job={job} />
-        <InCode job={job} />
-      </div>
+      </Left>
       {!profile && <Moods job={job} />}
       <Warnings report={report.value} />
       <Took job={job} />

@@ -32,15 +32,17 @@ function Snippet({ label, code }: { label: string; code: string }) {
     );
   return (
     <div class="snippet">
-      <h3>{label}</h3>
+      <header>
+        <h3>{label}</h3>
+        {navigator.clipboard && (
+          <button type="button" class="toggle" aria-label={`${strings.copy}: ${label}`} onClick={copy}>
+            {copied ? strings.copied : strings.copy}
+          </button>
+        )}
+      </header>
       <pre tabIndex={0}>
         <code>{code}</code>
       </pre>
-      {navigator.clipboard && (
-        <button type="button" class="toggle" aria-label={`${strings.copy}: ${label}`} onClick={copy}>
-          {copied ? strings.copied : strings.copy}
-        </button>
-      )}
     </div>
   );
 }

@@ -62,7 +62,7 @@ export const character = {
     glb: 'Download 3D character',
     glbOf: (person: number) => `Download person ${person} in 3D`,
     video: 'Video',
-    usdz: 'USDZ for iPhone and iPad',
+    usdz: 'USDZ for iPhone, iPad',
     vrm1: 'VRM',
     litPicture: 'Lit preview',
   },
