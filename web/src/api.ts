@@ -133,7 +133,7 @@ export const foundFaces = (of: Job): Report['inputs']['faces'] =>
   (of.error?.found as { faces?: Report['inputs']['faces'] } | undefined)?.faces ?? [];
 
 /** One of a job's artifacts that is JSON; null where it has none of that name. */
-async function artifact<T>(of: Job, name: string, signal?: AbortSignal): Promise<T | null> {
+async function artifact<T>(of: Pick<Job, 'artifacts'>, name: string, signal?: AbortSignal): Promise<T | null> {
   const url = of.artifacts[name]?.url;
   if (!url) return null;
   const response = fetch(url, aborted(signal));
@@ -153,7 +153,7 @@ export const getLandmarks = (of: Job, signal?: AbortSignal): Promise<Landmarks |
   artifact(of, 'landmarks.json', signal);
 
 /** The skeleton of a character; null where its job left none. */
-export const getSkeleton = (of: Job, signal?: AbortSignal): Promise<Skeleton | null> =>
+export const getSkeleton = (of: Pick<Job, 'artifacts'>, signal?: AbortSignal): Promise<Skeleton | null> =>
   artifact(of, 'skeleton.json', signal);
 
 /** Order something. A key makes the order safe to repeat: it is carried out once. */

@@ -38,9 +38,14 @@ export const faceless = join(portrait, '../Minduka_Present_Blue_Pack.png');
 
 /**
  * Open the page. What the browser complains of fails the test at its end: see `complaints`. So does what the page's policy
- * (CSP) does not allow.
+ * (CSP) does not allow. `script` runs in the page before its own do.
  */
-export async function open(browser: Browser, hash = '', options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> {
+export async function open(
+  browser: Browser,
+  hash = '',
+  options: Parameters<Browser['newPage']>[0] = {},
+  script?: () => void,
+): Promise<Page> {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
   watch(page);
   await page.addInitScript(() =>
@@ -48,6 +53,7 @@ export async function open(browser: Browser, hash = '', options: Parameters<Brow
       console.error(`not allowed: ${violatedDirective}, ${blockedURI} (${sourceFile}:${lineNumber})`),
     ),
   );
+  if (script) await page.addInitScript(script);
   await page.goto(`${inject('address')}/${hash}`);
   return page;
 }

@@ -51,7 +51,17 @@ Stage.prototype.draw = function (this: Stage, now: number) {
 const job = (await (await fetch(`/v1/jobs/${location.hash.slice(1)}`)).json()) as Job;
 const page = document.getElementById('app') as HTMLElement;
 window.poses = [];
-render(<Viewer job={job} onPose={(pose) => window.poses.push(pose)} />, page);
+const { pose } = job.options as { pose?: Record<string, [number, number, number]> };
+render(
+  <Viewer
+    job={job}
+    renew={async () => (await fetch(`/v1/jobs/${job.id}`)).json() as Promise<Job>}
+    first="look"
+    pose={pose}
+    onPose={(pose) => window.poses.push(pose)}
+  />,
+  page,
+);
 window.leave = () => render(null, page);
 
 const onCanvas = (place: Vector3): [number, number] => {

@@ -66,7 +66,7 @@ export function aViewer(of: keyof typeof OPTIONS = 'one') {
     await openViewer(page, files, job);
     return page;
   };
-  return { open, job: () => job, picture: () => readFileSync(picture) };
+  return { open, countDrawings, job: () => job, picture: () => readFileSync(picture) };
 }
 
 /** Ordered with one key by all who ask, it is made once. */

@@ -1,6 +1,6 @@
 /** A finished character: the video, the character itself to take along, and what the run has to say. */
 
-import { type Artifact, getReport, getSkeleton, type Job } from '../api';
+import { type Artifact, characterOptions, getJob, getReport, getSkeleton, type Job } from '../api';
 import { size } from '../format';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
@@ -25,10 +25,21 @@ export default function CharacterResult({ job, onPose }: Props) {
   const several = peopleOf(job, null).length > 1;
   const skeleton = useLoaded(async (signal) => (several ? getSkeleton(job, signal) : null), job.id).value;
   const film = Object.entries(artifacts).find(([name]) => name.startsWith('animation.'));
+  const shown = film && !film[1].content_type.endsWith('/zip') && <Film job={job} artifact={film[1]} />;
   return (
     <div class="result">
-      {film && !film[1].content_type.endsWith('/zip') && <Film job={job} artifact={film[1]} />}
-      {artifacts['character.glb'] && <Viewer job={job} onPose={onPose} />}
+      {artifacts['character.glb'] ? (
+        <Viewer
+          job={job}
+          renew={(signal) => getJob(job.id, signal)}
+          first="wall"
+          pose={characterOptions(job).pose ?? undefined}
+          onPose={onPose}
+          film={shown || undefined}
+        />
+      ) : (
+        shown
+      )}
       <Left job={job} filesOpen={!film}>
         {peopleOf(job, skeleton).map(({ name, number }) => (
           <Download key={name} job={job} name={`${name}.glb`} label={several ? words.glbOf(number) : words.glb} primary />

@@ -2,13 +2,12 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import type { Job } from '../api';
 import { later } from '../components/later';
 import { Trouble } from '../components/trouble';
 import { strings } from '../strings';
 import { useSkeletonLines, useSurroundings, useWideView } from './around';
 import { Looking } from './looking';
-import { peopleOf, standTogether } from './people';
+import { peopleOf, standTogether, type Woken } from './people';
 import { type Pose } from './pose';
 import { Posing } from './posing';
 import type { Stage } from './stage';
@@ -22,23 +21,34 @@ import '../styles/viewer.css';
 const Space = later(() => import('./space'));
 const words = strings.viewer;
 
-type Mode = 'look' | 'pose' | 'wall';
+type Mode = 'wall' | 'look' | 'pose' | 'film';
 
 export interface ViewerProps {
-  job: Job;
+  job: Woken;
+  /** The same with links that have only now been signed. */
+  renew: (signal: AbortSignal) => Promise<Woken>;
+  /** What is seen first, where the job has what it takes and the browser shows 3D. */
+  first: 'wall' | 'look';
+  /** The pose that they were made with. */
+  pose?: Pose | undefined;
   /** Is told a pose that is to be made; without it, poses cannot be edited. */
   onPose?: ((pose: Record<string, [number, number, number]>) => void) | undefined;
+  /** Their video: seen at once where there is no 3D. */
+  film?: ComponentChildren;
 }
 
-export default function Viewer({ job, onPose }: ViewerProps) {
+export default function Viewer({ job, renew, first, pose = {}, onPose, film }: ViewerProps) {
   const section = useRef<HTMLElement>(null);
   const place = useRef<HTMLDivElement>(null);
   const { shown, trouble, retry } = useStage(place, job);
-  const [mode, setMode] = useState<Mode>('look');
+  const [chosen, setMode] = useState<Mode>(first);
   const [wanted, setWanted] = useState<Who>('all');
   const [inSpace, setInSpace] = useState(false);
   const wide = useWideView(section);
-  useEffect(() => shown?.stage.hold(inSpace), [shown, inSpace]);
+  const view = useMemo(() => viewOf(job, shown?.skeleton ?? null), [shown]);
+  const flat = trouble === 'no_webgl' && film !== undefined;
+  const mode = flat ? 'film' : chosen === 'wall' && shown && !view ? 'look' : chosen;
+  useEffect(() => shown?.stage.hold(inSpace || mode === 'film'), [shown, inSpace, mode]);
   const people = shown?.people ?? peopleOf(job, null);
   const together = standTogether(people);
   const who = wanted === 'all' && (mode === 'pose' || !together) ? 0 : wanted;
@@ -47,8 +57,12 @@ export default function Viewer({ job, onPose }: ViewerProps) {
     return who === 'all' ? all : all.slice(who, who + 1);
   }, [shown, who]);
   useCast(shown, cast);
-  const view = viewOf(job, shown?.skeleton ?? null);
-  const modes: Mode[] = ['look', ...(onPose ? ['pose' as const] : []), ...(mayHaveView(job) ? ['wall' as const] : [])];
+  const modes: Mode[] = [
+    ...(mayHaveView(job) ? ['wall' as const] : []),
+    'look',
+    ...(onPose ? ['pose' as const] : []),
+    ...(film ? ['film' as const] : []),
+  ];
 
   return (
     <section ref={section} class="viewer" aria-label={words.label}>
@@ -61,7 +75,7 @@ export default function Viewer({ job, onPose }: ViewerProps) {
                 type="button"
                 class="toggle"
                 aria-pressed={one === mode}
-                disabled={!shown || (one === 'wall' && !view)}
+                disabled={one !== 'film' && (!shown || (one === 'wall' && !view))}
                 onClick={() => setMode(one)}
               >
                 {words.modeNames[one]}
@@ -85,12 +99,13 @@ export default function Viewer({ job, onPose }: ViewerProps) {
       <div
         ref={place}
         class="viewer-stage"
+        hidden={mode === 'film'}
         tabIndex={trouble ? -1 : 0}
         role="application"
         aria-label={people.length > 1 ? words.stageOfSeveral : words.stage}
         aria-busy={!shown && !trouble}
       >
-        {trouble && (
+        {trouble && !flat && (
           <Trouble code={trouble} detail={trouble === 'no_webgl' ? words.noWebGL : words.failed}>
             {trouble !== 'no_webgl' && (
               <button type="button" class="button" onClick={retry}>
@@ -101,14 +116,16 @@ export default function Viewer({ job, onPose }: ViewerProps) {
         )}
         {!shown && !trouble && <p class="viewer-loading">{words.loading}</p>}
       </div>
-      {shown && cast.length > 0 && (
+      {mode === 'film' && film}
+      {flat && <p class="viewer-help">{words.noWebGL}</p>}
+      {shown && mode !== 'film' && cast.length > 0 && (
         <Modes
           stage={shown.stage}
           cast={cast}
           people={people.length}
           mode={mode}
           view={view}
-          pose={posedSoFar(job)}
+          pose={pose}
           onPose={onPose}
           tools={
             wide && (
@@ -121,7 +138,7 @@ export default function Viewer({ job, onPose }: ViewerProps) {
           }
         />
       )}
-      {inSpace && <Space job={job} who={who === 'all' ? 0 : who} onClose={() => setInSpace(false)} />}
+      {inSpace && <Space job={job} renew={renew} who={who === 'all' ? 0 : who} onClose={() => setInSpace(false)} />}
     </section>
   );
 }
@@ -131,7 +148,7 @@ interface ModesProps {
   cast: readonly Standing[];
   /** How many were woken. */
   people: number;
-  mode: Mode;
+  mode: Exclude<Mode, 'film'>;
   view: PictureView | null;
   pose: Pose;
   onPose: ViewerProps['onPose'];
@@ -157,6 +174,3 @@ function Modes({ stage, cast, people, mode, view, pose, onPose, tools }: ModesPr
   if (mode === 'wall' && view) return <Wall stage={stage} cast={cast} view={view} dark={around.dark} tools={common} />;
   return <Looking stage={stage} cast={cast} tools={common} />;
 }
-
-/** The pose that the job was made with. */
-const posedSoFar = (job: Job): Pose => (job.options as { pose?: Pose | null }).pose ?? {};

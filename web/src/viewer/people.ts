@@ -1,6 +1,11 @@
 /** Who was woken: the files of each, and where they stood. */
 
-import type { Artifact, Job, Skeleton } from '../api';
+import type { Artifact, Skeleton } from '../api';
+
+/** What a job left, or what a public link opens of it. */
+export interface Woken {
+  artifacts: Record<string, Artifact>;
+}
 
 export interface WokenPerson {
   /** Which of the people found, counted from 1. */
@@ -14,7 +19,7 @@ export interface WokenPerson {
 }
 
 /** The first is character.glb, the second character-2.glb, and so on. */
-export function peopleOf({ artifacts }: Job, skeleton: Skeleton | null): WokenPerson[] {
+export function peopleOf({ artifacts }: Woken, skeleton: Skeleton | null): WokenPerson[] {
   const people: WokenPerson[] = [];
   for (let index = 0; ; index++) {
     const name = nameOf(index);

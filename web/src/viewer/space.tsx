@@ -3,13 +3,13 @@
 import '@google/model-viewer';
 import type { ModelViewerElement } from '@google/model-viewer';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { getJob, getSkeleton, type Job } from '../api';
+import { getSkeleton } from '../api';
 import { Trouble } from '../components/trouble';
 import { Window } from '../components/window';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { IN_PLACE, PICTURED } from './character';
-import { peopleOf } from './people';
+import { peopleOf, type Woken } from './people';
 import { WhoChoice } from './who';
 
 const words = strings.viewer;
@@ -17,17 +17,19 @@ const words = strings.viewer;
 const said = { loading: words.loading, ready: words.spaceHint, flat: words.spaceNone, failed: '' };
 
 interface Props {
-  job: Job;
+  job: Woken;
+  /** The same with links that have only now been signed. */
+  renew: (signal: AbortSignal) => Promise<Woken>;
   /** Who is shown first, of those who were woken. */
   who: number;
   onClose: () => void;
 }
 
-export default function Space({ job, who: first, onClose }: Props) {
+export default function Space({ job, renew, who: first, onClose }: Props) {
   // links are open for a while only, and what shows AR fetches the file by itself, late: give it fresh ones
-  const fresh = useLoaded((signal) => getJob(job.id, signal), job.id);
+  const fresh = useLoaded(renew, 'fresh links');
   const [who, setWho] = useState(first);
-  const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
+  const skeleton = useLoaded((signal) => getSkeleton(job, signal), 'skeleton').value;
   const people = peopleOf(fresh.value ?? job, skeleton);
   const place = useRef<HTMLDivElement>(null);
   const [state, setState] = useState<'loading' | 'ready' | 'flat' | 'failed'>('loading');

@@ -2,9 +2,9 @@
 
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { getSkeleton, type Job, type Skeleton } from '../api';
+import { getSkeleton, type Skeleton } from '../api';
 import { type Character, loadCharacter } from './character';
-import { peopleOf, type WokenPerson } from './people';
+import { peopleOf, type Woken, type WokenPerson } from './people';
 import { NoWebGL, Stage } from './stage';
 
 /** Somebody who was woken, as a body. */
@@ -29,7 +29,7 @@ export interface Staged {
   retry: () => void;
 }
 
-export function useStage(place: RefObject<HTMLElement | null>, job: Job): Staged {
+export function useStage(place: RefObject<HTMLElement | null>, job: Woken): Staged {
   const [shown, setShown] = useState<Shown | null>(null);
   const [trouble, setTrouble] = useState<Staged['trouble']>(null);
   const [turn, setTurn] = useState(0);

@@ -6,6 +6,8 @@ import type { Emerging } from './emerging';
 import type { ContactShadow } from './shadow';
 import type { Performer } from './stage';
 
+/** Seconds in which there is nothing but a picture. */
+const LINGER = 0.8;
 /** Seconds in which paint becomes a body. */
 const EMERGE = 1.3;
 /** Seconds from the last step into what comes then. */
@@ -27,6 +29,7 @@ interface Steps extends Stepper {
 
 export class Stepping implements Performer {
   playing = false;
+  /** Seconds since the first began to move; less than 0 while all is paint. */
   time = 0;
   private readonly all: Steps[];
   /** Seconds in which the last has stepped out. */
@@ -52,7 +55,7 @@ export class Stepping implements Performer {
 
   /** How far they have come, of the way that they will; 0 to 1. */
   get way(): number {
-    return this.duration ? Math.min(1, this.time / this.duration) : 0;
+    return this.duration ? MathUtils.clamp(this.time / this.duration, 0, 1) : 0;
   }
 
   /** Where their ways end, on the floor. */
@@ -71,7 +74,7 @@ export class Stepping implements Performer {
 
   /** Into the picture again. */
   restart(playing: boolean): void {
-    this.time = 0;
+    this.time = playing ? -LINGER : 0;
     this.set(playing);
   }
 
@@ -81,7 +84,7 @@ export class Stepping implements Performer {
     shadow.strength = body * body;
     const beyond = this.time - out.duration;
     if (beyond <= 0 || !after) {
-      character.show(out, this.time);
+      character.show(out, Math.max(0, this.time));
       return;
     }
     const second = beyond % after.duration;

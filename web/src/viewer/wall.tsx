@@ -7,6 +7,7 @@ import { PlayButton } from '../components/transport';
 import { strings } from '../strings';
 import { Emerging } from './emerging';
 import { hang } from './hanging';
+import { prefersStillness } from './looking';
 import { enter, hasHeadset } from './headset';
 import { Room } from './room';
 import { ContactShadow } from './shadow';
@@ -62,6 +63,7 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
     const stepBack = new Visitor(stage, hanging, steps);
     visitor.current = stepBack;
     leave.push(stage.add(stepBack));
+    if (!prefersStillness()) steps.restart(true);
     return () => {
       takeOff.current?.();
       stepBack.dispose();

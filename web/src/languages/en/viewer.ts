@@ -4,7 +4,7 @@ export const viewer = {
   viewer: {
     label: 'In 3D',
     modes: 'What to do',
-    modeNames: { look: 'Look around', pose: 'Change the pose', wall: 'On the wall' },
+    modeNames: { wall: 'On the wall', look: 'Look around', pose: 'Change the pose', film: 'Video' },
     stage: 'The character in 3D: arrow keys circle around it, plus and minus go nearer and further',
     stageOfSeveral: 'The characters in 3D: arrow keys circle around them, plus and minus go nearer and further',
     who: 'Who',
