@@ -38,7 +38,7 @@ export function App() {
       <main id="content" tabIndex={-1}>
         {locked && !shared ? <SignInPage onOpen={() => setLocked(false)} /> : <Page route={route} />}
       </main>
-      <Footer />
+      <Footer guest={shared} />
     </>
   );
 }

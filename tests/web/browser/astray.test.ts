@@ -32,11 +32,18 @@ describe('an address that means nothing', () => {
 });
 
 describe('help', () => {
-  it.each(['', '#/character', '#/history', '#/keys', '#/webhooks', '#/nonsense', '#/shared/none'])('is at hand on the page %s', async (hash) => {
+  it.each(['', '#/character', '#/history', '#/keys', '#/webhooks', '#/nonsense'])('is at hand on the page %s', async (hash) => {
     const page = await open(browser, hash);
     const links = page.getByRole('navigation', { name: 'About Galatea' }).getByRole('link');
     expect(await links.allInnerTexts()).toEqual(['Help', 'API reference', 'OpenAPI', 'Responsible use', 'Licences']);
-    if (hash === '#/shared/none') expectComplaint(answered(404)); // a link that opens nothing
+  });
+
+  it('is of no reference for programs where somebody was sent a link', async () => {
+    const page = await open(browser, '#/shared/none');
+    const links = page.getByRole('navigation', { name: 'About Galatea' }).getByRole('link');
+    await expect.poll(() => links.allInnerTexts()).toEqual(['Responsible use', 'Licences']);
+    await page.getByRole('heading', { name: 'This link does not work' }).waitFor();
+    expectComplaint(answered(404));
   });
 
   it('comes from the service itself, whole', async () => {

@@ -106,10 +106,13 @@ describe('a link', () => {
     const other = await browser.newPage();
     await other.goto(link);
     await other.getByRole('heading', { name: 'A portrait brought to life' }).waitFor();
-    const shown = other.getByLabel('The portrait, acting out');
-    await expect.poll(() => shown.evaluate((video: HTMLVideoElement) => video.readyState)).toBeGreaterThan(0);
-    await shown.click();
     await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
+    expect(await other.getByLabel('The portrait, acting out').evaluate((video: HTMLVideoElement) => video.muted)).toBe(true);
+    const still = await browser.newPage({ reducedMotion: 'reduce' });
+    await still.goto(link);
+    await still.getByRole('region', { name: 'Result' }).getByRole('button', { name: 'Play' }).waitFor();
+    await still.waitForFunction(() => (document.querySelector('video')?.readyState ?? 0) > 1);
+    expect(await still.locator('video').evaluate((video: HTMLVideoElement) => video.paused)).toBe(true);
     expect(await other.getByRole('banner').getByRole('navigation').count()).toBe(0);
     await page.getByRole('button', { name: 'Revoke' }).click();
     await page.getByRole('button', { name: 'Revoke' }).waitFor({ state: 'detached' });

@@ -4,18 +4,19 @@ import { strings } from '../strings';
 
 const words = strings.footer;
 const links = [
-  { to: '/help/index.html', text: words.help },
-  { to: '/help/rest.html', text: words.api },
-  { to: '/v1/openapi.json', text: words.openapi },
-  { to: '/help/responsible-use.html', text: words.use },
-  { to: '/help/licences.html', text: words.licences },
+  { to: '/help/index.html', text: words.help, own: true },
+  { to: '/help/rest.html', text: words.api, own: true },
+  { to: '/v1/openapi.json', text: words.openapi, own: true },
+  { to: '/help/responsible-use.html', text: words.use, own: false },
+  { to: '/help/licences.html', text: words.licences, own: false },
 ];
 
-export function Footer() {
+/** `guest`: of somebody who was sent a link, and has nothing to do with the service. */
+export function Footer({ guest }: { guest: boolean }) {
   return (
     <footer class="colophon">
       <nav aria-label={words.label}>
-        {links.map(({ to, text }) => (
+        {links.filter(({ own }) => !own || !guest).map(({ to, text }) => (
           <a key={to} href={to}>
             {text}
           </a>

@@ -89,6 +89,9 @@ export default function SharePanel({ job }: { job: Job }) {
   );
 }
 
-/** What a link opens unless it is to open everything: the animation, the character, and the picture that stands for it. */
-const shownTo = (job: Job): string[] =>
-  Object.keys(job.artifacts).filter((name) => /^(animation\.|character\.(glb|usdz)$)/.test(name) || name === 'poster.jpg');
+/**
+ * What a link opens unless it is to open everything: the animation and the picture that stands for it; the characters, and
+ * what hangs their picture on a wall, empty once they have stepped out of it.
+ */
+const SHOWN = /^(animation\..+|poster\.jpg|character(-\d+)?\.(glb|usdz)|skeleton\.json|background\.png)$/;
+const shownTo = (job: Job): string[] => Object.keys(job.artifacts).filter((name) => SHOWN.test(name));

@@ -186,7 +186,7 @@ export const job = {
 
   share: {
     title: 'Share',
-    hint: 'Anyone with the link can see the result, without a key. Your uploaded picture and video are not shared. Copy a link when it is made: it is shown this once.',
+    hint: 'Anyone with the link can see the result and its title, without a key. Your uploaded picture and video are not shared. Copy a link when it is made: it is shown this once.',
     here: (host: string) =>
       `You are at ${host}: links work on this computer only. To share them, start the service on an address that others can reach.`,
     qr: 'QR code of the link: scan it with a phone',
