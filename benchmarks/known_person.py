@@ -60,8 +60,8 @@ class KnownPicture:
     person: Person
 
 
-def draw_into(person: Person, background: NDArray[np.uint8]) -> KnownPicture:
-    """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet."""
+def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True) -> KnownPicture:
+    """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet unless there is one."""
     height, width = background.shape[:2]
     focal = LENS * height
     distance = focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / SHARE
@@ -78,7 +78,7 @@ def draw_into(person: Person, background: NDArray[np.uint8]) -> KnownPicture:
     shaded = person.paint(raster) * (AMBIENT + (1 - AMBIENT) * lamp[..., None])
     alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
     premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
-    behind = background * _shadow(person, camera)[..., None]
+    behind = background * _shadow(person, camera)[..., None] if shadow else background
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return KnownPicture(np.clip(picture + 0.5, 0, 255).astype(np.uint8), alpha.astype(np.float32), camera, person)
 

@@ -21,6 +21,9 @@ from engine.render.camera import Camera
 Colour = tuple[int, int, int]
 SIZE = (1920, 1440)
 """Height and width while it is drawn and painted, pixels; then it is made half as large."""
+SOLE = (224, 216, 204)
+HEM, EDGE = 0.34, 0.15
+"""Shares of a foot's height that trousers cover and that the sole takes."""
 BRUSH, STEPS = 4, 1
 """Radius of the brush in pixels, and how finely it tells tones apart (see `cv2.xphoto.oilPainting`)."""
 
@@ -80,9 +83,10 @@ FIGURES = (
 def paint_figure(figure: Figure) -> NDArray[np.uint8]:
     """(H, W, 3) uint8: the figure standing in its room."""
     person = dress(figure.look)
-    camera = draw_into(person, room(figure)).camera
-    drawn = draw_into(person, behind(figure, person, camera))
-    picture = features(figure, shoes(figure, drawn))
+    alone = draw_into(person, room(figure), shadow=False)
+    camera = alone.camera
+    drawn = draw_into(person, contact(behind(figure, person, camera), alone), shadow=False)
+    picture = hairline(figure, replace(drawn, rgb=features(figure, shoes(figure, drawn))))
     painted = cv2.xphoto.oilPainting(np.ascontiguousarray(picture[..., ::-1]), BRUSH, STEPS)[..., ::-1]
     (x, y), tall = head(person, camera)
     fine = np.zeros(SIZE, np.float32)  # a small brush for the face
@@ -125,24 +129,52 @@ def behind(figure: Figure, person: Person, camera: Camera) -> NDArray[np.uint8]:
     return picture
 
 
-def shoes(figure: Figure, drawn: KnownPicture) -> KnownPicture:
-    """The picture with shoes over the feet, whose toes would show through the template's."""
-    template, rig, picture = load_template(), load_rig(HUMAN), drawn.rgb.copy()
+def feet(drawn: KnownPicture) -> list[NDArray[np.uint8]]:
+    """Of each foot what of the picture it covers, as a shoe does that is round in front: (H, W), 0 or 255."""
+    template, rig = load_template(), load_rig(HUMAN)
     moved = np.array(rig.names)[rig.bones[:, 0]]
+    shapes = []
     for side in ("Left", "Right"):
         skin = template.vertices_of("body")  # what else moves with a foot is no part of it
         foot = skin[np.char.startswith(moved[skin], f"{side}Foot") | np.char.startswith(moved[skin], f"{side}Toe")]
-        points = drawn.camera.project(drawn.person.vertices[foot])[:, :2]
-        outline = cv2.convexHull(np.rint(points).astype(np.int32))
-        top, bottom = points[:, 1].min(), points[:, 1].max()
+        outline = cv2.convexHull(np.rint(drawn.camera.project(drawn.person.vertices[foot])[:, :2]).astype(np.int32))
         shape = np.zeros(SIZE, np.uint8)
         cv2.fillPoly(shape, [outline], 255)
-        shape = cv2.dilate(shape, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (9, 9)))
-        share = np.clip((np.arange(SIZE[0]) - top) / (bottom - top), 0, 1)
-        light = np.where(share > 0.9, 0.45, 1.15 - 0.35 * np.abs(share - 0.45))[:, None, None]
-        leather = light * np.array(figure.look.shoes, np.float32)
-        picture = np.where(shape[..., None] > 0, leather, picture)
-    return replace(drawn, rgb=np.clip(picture, 0, 255).astype(np.uint8))
+        shape = cv2.dilate(shape, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (13, 13)))
+        shapes.append(np.where(cv2.GaussianBlur(shape, (0, 0), 7) > 127, 255, 0).astype(np.uint8))
+    return shapes
+
+
+def contact(floor: NDArray[np.uint8], drawn: KnownPicture) -> NDArray[np.uint8]:
+    """The room with what light the feet keep from the floor right beside them: no further, so that it goes when they go."""
+    under = np.zeros(SIZE, np.uint8)
+    for shape in feet(drawn):
+        tall = int(np.ptp(np.nonzero(shape.any(1))[0]))
+        shape[: int(np.nonzero(shape.any(1))[0].max()) - tall // 4] = 0  # the sole
+        under |= shape
+    dark = cv2.GaussianBlur(cv2.dilate(under, np.ones((5, 5), np.uint8)), (0, 0), 5).astype(np.float32) / 255
+    return np.asarray(floor * (1 - 0.5 * dark[..., None]), np.uint8)
+
+
+def shoes(figure: Figure, drawn: KnownPicture) -> KnownPicture:
+    """The picture with shoes over the feet, whose toes would show through the template's, and trousers that fall on them."""
+    picture = drawn.rgb.copy()
+    for shape in feet(drawn):
+        rows, columns = np.nonzero(shape)
+        top, bottom, middle = int(rows.min()), int(rows.max()), round(float(columns.mean()))
+        tall, wide = bottom - top, int(np.ptp(columns))
+        share = np.clip((np.arange(SIZE[0]) - top) / tall, 0, 1)[:, None, None]
+        across = np.clip((np.arange(SIZE[1]) - middle) / (wide / 2), -1, 1)[None, :, None]
+        round_light = 1.12 - 0.45 * (across + 0.25) ** 2
+        leather = round_light * (1.2 - 0.35 * share) * np.array(figure.look.shoes, np.float32)
+        cloth = round_light * (0.95 - 0.5 * share) * np.array(figure.look.trousers, np.float32)
+        sole = (0.95 - 0.25 * across**2) * np.array(SOLE, np.float32)
+        parts = np.where(share < HEM, cloth, np.where(share > 1 - EDGE, sole, leather))
+        picture = np.where(shape[..., None] > 0, np.clip(parts, 0, 255), picture).astype(np.uint8)
+        seam = (middle, bottom - round(0.1 * tall)), (round(0.36 * wide), round(0.3 * tall))
+        cap = tuple(int(0.7 * c) for c in figure.look.shoes)
+        cv2.ellipse(picture, *seam, 0, 195, 345, cap, 3, cv2.LINE_AA)
+    return replace(drawn, rgb=picture)
 
 
 def features(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
@@ -187,6 +219,50 @@ def features(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
     )
     mixed = cv2.addWeighted(picture, 0.3, over, 0.7, 0)
     return np.asarray(cv2.resize(mixed, SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def hairline(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
+    """The picture with hair that is many hairs where it ends at the forehead, and falls beside the face where it is long."""
+    rng = np.random.default_rng(5)
+    large = 2
+    picture = np.asarray(cv2.resize(drawn.rgb, None, fx=large, fy=large, interpolation=cv2.INTER_CUBIC), np.uint8)
+    (x, y), tall = head(drawn.person, drawn.camera.enlarged(large))
+
+    def hair(places: NDArray[np.float64], wide: float) -> None:
+        tone = rng.uniform(0.72, 1.15)
+        colour = tuple(int(min(255, tone * c)) for c in figure.look.hair)
+        points = np.rint(np.array([x, y]) + places * tall).astype(np.int32)
+        cv2.polylines(picture, [points], False, colour, max(1, round(wide * tall)), cv2.LINE_AA)
+
+    for _ in range(420):  # short ones, at the forehead
+        side = rng.uniform(-1, 1)
+        root = np.array([0.3 * side, -0.25 - 0.03 * rng.random() + 0.03 * abs(side)])
+        tip = root + [0.02 * side + rng.normal(0, 0.006), rng.uniform(0.0, 0.035) + 0.02 * side**2]
+        hair(np.array([root - [0, 0.05], root, tip]), 0.006)
+    if figure.locks:
+        for side in (-1, 1):
+            for share in np.sort(rng.random(260))[::-1]:  # from outside in, parted in the middle
+                out = share + rng.normal(0, 0.03)
+                way = np.array(
+                    [
+                        [0.01, -0.55 + 0.05 * out],
+                        [0.14 + 0.12 * out, -0.40 + 0.02 * out],
+                        [0.225 + 0.13 * out, -0.16 - 0.06 * out],
+                        [0.262 + 0.12 * out, 0.08],
+                        [0.27 + 0.12 * out, 0.36],
+                        [0.25 + 0.13 * out, 0.50 + 0.2 * rng.random()],
+                    ]
+                )
+                hair(smooth(way) * [side, 1], 0.011)
+    return np.asarray(cv2.resize(picture, SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def smooth(way: NDArray[np.float64], rounds: int = 3) -> NDArray[np.float64]:
+    """(N, 2) points of a line whose corners are cut (Chaikin 1974)."""
+    for _ in range(rounds):
+        cut = np.stack([0.75 * way[:-1] + 0.25 * way[1:], 0.25 * way[:-1] + 0.75 * way[1:]], 1).reshape(-1, 2)
+        way = np.concatenate([way[:1], cut, way[-1:]])
+    return way
 
 
 def canvas(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
-from galatea import animate
+from galatea import animate, wake_up
 from scripts.sample_figures import FIGURES, paint_figure
 from scripts.sample_portraits import painted_actor, rendered_actor
 
@@ -28,8 +28,10 @@ SMALL = 176
 """Side of the small squares by which a sample is chosen, pixels: twice what they measure on the page."""
 TALL = 600
 """Height of a picture of which a part is taken, pixels: faces are to be seen well."""
-CLIP = (400, 480)
-"""Width and height of the clip on the start page."""
+SMALL_FIGURE = (176, 235)
+"""Width and height of those of whole figures, pixels: they are as small, and show all of the picture."""
+CLIP, FIGURE_CLIP = (400, 480), (400, 532)
+"""Width and height of the clips on the start pages."""
 CLIP_CRF = 25
 
 
@@ -57,11 +59,13 @@ class Found:
 
 
 PORTRAITS = (
-    Found("grace-hopper", "matplotlib", "mpl-data/sample_data/grace_hopper.jpg", (0.5, 0.36, 0.55)),
-    Found("eileen-collins", "skimage", "data/astronaut.png", (0.5, 0.35, 0.55), (54, 0, 340, 400)),
+    Found("grace-hopper", "matplotlib", "mpl-data/sample_data/grace_hopper.jpg", (0.5, 0.33, 0.66)),
+    Found("eileen-collins", "skimage", "data/astronaut.png", (0.5, 0.33, 0.66), (54, 0, 340, 400)),
 )
 MOVING = ("grace-hopper", "happy")
 """The portrait that moves on arrival, and what it acts out."""
+WALKING = ("woman-in-red", "walk")
+"""The figure that does, and its motion."""
 
 
 def main() -> None:
@@ -77,8 +81,10 @@ def main() -> None:
     for figure in FIGURES:
         picture = paint_figure(figure)
         write_image(OUT / f"{figure.name}.jpg", picture, quality=QUALITY)
-        write_image(OUT / f"{figure.name}-small.jpg", small(picture, 0.5, 0.31, 0.52), quality=QUALITY)
+        tiny = np.asarray(cv2.resize(picture, SMALL_FIGURE, interpolation=cv2.INTER_AREA), np.uint8)
+        write_image(OUT / f"{figure.name}-small.jpg", tiny, quality=QUALITY)
     move(*MOVING)
+    walk(*WALKING)
 
 
 def small(picture: NDArray[np.uint8], x: float, y: float, height: float) -> NDArray[np.uint8]:
@@ -97,6 +103,15 @@ def move(name: str, performance: str) -> None:
         video = animate(OUT / f"{name}.jpg", performance, Path(folder), crop="bust", size=CLIP, loop=True).path
         shrink(video, OUT / f"{name}-{performance}.mp4")
     first = next(iter(read_video(OUT / f"{name}-{performance}.mp4")))
+    write_image(OUT / f"{name}-still.jpg", first.rgb, quality=QUALITY)
+
+
+def walk(name: str, motion: str) -> None:
+    """The clip of a figure that walks out of its picture, and its first frame: the picture as it is."""
+    with TemporaryDirectory() as folder:
+        video = wake_up(OUT / f"{name}.jpg", Path(folder), motion, size=FIGURE_CLIP).artifacts["animation.mp4"]
+        shrink(video, OUT / f"{name}-{motion}.mp4")
+    first = next(iter(read_video(OUT / f"{name}-{motion}.mp4")))
     write_image(OUT / f"{name}-still.jpg", first.rgb, quality=QUALITY)
 
 

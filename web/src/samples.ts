@@ -6,11 +6,19 @@ export const figureSamples = ['woman-in-red', 'man-in-green'] as const;
 export type SampleName = (typeof portraitSamples)[number] | (typeof figureSamples)[number];
 
 export const sampleUrl = (name: SampleName): string => `/samples/${name}.jpg`;
-/** A square for choosing. */
+/** For choosing: a square of a portrait, all of a figure. */
 export const smallUrl = (name: SampleName): string => `/samples/${name}-small.jpg`;
 
-/** As its file is called, and what is made of it: `Grace Hopper.jpg`. */
-const fileName = (name: SampleName): string => `${name.replace(/(^|-)(\w)/g, (_all, dash: string, first: string) => (dash && ' ') + first.toUpperCase())}.jpg`;
+/** As its file is called, and what is made of it. */
+const titles: Record<SampleName, string> = {
+  'grace-hopper': 'Grace Hopper',
+  'eileen-collins': 'Eileen Collins',
+  'painted-man': 'Painted man',
+  'rendered-man': 'Rendered man',
+  'woman-in-red': 'Woman in red',
+  'man-in-green': 'Man in green',
+};
+export const fileName = (name: SampleName): string => `${titles[name]}.jpg`;
 
 /** A sample as a file of the visitor's own would be. */
 export async function sampleFile(name: SampleName): Promise<File> {

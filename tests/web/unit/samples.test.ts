@@ -1,6 +1,6 @@
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { figureSamples, portraitSamples, sampleUrl, smallUrl } from '@web/samples';
+import { fileName, figureSamples, portraitSamples, sampleUrl, smallUrl } from '@web/samples';
 import { describe, expect, it } from 'vitest';
 
 const root = resolve(import.meta.dirname, '../../..');
@@ -15,6 +15,11 @@ describe.each([...portraitSamples, ...figureSamples])('the sample %s', (name) =>
     }
     expect(licences).toContain(`\`${name}.jpg\``);
   });
+});
+
+it('is called as people write it', () => {
+  expect(fileName('grace-hopper')).toBe('Grace Hopper.jpg');
+  expect(fileName('woman-in-red')).toBe('Woman in red.jpg');
 });
 
 it('has no file but what the page shows, and none that is large', () => {
