@@ -1,10 +1,11 @@
 /** Pictures to begin with: one click puts one where a file of one's own would be. */
 
 import { useId, useState } from 'preact/hooks';
-import { isSample, sampleFile, type SampleName, smallUrl } from '../samples';
+import { figureSamples, isSample, sampleFile, type SampleName, smallUrl } from '../samples';
 import { strings } from '../strings';
 
 const words = strings.samples;
+const isFigure = (name: SampleName): boolean => (figureSamples as readonly SampleName[]).includes(name);
 
 interface Props {
   names: readonly SampleName[];
@@ -25,7 +26,7 @@ export function Samples({ names, chosen, onChoose }: Props) {
       <div>
         {names.map((name) => (
           <button key={name} type="button" aria-pressed={isSample(chosen, name)} title={words.names[name]} onClick={() => choose(name)}>
-            <img src={smallUrl(name)} alt={words.names[name]} width="88" height="88" />
+            <img src={smallUrl(name)} alt={words.names[name]} width="88" height={isFigure(name) ? 117 : 88} />
           </button>
         ))}
       </div>

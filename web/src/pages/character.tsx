@@ -6,6 +6,7 @@ import { CharacterFields, type Choices, KeepField, optionsOf, VideoFields } from
 import { Motions } from '../character/motions';
 import { Capture } from '../components/capture';
 import { useDropsAnywhere } from '../components/drops';
+import { Demo } from '../components/demo';
 import { Dropzone } from '../components/dropzone';
 import { Launch } from '../components/launch';
 import { Making } from '../components/making';
@@ -55,6 +56,13 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
             <h1>{words.title}</h1>
             <p>{words.lead}</p>
           </div>
+          <Demo
+            still="/samples/woman-in-red-still.jpg"
+            moving="/samples/woman-in-red-walk.mp4"
+            alt={strings.demo.character}
+            width={400}
+            height={532}
+          />
         </header>
         <div class="beside">
           <section class="panel" aria-labelledby="photo-title">

@@ -21,6 +21,7 @@ export const studio = {
     before: 'The picture',
     after: 'The result',
     portrait: 'The portrait smiling',
+    character: 'The painted woman walking out of her picture',
     play: 'Play animation',
     pause: 'Pause animation',
   },
