@@ -7,6 +7,7 @@ import type { Plugin } from 'vite';
 
 /** What the pages are called in the list beside each of them, in this order; the others are led to from these. */
 const MENU = {
+  page: 'Using the page',
   index: 'Quick start',
   portrait: 'Portraits',
   characters: 'Characters',
@@ -56,9 +57,13 @@ function page(name: string, text: string): string {
 <title>${escaped(title)} · Galatea</title>
 </head>
 <body>
-<header><a href="/">Galatea</a></header>
-<nav aria-label="Help"><ul>${menu}</ul></nav>
+<header>
+<a class="mark" href="/"><img src="/favicon.svg" width="28" height="28" alt="">Galatea</a>
+<a class="topics" href="#topics">All topics</a>
+<a href="/">Back to the page</a>
+</header>
 <main>${rendered(text, up)}</main>
+<nav id="topics" aria-label="Help"><ul>${menu}</ul></nav>
 </body>
 </html>
 `;

@@ -4,7 +4,7 @@ import { strings } from '../strings';
 
 const words = strings.footer;
 const links = [
-  { to: '/help/index.html', text: words.help, own: true },
+  { to: '/help/page.html', text: words.help, own: true },
   { to: '/help/rest.html', text: words.api, own: true },
   { to: '/v1/openapi.json', text: words.openapi, own: true },
   { to: '/help/responsible-use.html', text: words.use, own: false },
