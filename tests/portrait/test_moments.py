@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from benchmarks.moments import Stretch, Tally, is_right, join, judge, labels
 from engine.errors import InputError
+from engine.export.still import THUMBNAIL_BYTES
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.perception.faces import find_faces
@@ -107,6 +108,7 @@ def test_artifacts(joined: tuple[Path, list[Stretch]], tmp_path: Path) -> None:
     assert {one["state"] for one in document["moments"]} == set(STATES)
     for one in document["moments"]:
         assert read_image(tmp_path / one["poster"]).rgb.shape == (256, 256, 3)
+        assert (tmp_path / one["poster"]).stat().st_size <= THUMBNAIL_BYTES, "a shelf shows many of them"
     rest = read_image(tmp_path / "poster.jpg").rgb
     happy = read_image(tmp_path / "happy.jpg").rgb
     quiet, smiling = (measure(find_faces(rgb)[0][None])[0] for rgb in (rest, happy))

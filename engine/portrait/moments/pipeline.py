@@ -11,8 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.still import write_thumbnail
 from engine.kind import Given
-from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.performances import State
@@ -77,7 +77,7 @@ def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
     with run.timed("posters"):
         wanted = {"poster.jpg": moments.rest} | {one.poster: one.apex for one in moments.moments}
         for done, (name, time) in enumerate(wanted.items()):
-            write_image(out / name, picture(driver, time, watched, run.limits))
+            write_thumbnail(out / name, picture(driver, time, watched, run.limits), synthetic=False)
             run.tick((done + 1) / len(wanted))
     write_moments(out / "moments.json", moments, watched)
     seen = float(watched.found.mean())
