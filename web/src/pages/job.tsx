@@ -31,10 +31,12 @@ export function JobPage({ id }: { id: string }) {
 
   if (problem?.status === 404) {
     return (
-      <article class="job">
+      <article class="lost">
         <Heading text={words.notFound} />
         <p>{words.notFoundDetail}</p>
-        <Back to={studioLink} />
+        <a class="button primary" href={studioLink}>
+          {strings.lost.home}
+        </a>
       </article>
     );
   }
