@@ -18,11 +18,13 @@ from galatea import animate
 OUT = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
 MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
 """Performance, and seconds into it."""
-SIDE = 300
+SIDE = 250
+"""Of one frame, pixels; the portrait itself is twice as large."""
+QUALITY = 85
 
 
 def main() -> None:
-    """Write the picture: the performances above, the portrait acting them out below."""
+    """Write the picture: the portrait, and beside it the performances above, the portrait acting them out below."""
     package = find_spec("matplotlib")
     assert package is not None and package.origin is not None
     portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
@@ -36,21 +38,20 @@ def main() -> None:
             index = round(seconds * probe_video(video(name)).fps)
             above.append(_square(_frames(video(name))[index]))
             below.append(_square(made[name][index]))
-        blank = np.full_like(above[0], 255)
-        still = _square(made["happy"][0])
+        still = _square(made["happy"][0], 2 * SIDE)
     OUT.parent.mkdir(parents=True, exist_ok=True)
-    write_image(OUT, np.vstack([np.hstack([blank, *above]), np.hstack([still, *below])]))
+    write_image(OUT, np.hstack([still, np.vstack([np.hstack(above), np.hstack(below)])]), quality=QUALITY)
 
 
 def _frames(path: Path) -> list[NDArray[np.uint8]]:
     return [frame.rgb.copy() for frame in read_video(path)]
 
 
-def _square(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _square(rgb: NDArray[np.uint8], width: int = SIDE) -> NDArray[np.uint8]:
     side = min(rgb.shape[:2])
     left = (rgb.shape[1] - side) // 2
     part = np.ascontiguousarray(rgb[:side, left : left + side])
-    return np.asarray(cv2.resize(part, (SIDE, SIDE), interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(part, (width, width), interpolation=cv2.INTER_AREA), np.uint8)
 
 
 if __name__ == "__main__":
