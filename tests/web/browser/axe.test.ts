@@ -4,8 +4,9 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
+import { isMade, launchIn3D } from './character_kit';
 import { readable } from './axe';
-import { faceless, launch, LONG, open, order, orderCharacter, portrait, samplePerson } from './page';
+import { faceless, LONG, open, order, orderCharacter, portrait, samplePerson } from './page';
 
 let browser: Browser;
 let done: string;
@@ -15,7 +16,7 @@ let nobody: string;
 const folder = mkdtempSync(join(tmpdir(), 'galatea-axe-'));
 const person = join(folder, 'person.png');
 beforeAll(async () => {
-  browser = await launch();
+  browser = await launchIn3D();
   samplePerson(person);
   [done, failed, character, nobody] = await Promise.all([
     order(portrait, 'happy'),
@@ -52,7 +53,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'a character with its corrections': {
     hash: () => `#/jobs/${character}`,
     show: async (page) => {
-      await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+      await isMade(page);
       await page.getByText('Edit and make again').click();
       await page.getByRole('button', { name: 'Paint the mask' }).waitFor();
     },

@@ -4,8 +4,8 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import { complaints, expectComplaint, unanswered } from './complaints';
-import { accepted, again, isOrder, openCorrections, revised } from './character_kit';
-import { ask, faceless, inPython, jobOf, launch, LONG, open, orderCharacter, samplePerson } from './page';
+import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
+import { ask, faceless, inPython, jobOf, LONG, open, orderCharacter, samplePerson } from './page';
 
 interface Made {
   inputs: Record<string, string>;
@@ -48,7 +48,7 @@ let browser: Browser;
 let done: string;
 let engine: [joints: string[], needed: string[], colours: number[][]];
 beforeAll(async () => {
-  browser = await launch();
+  browser = await launchIn3D();
   // all that blocks this process comes first: lines to the service would break meanwhile
   samplePerson(person);
   inPython(TWO, join(folder, 'two.png'));
@@ -77,7 +77,7 @@ async function cancel(page: Page): Promise<void> {
 
 /** The page of the finished character, with its corrections open. */
 async function corrections(id = done, options: Parameters<typeof open>[2] = {}): Promise<Page> {
-  const page = await open(browser, `#/jobs/${id}`, options);
+  const page = await openStill(browser, `#/jobs/${id}`, options);
   await openCorrections(page);
   return page;
 }
@@ -106,7 +106,7 @@ async function drag(page: Page, ...places: [number, number][]): Promise<void> {
 
 describe('ordering a character', () => {
   it('is one of two things to make, each with an address', async () => {
-    const page = await open(browser);
+    const page = await openStill(browser);
     const making = page.getByRole('navigation', { name: 'What to make' });
     await making.getByRole('link', { name: 'Character' }).click();
     await page.getByRole('heading', { name: 'Let a person walk out of their picture' }).waitFor();
@@ -118,7 +118,7 @@ describe('ordering a character', () => {
   });
 
   it('sends the picture, the motion and what was chosen', async () => {
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByText('Dance', { exact: true }).click();
     await page.getByText('Options').click();
@@ -141,7 +141,7 @@ describe('ordering a character', () => {
   });
 
   it('makes the video and the character as chosen, and with what is changed of them next', async () => {
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByText('Options').click();
     await page.getByLabel('Length of the video').fill('1');
@@ -158,6 +158,7 @@ describe('ordering a character', () => {
     await openCorrections(page);
     const { artifacts } = await ask<{ artifacts: Record<string, unknown> }>(`/v1/jobs/${jobOf(page)}`);
     expect(Object.keys(artifacts)).toEqual(expect.arrayContaining(['animation.webm', 'character-lod1.glb']));
+    await page.getByRole('button', { name: 'Video', exact: true }).click();
     const video = page.locator('video');
     await expect.poll(() => video.evaluate((film: HTMLVideoElement) => Math.max(film.videoWidth, film.videoHeight))).toBe(512);
 
@@ -182,7 +183,7 @@ describe('ordering a character', () => {
     const checked = async (): Promise<string> =>
       (await ask<{ check_status: string }>('/v1/motions/arm-swing')).check_status;
     await expect.poll(checked, { timeout: LONG }).toBe('ready');
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.locator('.cards').getByText('Arm swing', { exact: true }).click();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
@@ -194,7 +195,7 @@ describe('ordering a character', () => {
   });
 
   it('refuses what is no motion, and finds the place of one that is dropped anywhere', async () => {
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a BVH/).setInputFiles({ name: 'a.fbx', mimeType: '', buffer: Buffer.from('x') });
     await page.getByText('This is not a motion file.').waitFor();
     await page.evaluate(() => {
@@ -209,7 +210,7 @@ describe('ordering a character', () => {
   it('goes on after the page was loaded anew, on the page of portraits too', async () => {
     const motion = join(folder, 'long walk.bvh');
     writeFileSync(motion, `HIERARCHY\nROOT Hips\n{\n${'  OFFSET 0 0 0\n'.repeat(40_000)}`);
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     const line = await page.context().newCDPSession(page);
     const slow = (uploadThroughput: number) =>
       line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
@@ -233,8 +234,10 @@ describe('ordering a character', () => {
 
 describe('a finished character', () => {
   it('plays, and can be taken along', async () => {
-    const page = await open(browser, `#/jobs/${done}`);
-    await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+    const page = await openStill(browser, `#/jobs/${done}`);
+    await isMade(page);
+    await page.getByRole('button', { name: 'Video', exact: true }).click();
+    await page.getByRole('region', { name: 'Result' }).getByRole('button', { name: 'Play' }).click();
     await page.waitForFunction(() => {
       const video = document.querySelector('video');
       return video && video.videoWidth > 0 && (video.currentTime > 0.2 || video.ended);
@@ -260,14 +263,14 @@ describe('a finished character', () => {
 
   it('is found among the recent ones and in the history', async () => {
     for (const hash of ['#/character', '#/history']) {
-      const page = await open(browser, hash);
+      const page = await openStill(browser, hash);
       const link = page.locator(`a[href="#/jobs/${done}"]`);
       await page.locator('.entry').filter({ has: link }).or(link).locator('img').first().waitFor();
     }
   });
 
   it.each([320, 390, 1440])('fits a window of %i pixels, start page, result and corrections', async (width) => {
-    const page = await open(browser, '#/character', { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
+    const page = await openStill(browser, '#/character', { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     await page.getByText('Options').click();
     expect(await overflow()).toBeLessThanOrEqual(0);
@@ -317,7 +320,7 @@ describe('corrections of a character', () => {
 
     await page.waitForURL((url) => url.hash.startsWith('#/jobs/') && !url.hash.endsWith(done));
     await page.getByText('Motion: Bow', { exact: true }).waitFor();
-    await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+    await isMade(page);
     const job = await ask<Made>(`/v1/jobs/${jobOf(page)}`);
     expect([job.revision_of, job.options.motion, job.options.joints]).toEqual([done, 'bow', joints]);
     const wrist = (await skeleton(jobOf(page))).LeftWrist!.place;
@@ -450,7 +453,7 @@ describe('corrections of a character', () => {
 
   it('are asked for where nobody was found, with a skeleton to begin with', async () => {
     const id = await orderCharacter(faceless, { seconds: 1 });
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('Correct and try again').waitFor();
     await page.getByRole('img', { name: 'The uploaded picture' }).last().waitFor();

@@ -6,8 +6,8 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import { complaints } from './complaints';
-import { accepted, again, openCorrections, revised } from './character_kit';
-import { ask, inPython, jobOf, launch, LONG, open, orderCharacter, samplePerson } from './page';
+import { accepted, again, launchIn3D, openCorrections, openStill, revised } from './character_kit';
+import { ask, inPython, jobOf, LONG, orderCharacter, samplePerson } from './page';
 
 /** A mask of a picture's size, and one that is too small. */
 const MASKS = `
@@ -25,7 +25,7 @@ const [person, mask, small] = ['somebody.png', 'mask.png', 'small.png'].map((nam
 let browser: Browser;
 let done: string;
 beforeAll(async () => {
-  browser = await launch();
+  browser = await launchIn3D();
   samplePerson(person);
   inPython(MASKS, person, mask, small);
   done = await orderCharacter(person, { seconds: 1 });
@@ -42,7 +42,7 @@ afterEach(async () => {
 const file = (page: Page, of: 'Mask' | 'Body parts') => page.getByLabel(`${of} from a file`);
 
 async function corrections(id = done): Promise<Page> {
-  const page = await open(browser, `#/jobs/${id}`);
+  const page = await openStill(browser, `#/jobs/${id}`);
   await openCorrections(page);
   return page;
 }
@@ -91,7 +91,7 @@ describe('a mask from a file', () => {
     body.append('mask', new File([readFileSync(small)], 'small.png'));
     const response = await fetch(`${inject('address')}/v1/jobs/${done}/revisions`, { method: 'POST', body });
     const { id } = (await response.json()) as { id: string };
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('The mask is not as large as the picture', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('make it as large as the picture, 450 x 600').waitFor();
     await file(page, 'Mask').setInputFiles(mask);

@@ -1,17 +1,27 @@
 /** What the tests of characters share: the page of a finished one with its corrections open, and what it sends. */
 
-import type { Page, Request } from 'playwright-core';
+import type { Browser, Page, Request } from 'playwright-core';
 import { expect, inject } from 'vitest';
-import { LONG } from './page';
+import { launch, LONG, open } from './page';
 
 export const again = (page: Page) => page.getByRole('button', { name: 'Make it again' });
 export const isOrder = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
 export const isRevision = (request: Request): boolean =>
   request.method() === 'POST' && request.url().endsWith('/revisions');
 
+/** A browser that shows 3D on any machine. */
+export const launchIn3D = (): Promise<Browser> => launch(['--enable-unsafe-swiftshader']);
+
+/** The page for who wants stillness: the character does not walk, which costs much where there is no graphics card. */
+export const openStill = (browser: Browser, hash = '', options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> =>
+  open(browser, hash, { reducedMotion: 'reduce', ...options });
+
+/** Until the character is made, and shown on its page. */
+export const isMade = (page: Page): Promise<void> => page.getByRole('region', { name: 'In 3D' }).waitFor({ timeout: LONG });
+
 /** Opens the corrections of a character on its page, once it is made. */
 export async function openCorrections(page: Page): Promise<void> {
-  await page.getByRole('region', { name: 'Result' }).waitFor({ timeout: LONG });
+  await isMade(page);
   await page.getByText('Edit and make again').click();
 }
 

@@ -6,8 +6,8 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import { complaints } from './complaints';
-import { accepted, isOrder, openCorrections, revised } from './character_kit';
-import { ask, inPython, launch, LONG, media, open, samplePerson } from './page';
+import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
+import { ask, inPython, LONG, media, samplePerson } from './page';
 
 /** A motion of the tests' own, one that is nobody's, and the names that the engine has. */
 const MADE = `
@@ -46,7 +46,7 @@ const [person, swing, whip] = ['somebody.png', 'swing.bvh', 'whip.bvh'].map((nam
 let browser: Browser;
 let names: [ours: string[], required: string[]];
 beforeAll(async () => {
-  browser = await launch();
+  browser = await launchIn3D();
   samplePerson(person);
   names = JSON.parse(inPython(MADE, swing)) as typeof names;
   writeFileSync(whip, WHIP);
@@ -87,7 +87,7 @@ describe('the joints of a motion', () => {
 
   it('of a file are looked into before anything is ordered; what is as found is not sent', async () => {
     const before = await checks();
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     expect(await table(page).count()).toBe(0); // our own clips know their joints
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByLabel(/Drop a BVH/).setInputFiles(swing);
@@ -112,7 +112,7 @@ describe('the joints of a motion', () => {
 
   it('are shown in the corrections, and of another motion as that has them', async () => {
     const id = await moving(swing);
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await openStill(browser, `#/jobs/${id}`);
     await openCorrections(page);
     await table(page).click();
     await mover(page, 'Right lower leg').waitFor({ timeout: LONG });
@@ -129,7 +129,7 @@ describe('the joints of a motion', () => {
 
   it('come with the animations of a file, of which one can be chosen', async ({ skip }) => {
     const soldier = media('scans3d/body_soldier/soldier.glb') ?? skip('the shared test media are not here');
-    const page = await open(browser, '#/character');
+    const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByLabel(/Drop a BVH/).setInputFiles(soldier);
     await table(page).click();
@@ -148,7 +148,7 @@ describe('the joints of a motion', () => {
 
   it('are asked for where a motion was nobody’s', async () => {
     const id = await moving(whip);
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('The motion is not of a person', { exact: true }).waitFor({ timeout: LONG });
     await wanting(page).filter({ hasText: 'Left thigh' }).waitFor();
     expect(await mover(page, 'Hips').inputValue()).toBe('Hips');
