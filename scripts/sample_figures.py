@@ -237,7 +237,7 @@ def hairline(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
     for _ in range(420):  # short ones, at the forehead
         side = rng.uniform(-1, 1)
         root = np.array([0.3 * side, -0.25 - 0.03 * rng.random() + 0.03 * abs(side)])
-        tip = root + [0.02 * side + rng.normal(0, 0.006), rng.uniform(0.0, 0.035) + 0.02 * side**2]
+        tip = root + np.array([0.02 * side + rng.normal(0, 0.006), rng.uniform(0.0, 0.035) + 0.02 * side**2])
         hair(np.array([root - [0, 0.05], root, tip]), 0.006)
     if figure.locks:
         for side in (-1, 1):
