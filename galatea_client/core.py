@@ -9,6 +9,7 @@ from collections.abc import AsyncGenerator, Callable, Iterable, Mapping, Sequenc
 from contextlib import aclosing
 from datetime import datetime
 from functools import partial
+from math import inf
 from pathlib import Path
 from typing import Any, BinaryIO, Generic, Literal, TypeVar
 
@@ -177,13 +178,11 @@ class Core(Generic[J]):
         self, job_id: str, seconds: float | None = None, progress: Callable[[Progress], None] | None = None
     ) -> J:
         """A job when it has ended well. Raises `JobFailed` if it ended otherwise, `TimeoutError` after `seconds`."""
-        deadline = None if seconds is None else time.monotonic() + seconds
-        async with aclosing(self.follow(job_id)) as events:
+        deadline = inf if seconds is None else time.monotonic() + seconds
+        async with aclosing(follow(self._transport, job_id, deadline=deadline)) as events:
             async for event in events:
                 if progress is not None and isinstance(event, ProgressEvent):
                     progress(event.progress)
-                if deadline is not None and time.monotonic() > deadline:
-                    raise TimeoutError(f"the job {job_id} has not ended within {seconds:g} s")
         job = await self.job(job_id)
         if job.status is not Status.SUCCEEDED:
             raise JobFailed(job)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import AsyncGenerator, AsyncIterable
 from contextlib import aclosing
+from math import inf
 from typing import Any
 
 import httpx
@@ -16,6 +18,8 @@ from galatea_client.transport import Transport
 PAUSE_SECONDS = 1.0
 SILENCE_SECONDS = 60.0
 """The service sends a sign of life every 15 s: a line that is silent for this long is broken."""
+LEAST_SECONDS = 1.0
+"""For an answer to begin, however little time is left."""
 
 
 class StatusEvent(Model):
@@ -44,15 +48,20 @@ class ArtifactEvent(Model):
 Event = StatusEvent | ProgressEvent | ArtifactEvent
 
 
-async def follow(transport: Transport, job_id: str, after: int = 0) -> AsyncGenerator[Event]:
+async def follow(transport: Transport, job_id: str, after: int = 0, deadline: float = inf) -> AsyncGenerator[Event]:
     """The events of a job that came after one, as they come; ends after the final one.
 
     A broken line is taken up again after the last event, as often as it moves on in between.
+
+    Raises
+    ------
+    TimeoutError : the job has not ended by the `deadline` (of `time.monotonic`). It is told then, or at the sign of life
+        that follows.
     """
     failures = 0
     while True:
         try:
-            async with aclosing(_once(transport, job_id, after)) as events:
+            async with aclosing(_once(transport, job_id, after, deadline)) as events:
                 async for event in events:
                     yield event
                     failures, after = 0, event.id
@@ -60,20 +69,22 @@ async def follow(transport: Transport, job_id: str, after: int = 0) -> AsyncGene
                         return
                 return
         except (httpx.TransportError, Unavailable):
+            _require_time(job_id, deadline)
             failures += 1
             if failures > transport.retries:
                 raise
             await transport.line.sleep(PAUSE_SECONDS)
 
 
-async def _once(transport: Transport, job_id: str, after: int) -> AsyncGenerator[Event]:
+async def _once(transport: Transport, job_id: str, after: int, deadline: float) -> AsyncGenerator[Event]:
     headers = {"Accept": "text/event-stream", **({"Last-Event-ID": str(after)} if after else {})}
-    timeout = httpx.Timeout(30.0, read=SILENCE_SECONDS)
+    left = max(deadline - time.monotonic(), LEAST_SECONDS)
+    timeout = httpx.Timeout(30.0, read=min(left, SILENCE_SECONDS))
     async with transport.stream("follow_job", path={"job_id": job_id}, headers=headers, timeout=timeout) as response:
         if response.status_code == 204:
             return
         ended = False
-        async for fields in _parse(transport.line.lines(response)):
+        async for fields in _parse(_until(deadline, job_id, transport.line.lines(response))):
             event = _event(fields, transport.context)
             if event is not None:
                 yield event
@@ -85,6 +96,18 @@ async def _once(transport: Transport, job_id: str, after: int) -> AsyncGenerator
 async def _there(transport: Transport, job_id: str) -> bool:
     """Whether the job is still there: raises `NotFound` where it was erased while it was followed."""
     return (await transport.call("get_job", path={"job_id": job_id})).is_success
+
+
+async def _until(deadline: float, job_id: str, lines: AsyncIterable[str]) -> AsyncGenerator[str]:
+    """The lines that come in time, signs of life among them."""
+    async for line in lines:
+        _require_time(job_id, deadline)
+        yield line
+
+
+def _require_time(job_id: str, deadline: float) -> None:
+    if time.monotonic() > deadline:
+        raise TimeoutError(f"the job {job_id} has not ended within the time that it was given")
 
 
 async def _parse(lines: AsyncIterable[str]) -> AsyncGenerator[dict[str, str]]:

@@ -110,6 +110,19 @@ def test_a_download_that_was_left_is_taken_up_and_a_wrong_one_is_noticed(
     assert job.download("animation.mp4", tmp_path).read_bytes() == WHOLE
 
 
+def test_who_waits_so_long_for_a_job_of_which_nothing_is_heard_is_told_then(galatea: Client, picture: Path) -> None:
+    """The one worker has another job; of this one there is nothing to tell before that has ended."""
+    first = galatea.submit("tiny", {"image": picture}, {"seconds": 20})
+    second = galatea.submit("tiny", {"image": picture})
+    try:
+        with pytest.raises(TimeoutError, match=second.id):
+            second.wait(seconds=1)
+        assert second.refresh().status is Status.QUEUED
+    finally:
+        first.cancel()
+    assert second.wait().status is Status.SUCCEEDED
+
+
 def test_a_submission_whose_answer_was_lost_makes_one_job(running: Running, picture: Path) -> None:
     line = BrokenLine("/v1/jobs", after_bytes=10, times=0)
     with Client(str(running.client.base_url), transport=line) as galatea:
