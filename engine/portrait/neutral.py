@@ -104,7 +104,7 @@ def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chose
     taken = values[[frame]]
     if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
         return NeutralFrame(frame, "like_the_target")
-    return NeutralFrame(frame, "at_rest" if unrest(taken)[0] <= CALM else "nearest_to_rest")
+    return NeutralFrame(frame, "at_rest" if unlike_rest(taken)[0] <= CALM else "nearest_to_rest")
 
 
 def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
@@ -124,18 +124,18 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     about their own by `SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
     for a driver may laugh through most of a clip; likeness alone would not, for people differ.
 
-    `moments.rest.own_rest` looks for what a person comes back to between emotions; here it is a face that anybody would call
-    calm, however rarely this one is.
+    It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
+    the target, who is taken to be at rest. `moments.rest.own_rest` looks for a habit instead, which may be a smile.
     """
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
     apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
     blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
-    cost = unrest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
+    cost = unlike_rest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
     alike = apart[int(np.argmin(cost))] < ALIKE**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
 
-def unrest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how unlike a face at rest faces with these measures (N, 12) are, whoever they are: the mean square of the
     differences, 1 is what people at rest differ by."""
     apart = values - general_rest()

@@ -20,7 +20,8 @@ from engine.performances import video
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.expression import expression, lopsided
 from engine.portrait.measures import MEASURES, general_rest, measure
-from engine.portrait.neutral import choose_neutral_frame, probable_rest, unrest, warn_of_unrest, worn_expression
+from engine.portrait.moments.rest import own_rest
+from engine.portrait.neutral import choose_neutral_frame, probable_rest, unlike_rest, warn_of_unrest, worn_expression
 
 REST = 12
 """The only frame of the clip with a closed mouth, open eyes and a face from the front."""
@@ -226,12 +227,21 @@ def test_rest_is_what_few_frames_show_if_the_others_are_unlike_any_rest(rest: ND
     np.testing.assert_allclose(own, measure(rest[None])[0], atol=0.02)
 
 
-def test_unrest_is_the_mean_square_in_what_people_differ_by(rest: NDArray) -> None:
+def test_rest_is_calm_here_and_a_habit_where_moments_are_cut(rest: NDArray) -> None:
+    """Somebody who smiles a little all the time, but for three frames."""
+    habit = smiling(rest, 0.2)
+    values = measure(np.stack([*[habit] * 60, *[rest] * 3, *[smiling(rest, 1)] * 20])).astype(float)
+    values += np.random.default_rng(3).normal(0, 0.005, values.shape)
+    assert np.abs(probable_rest(values) - measure(rest[None])[0]).max() < 0.02
+    assert np.abs(own_rest(values) - measure(habit[None])[0]).max() < 0.02
+
+
+def test_being_unlike_rest_is_the_mean_square_in_what_people_differ_by(rest: NDArray) -> None:
     calm = measure(rest[None]).astype(float)
     more = calm.copy()
     more[0, MEASURES.index("mouth_wide")] += 0.3  # three standard deviations of one of nine measures
     slope = 2 * 3 * (calm[0, 1] - general_rest()[1]) / 0.1
-    assert unrest(more) - unrest(calm) == pytest.approx((9 + slope) / 9, abs=1e-6)
+    assert unlike_rest(more) - unlike_rest(calm) == pytest.approx((9 + slope) / 9, abs=1e-6)
 
 
 def test_what_a_target_wears_is_beyond_what_people_differ_by(rest: NDArray) -> None:

@@ -28,8 +28,10 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     The frame among whose nearest neighbours it is closest, and which is not unlike a resting face at all: so a smile
     that lasts through half of a clip is not taken for rest, where the other half is quiet.
 
-    The portions were tuned with it: with `neutral.probable_rest` in its place, which finds a calm frame however rare it is,
-    two more of 80 joined performances are found, one is wrong, and one smile in the real clips is missed.
+    It is a habit: a portion ends where the face has come back to what it comes back to, be that a little amused. A calm face
+    that is seen in fewer than `NEIGHBOURS` of the frames is an exception. `neutral.probable_rest` looks for that one, however
+    rare: in this place it finds two more of 80 joined performances, one wrongly, and misses a smile in the real clips
+    (`benchmarks/moments`).
     """
     neighbours = min(max(FEWEST, round(NEIGHBOURS * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
