@@ -66,8 +66,8 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
                 return Rate(float(fps), float((offsets.max() + offsets.min()) / 2 / fps), True)
     span = max(1, min(_SPAN, count // 4))
     quick = span / max(float(np.quantile(times[span:] - times[:-span], _FASTER)), _SHORTEST_STEP)
-    enough = [rate for rate in _USUAL_RATES if rate >= 0.95 * quick] or _USUAL_RATES[-1:]
-    return Rate(float(min(enough, key=lambda rate: abs(rate - quick))), 0.0, False)
+    usual = next((rate for rate in _USUAL_RATES if rate >= 0.95 * quick), _USUAL_RATES[-1])
+    return Rate(float(usual), 0.0, False)
 
 
 def without_echoes(times: np.ndarray) -> np.ndarray:

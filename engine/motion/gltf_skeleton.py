@@ -123,6 +123,7 @@ def _below(tree: NodeTree, nodes: Sequence[int]) -> set[int]:
     return found
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[Array, Array, Array]:
     """Turns (J, 4) and offsets (J, 3) as the nodes have them, in parents' axes, and by what their parents scale (J,).
 
@@ -144,8 +145,7 @@ def at_rest(parts: Any, nodes: list[int], parents: NDArray[np.int32]) -> tuple[A
             own[joint] = np.mean(_numbers(node.scale, 3, (1, 1, 1)))
         if parents[joint] >= 0:
             scales[joint] = scales[parents[joint]] * own[parents[joint]]
-    with np.errstate(over="ignore", invalid="ignore"):
-        offsets = offsets * scales[:, None]
+    offsets = offsets * scales[:, None]
     if not (np.isfinite(turns).all() and np.isfinite(offsets).all()):
         raise InputError("motion_not_finite", "The glTF file holds numbers that are not finite: export it again.")
     return turns, offsets, scales
@@ -197,8 +197,6 @@ def bind_pose(
             if joint >= 0 and invertible and not bound[joint]:
                 bind = np.asarray(np.linalg.inv(matrix), np.float64)
                 world[joint], places[joint], bound[joint] = _turn_and_scale(bind[:3, :3])[0], bind[:3, 3], True
-    if not bound.any():
-        return turns, offsets
     own_turns, own_offsets = turns.copy(), offsets.copy()
     for joint, parent in enumerate(parents):
         if parent >= 0 and bound[joint]:

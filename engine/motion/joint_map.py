@@ -82,7 +82,8 @@ def _completed(parents: NDArray[np.int32], said: dict[str, int], shape: dict[str
 def lost_joints(motion: SourceMotion, mapping: Mapping[str, str]) -> tuple[str, ...]:
     """The joints that turn in the motion and move nothing: they have no counterpart, nor has any joint below them, which would
     carry on their turns."""
-    used = {joint for joint, name in enumerate(motion.names) if name in set(mapping.values())}
+    mapped = set(mapping.values())
+    used = {joint for joint, name in enumerate(motion.names) if name in mapped}
     for joint in range(len(motion.parents) - 1, -1, -1):
         if joint in used and motion.parents[joint] >= 0:
             used.add(int(motion.parents[joint]))

@@ -215,6 +215,9 @@ def lying(how: str) -> bytes:
         case "sparse places that are not in order":
             sparse = {"count": 2, "indices": {"bufferView": file.view(b"\2\1"), "componentType": 5121}}
             accessor["sparse"] = sparse | {"values": {"bufferView": file.view(bytes(32))}}
+        case "a sparse place twice":
+            sparse = {"count": 2, "indices": {"bufferView": file.view(b"\1\1"), "componentType": 5121}}
+            accessor["sparse"] = sparse | {"values": {"bufferView": file.view(bytes(32))}}
         case "more sparse places than there are":
             accessor["sparse"] = {"count": 1 << 40, "indices": {"bufferView": 0}, "values": {"bufferView": 0}}
         case "a rotation of three numbers":
@@ -246,7 +249,8 @@ LYING = [
     "a buffer longer than its bytes", "a view beyond what its buffer says", "a negative count",
     "a count that is no whole number", "a count beyond floats", "a stride that is too small", "a negative stride",
     "a truth for a number", "zeros beyond measure", "a sparse place beyond the accessor",
-    "sparse places that are not in order", "more sparse places than there are", "a rotation of three numbers",
+    "sparse places that are not in order", "a sparse place twice", "more sparse places than there are",
+    "a rotation of three numbers",
     "a place beyond floats", "a scale that is a list", "not JSON's numbers", "a file shorter than it says",
     "a chunk longer than its file", "numbers longer than their file", "a file that says it ends in its JSON",
     "another chunk first",
@@ -258,6 +262,18 @@ def test_files_that_lie_are_refused(how: str) -> None:
     with pytest.raises(InputError) as error:
         read_gltf_motion(lying(how))
     assert error.value.code == ("motion_too_large" if how == "zeros beyond measure" else "motion_unreadable")
+
+
+@pytest.mark.parametrize("scales", [(1, 1), (1e200, 1e200)], ids=["said so", "by its parents' scales"])
+def test_a_place_that_is_not_finite_is_refused(scales: tuple[float, float]) -> None:
+    file = File()
+    for node, scale in zip(file.json["nodes"], scales, strict=False):
+        node["scale"] = [scale] * 3
+    if scales == (1, 1):
+        file.json["nodes"][2]["translation"] = [12345, 0, 0]
+    with pytest.raises(InputError) as error:
+        read_gltf_motion(file.bytes().replace(b"12345", b"1e999"))
+    assert error.value.code == "motion_not_finite"
 
 
 def two(still_first: bool, under_one_root: bool, skinned: bool) -> File:
@@ -290,6 +306,12 @@ def test_of_two_skeletons_the_one_that_moves_is_taken(still_first: bool, under_o
     moved = motion.rotations[:, [motion.names.index(name) for name in own]]
     np.testing.assert_allclose(moved, file.turns, atol=1e-6)
     assert motion.skeletons == ("joint 0",) * (2 if skinned else 1)
+
+
+def test_what_two_skeletons_hang_on_may_turn_and_joins_them_not() -> None:
+    file = two(still_first=False, under_one_root=True, skinned=True)
+    file.json["animations"][0]["channels"].append({"sampler": 0, "target": {"node": 2 * JOINTS, "path": "rotation"}})
+    assert read(file).skeletons == ("joint 0", "joint 0")
 
 
 def test_the_clip_that_is_asked_for_says_whose_skeleton() -> None:
