@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from engine.character.cast_shadow import ground_shadow
 from engine.character.figure import Choice, Figure, find_figure
@@ -18,7 +19,15 @@ from engine.character.motions import motion_in_use
 from engine.character.options import CharacterOptions
 from engine.character.person import Person
 from engine.character.silhouette import Silhouette, cut_out
-from engine.character.stages import build_mesh, fewer_triangles, fill_background, fit_template, label, make_character
+from engine.character.stages import (
+    Background,
+    build_mesh,
+    fewer_triangles,
+    fill_background,
+    fit_template,
+    label,
+    make_character,
+)
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
@@ -34,6 +43,7 @@ from engine.motion.clip import Clip
 from engine.motion.joint_map import lost_warning
 from engine.perception.models import matting_model
 from engine.render.character import film_cast
+from engine.render.ground_shadow import GroundShadow
 from engine.run import Run, write_report
 
 STAGES = {
@@ -94,51 +104,28 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             write_character(out, name, person, options, run)
         write_findings(out, people)
     filled = background()
-    plate = filled.rgb
+    write_image(out / "background.png", filled.rgb)
     shadow = ground_shadow(filled.shadow, people[0].character, people[0].fitted)
-    write_image(out / "background.png", plate)
-    height, width = figure.rgb.shape[:2]
-    camera = picture_camera(people[0].character, people[0].fitted, (height, width))
-    still = cast_of([(person.character, person.start) for person in people])
-    reposed = next(film_cast(still, lambda second: camera, lambda camera: plate, shadow))
-    write_still(out / "posed.png", reposed, run.mark_synthetic)
-    if options.lit:
-        try:
-            write_still(out / "lit.png", lit_picture(still, camera, plate), run.mark_synthetic)
-        except InputError as without_gl:
-            run.warn(without_gl.code, without_gl.detail)
-    size = film_size((width, height), options.size, GIF_SIDE if options.format == "gif" else LONGEST_SIDE)
-    animation = "animation." + {"png": "zip"}.get(options.format, options.format)
-    acting = [(person.character, person.played.film) for person in people]
-    frames = max(len(clip.rotations) for _, clip in acting)
-    with (
-        run.timed("animate"),
-        VideoWriter(out / animation, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
-    ):
-        alone = filled.empty and options.format != "mp4"
-        for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size, alone)):
-            alpha = frame[..., 3] / np.float32(255) if alone else None
-            writer.write(frame[..., :3], alpha)
-            if index == frames // 3:
-                write_still(out / "poster.jpg", over_white(frame[..., :3], alpha), run.mark_synthetic)
-            run.tick((index + 1) / frames)
+    write_stills(out, people, filled.rgb, shadow, options, run)
+    animation, frames = write_film(out, people, filled, shadow, options, run)
     quality = [
         run.stage("measure", measure, one.figure, one.silhouette, one.fitted, one.character, stored=False)
         for one in people
     ]
+    joints = dict(people[0].played.joints)
     write_report(
         out / "report.json",
         "character",
         run,
         inputs={
-            "size": [width, height],
+            "size": [figure.rgb.shape[1], figure.rgb.shape[0]],
             "fps": options.fps,
             "frames": frames,
             "animation": animation,
             "people": np.round(figure.people / np.tile(figure.scale, 2), 1).tolist(),
             "person": options.person_index if options.person_index == "all" else figure.index,
         }
-        | ({"motion_joints": dict(people[0].played.joints)} if people[0].played.joints else {})
+        | ({"motion_joints": joints} if joints else {})
         | ({"motion_skeleton": source.skeletons[0]} if source and source.skeletons else {}),
         quality=quality[0],
         more={
@@ -233,6 +220,56 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
     write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
     if options.vrm:
         write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=(options.vrm_author,)), synthetic=marked)
+
+
+def write_stills(
+    out: Path,
+    people: Sequence[Person],
+    plate: NDArray[np.uint8],
+    shadow: GroundShadow,
+    options: CharacterOptions,
+    run: Run,
+) -> None:
+    """`posed.png`, the picture with everybody in the pose that they start from, and `lit.png` if that is asked for."""
+    first = people[0]
+    camera = picture_camera(first.character, first.fitted, (plate.shape[0], plate.shape[1]))
+    cast = cast_of([(person.character, person.start) for person in people])
+    posed = next(film_cast(cast, lambda second: camera, lambda camera: plate, shadow))
+    write_still(out / "posed.png", posed, run.mark_synthetic)
+    if options.lit:
+        try:
+            write_still(out / "lit.png", lit_picture(cast, camera, plate), run.mark_synthetic)
+        except InputError as without_gl:
+            run.warn(without_gl.code, without_gl.detail)
+
+
+def write_film(
+    out: Path,
+    people: Sequence[Person],
+    background: Background,
+    shadow: GroundShadow,
+    options: CharacterOptions,
+    run: Run,
+) -> tuple[str, int]:
+    """The animation, and `poster.jpg` from its first third; returns the animation's name and how many frames it has."""
+    plate = background.rgb
+    longest = GIF_SIDE if options.format == "gif" else LONGEST_SIDE
+    size = film_size((plate.shape[1], plate.shape[0]), options.size, longest)
+    name = "animation." + {"png": "zip"}.get(options.format, options.format)
+    acting = [(person.character, person.played.film) for person in people]
+    frames = max(len(clip.rotations) for _, clip in acting)
+    alone = background.empty and options.format != "mp4"
+    with (
+        run.timed("animate"),
+        VideoWriter(out / name, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
+    ):
+        for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size, alone)):
+            alpha = frame[..., 3] / np.float32(255) if alone else None
+            writer.write(frame[..., :3], alpha)
+            if index == frames // 3:
+                write_still(out / "poster.jpg", over_white(frame[..., :3], alpha), run.mark_synthetic)
+            run.tick((index + 1) / frames)
+    return name, frames
 
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
