@@ -87,12 +87,12 @@ def _without_common(names: list[list[str]]) -> list[list[str]]:
             word, times = Counter(name[end] for name in names if name).most_common(1)[0]
             if times < COMMON * len(names) or word in _SIDES or word in _KNOWN or _FINGER.fullmatch(word):
                 break
-            alone = [name for name in names if len(name) < 2]
-            if len(alone) == len(names):
-                break
-            names = [
+            shorter = [
                 (name[1:] if end == 0 else name[:-1]) if len(name) > 1 and name[end] == word else name for name in names
             ]
+            if shorter == names:  # it is all that most have
+                break
+            names = shorter
     return names
 
 

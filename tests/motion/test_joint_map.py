@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from humanoids import build_skeleton, told_by
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 from engine.errors import InputError
 from engine.motion import rotation
@@ -18,7 +20,7 @@ from engine.motion.joint_map import lost_joints, lost_warning, map_joints
 from engine.motion.joint_names import match_names, read_name
 from engine.motion.library import built_in
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion
+from engine.motion.source_motion import SourceMotion, unique_names
 
 Media = Callable[[str], Path]
 
@@ -210,6 +212,17 @@ def test_what_all_names_have_in_common_says_nothing(skeleton: Skeleton, habit: s
     }
     others = match_names([*motion.names, "Armature", "Body_mesh", "root", "Camera"])
     assert {ours: others[ours] for ours in others} == match_names(motion.names)
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.lists(st.lists(st.sampled_from(["thing", "rig", "left", "arm", "hips", "7"]), max_size=3), max_size=12))
+@example([["thing", str(k)] for k in range(20)] + [["left", "arm"]])
+@example([["thing"]] * 6 + [["left", "arm"]] * 2)
+def test_names_of_any_kind_come_to_an_end(names: list[list[str]]) -> None:
+    """Also where most have no more than what they have in common, and others have."""
+    joined = unique_names(" ".join(words) for words in names)
+    found = match_names(joined)
+    assert len(set(found.values())) == len(found)
 
 
 def test_what_names_said_is_kept_where_the_shape_has_to_help(skeleton: Skeleton) -> None:
