@@ -39,7 +39,8 @@ from galatea_client.transfer import OnProgress, Upload, fetch, send_file
 from galatea_client.transport import Transport
 
 Source = str | Path | bytes | bytearray | BinaryIO
-"""A file of this machine (a `Path`), what it holds, an open one; or the id of an uploaded one or the name of a driver or a motion (a text)."""
+"""A file of this machine (a `Path`), what it holds, an open one; or the id of an uploaded one or the name of a driver or a
+motion (a text)."""
 
 J = TypeVar("J", bound=JobDocument)
 M = TypeVar("M", bound=Model)

@@ -56,10 +56,11 @@ class Choice:
 
 @dataclass(frozen=True)
 class Figure:
-    """`rgb` (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` (H, W) shows them, if it has one. `points` (33, 2) pixels, `confidence` (33,) and
-    `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether `world` is known. `original`: width and height of
-    the picture as it was given, of which `rgb` may be a smaller copy. `people` (N, 4) are the boxes of all who were found, of whom this is number `index`;
-    `others` (H, W) is where the rest of them surely are. `face` (478, 3): the mesh of the face, as
+    """`rgb` (H, W, 3) the picture's colours, to be seen only as far as its own `alpha` (H, W) shows them, if it has one.
+    `points` (33, 2) pixels, `confidence` (33,) and `world` (33, 3) as in `engine.perception.body.Body`; `spatial`: whether
+    `world` is known. `original`: width and height of the picture as it was given, of which `rgb` may be a smaller copy.
+    `people` (N, 4) are the boxes of all who were found, of whom this is number `index`; `others` (H, W) is where the rest of
+    them surely are. `face` (478, 3): the mesh of the face, as
     `engine.perception.faces.find_faces` gives it; None where none is seen. `hands`: the left and the right, each (21, 3) as
     `engine.perception.hands.Hand` has its points, with their depth; None where it is not seen."""
 

@@ -6,7 +6,8 @@ not fit: `trainedAlgorithmicMedia` is for what a model made that was trained on 
 `algorithmicMedia` is for what mathematics alone made.
 
 The mark lies where each format keeps XMP (XMP Specification part 3): in MP4 in a `uuid` box of its own, in JPEG in an
-APP1 segment, in PNG in an `iTXt` chunk, in WebP in an `XMP ` chunk, in GIF in an application extension; WebM has tags alone. No pixel is changed by it.
+APP1 segment, in PNG in an `iTXt` chunk, in WebP in an `XMP ` chunk, in GIF in an application extension; WebM has tags
+alone. No pixel is changed by it.
 """
 
 from __future__ import annotations

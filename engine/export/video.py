@@ -34,8 +34,9 @@ class VideoWriter:
     path : where the video is to be.
     size : (width, height) in pixels of every frame; even for "mp4" and "webm".
     fps : frames a second.
-    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated), "gif" (which repeats) or "png" (a zip archive of PNGs). All
-        but "mp4" keep alpha where the first frame has it; the first two are BT.709, limited range, and tagged so.
+    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated), "gif" (which repeats) or "png" (a zip
+        archive of PNGs). All but "mp4" keep alpha where the first frame has it; the first two are BT.709, limited range,
+        and tagged so.
     crf : constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none.
     sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
     sound_trim : (start, end) seconds of that file's video that the frames stand for.

@@ -27,7 +27,8 @@ class VideoInfo:
     """What a video is.
 
     `width`, `height` in pixels as shown (upright, pixels square); `fps` frames a second, for a variable rate a usual
-    rate that hardly loses a frame; `frames` how many `read_video` gives of itself (fewer where the file is damaged); `seconds`; `hdr` "hlg", "pq" or None; `codec` by FFmpeg's name.
+    rate that hardly loses a frame; `frames` how many `read_video` gives of itself (fewer where the file is damaged);
+    `seconds`; `hdr` "hlg", "pq" or None; `codec` by FFmpeg's name.
     """
 
     width: int
