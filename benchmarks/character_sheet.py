@@ -21,10 +21,10 @@ from benchmarks.character_steps import Woken, wake
 from benchmarks.tables import machine
 from engine.character.measures import measure, pose
 from engine.character.strokes import LABEL_COLOURS
+from engine.geometry.camera import Camera
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
-from engine.render.camera import Camera
 from engine.render.character import draw_character, prepare
 
 HEIGHT = 420

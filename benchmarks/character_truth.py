@@ -34,7 +34,6 @@ from benchmarks.shared_media import media
 from benchmarks.surface_distance import Distances, align, compare, sample_outside, umeyama
 from benchmarks.tables import machine, table
 from benchmarks.truth_sheet import write_sheet
-from engine.body.skinning import bone_transforms
 from engine.character import layers
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.measures import pose
@@ -45,6 +44,7 @@ from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import SideMaps
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
+from engine.geometry.skinning import bone_transforms
 from engine.media.limits import Limits
 
 HEIGHT = 1.8
@@ -177,7 +177,7 @@ def joint_errors(fitted: FittedBody, truth: NDArray[np.float64]) -> tuple[float,
     """Mean and largest distance, centimetres, of the body's joints (no fingers) after the best similarity."""
     human, fit = load_human(), fitted.fit
     heads = human.space.joints(fit.coefficients)
-    transforms = bone_transforms(human.rig, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.place - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     body = [k for k, name in enumerate(human.rig.names) if not any(finger in name for finger in FINGERS)]
     off = 100 * np.linalg.norm(umeyama(joints[body], truth[body])(joints[body]) - truth[body], axis=1)

@@ -14,11 +14,11 @@ from benchmarks.known_person import Person
 from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN
 from engine.body.shape import Phenotype, load_shape_space
-from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig, load_template
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import triangulate, vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster
-from engine.render.surface import triangulate, vertex_normals
 
 Turns = Mapping[str, tuple[float, float, float]]
 """Degrees about x, y and z, in this order, by joint."""
@@ -117,7 +117,7 @@ def dress(look: Look) -> Person:
     for joint, angles in look.turns.items():
         turns[rig.index(joint)] = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
     heads = skeleton.heads.astype(np.float64)
-    transforms = bone_transforms(rig, heads, turns)
+    transforms = bone_transforms(rig.parents, heads, turns)
     posed = skin(rest, rig.bones, rig.weights, transforms)
     posed = posed + 0.01 * away[:, None] * vertex_normals(posed, triangles)
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]

@@ -9,12 +9,12 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from engine.geometry.camera import Camera
+from engine.geometry.surface import vertex_normals
 from engine.media.image import read_image
 from engine.render.attributes import interpolate, sample_texture
-from engine.render.camera import Camera
 from engine.render.film import shrink
 from engine.render.rasteriser import rasterise
-from engine.render.surface import vertex_normals
 
 SUPERSAMPLING = 3
 DISTANCE = 8.0

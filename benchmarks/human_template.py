@@ -18,8 +18,8 @@ from engine.body.body_space import load_body_space
 from engine.body.cache import FORMAT, cache_folder
 from engine.body.rig import HUMAN
 from engine.body.shape import load_shape_space
-from engine.body.skinning import pose_transforms, skin
 from engine.body.template import load_rig, load_template
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.library import built_in
 
 FRAMES, REPEATS = 100, 5

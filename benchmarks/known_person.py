@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from engine.geometry.camera import Camera
+from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
-from engine.render.camera import Camera
 from engine.render.film import shrink
 from engine.render.rasteriser import Raster, rasterise
-from engine.render.surface import vertex_normals
 
 SUPERSAMPLING = 3
 SIZE = (960, 720)

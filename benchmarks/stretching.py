@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.skinning import pose_transforms, skin
 from engine.character.measures import pose
 from engine.character.rigging import Character
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.library import built_in
 
 TIMES = 3.0

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
-from engine.render.surface import vertex_normals
 
 if TYPE_CHECKING:
     from benchmarks.character_truth import Result

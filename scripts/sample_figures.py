@@ -16,7 +16,7 @@ from benchmarks.known_person import KnownPicture, Person, draw_into
 from engine.body.rig import HUMAN
 from engine.body.shape import Phenotype
 from engine.body.template import load_rig, load_template
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
 
 Colour = tuple[int, int, int]
 SIZE = (1920, 1440)

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body import load_template
-from engine.body.skinning import bone_transforms, skin
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import triangulate
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
-from engine.render.surface import triangulate
 
 
 def template_character(subdivided: bool = False, texture_size: int = 512) -> SkinnedMesh:
@@ -24,7 +24,7 @@ def template_character(subdivided: bool = False, texture_size: int = 512) -> Ski
     for side, out in (("Left", 1.0), ("Right", -1.0)):
         arm = heads[rig.index(f"{side}Hand")] - heads[rig.index(f"{side}Arm")]
         turns[rig.index(f"{side}Arm")] = Rotation.align_vectors([[out, 0, 0]], [arm])[0].as_matrix()
-    transforms = bone_transforms(rig, heads, turns)
+    transforms = bone_transforms(rig.parents, heads, turns)
     rest = skin(template.vertices, rig.bones, rig.weights, transforms)
     joints = np.einsum("bij,bj->bi", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     quads = template.quads[slice(*template.parts["body"])]

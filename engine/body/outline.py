@@ -18,7 +18,7 @@ from scipy.ndimage import gaussian_filter1d
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.render.surface import triangulate, vertex_normals
+from engine.geometry.surface import triangulate, vertex_normals
 
 POINTS = 240
 """Points along an outline."""

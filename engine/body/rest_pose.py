@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.rig import Rig
-from engine.body.skinning import bone_transforms, skin
+from engine.geometry.skinning import bone_transforms, skin
 from engine.motion.skeleton import Skeleton
 
 STRAIGHT: dict[str, tuple[float, float, float]] = {
@@ -38,7 +38,7 @@ def t_pose(
         elif parent >= 0 and name not in UNTURNED:
             turns[bone] = turns[parent]
     own = np.stack([turns[p].T @ turns[b] if p >= 0 else turns[b] for b, p in enumerate(rig.parents)])
-    transforms = bone_transforms(rig, heads, own)
+    transforms = bone_transforms(rig.parents, heads, own)
     posed = skin(vertices, rig.bones, rig.weights, transforms)
     placed = [np.einsum("bij,bj->bi", transforms[:, :3, :3], ends) + transforms[:, :3, 3] for ends in (heads, tails)]
     root = placed[0][0]

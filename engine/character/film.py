@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from engine.character.measures import picture_camera
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
+from engine.geometry.camera import Camera
 from engine.imaging.resample import even_size
 from engine.motion.clip import Clip
 from engine.render.backdrop import Backdrop
-from engine.render.camera import Camera
 from engine.render.camera_moves import Move, camera_at
 from engine.render.character import Actor, film_cast, prepare
 from engine.render.ground_shadow import GroundShadow

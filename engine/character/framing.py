@@ -15,13 +15,13 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.skinning import pose_transforms, skin
 from engine.character.rigging import Character
+from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
 from engine.motion.confine import Room, confined
 from engine.motion.sole import leg_length
-from engine.render.camera import Camera
 
 Array = NDArray[np.float64]
 

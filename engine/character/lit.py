@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.skinning import pose_transforms, skin
 from engine.export.lit_preview import LitPreview
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms, skin
 from engine.render.character import Actor
 
 

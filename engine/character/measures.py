@@ -7,14 +7,14 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
-from engine.body.skinning import pose_transforms, skin
 from engine.character.figure import Figure
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
 from engine.character.template_fit import FittedBody
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
-from engine.render.camera import Camera
 from engine.render.rasteriser import SUBPIXELS, rasterise
 
 

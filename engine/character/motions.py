@@ -13,6 +13,7 @@ from engine.character.framing import kept_in_frame
 from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
+from engine.geometry.camera import Camera
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep, travel
@@ -22,7 +23,6 @@ from engine.motion.retarget import retarget
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
 from engine.motion.step_out import step_out
-from engine.render.camera import Camera
 
 TRAVELS = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from engine.body.skinning import pose_transforms, skin
 from engine.character.measures import pose
 from engine.character.rigging import Character, at_rest
 from engine.character.sheets import strongest
 from engine.compiled import njit
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
 from engine.motion.library import CLIPS, built_in
 

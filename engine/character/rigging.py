@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import BodySpace
-from engine.body.skinning import pose_transforms
 from engine.character.picture_space import PictureCamera
 from engine.character.sheets import ClosedMesh
 from engine.character.soles import with_soles
 from engine.character.template_fit import FittedBody
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 

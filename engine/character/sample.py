@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.skinning import bone_transforms, skin
 from engine.character.template_fit import load_human
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
-from engine.render.camera import Camera
 from engine.render.rasteriser import rasterise
-from engine.render.surface import vertex_normals
 
 SKIN, SHIRT, TROUSERS, SHOES = (224, 172, 140), (70, 110, 170), (60, 58, 66), (120, 60, 40)
 WALL, FLOOR = (128, 138, 148), (92, 84, 78)
@@ -27,7 +27,7 @@ def sample_picture(height: int = 600) -> NDArray[np.uint8]:
     turns = np.broadcast_to(np.eye(3), (len(human.rig.names), 3, 3)).copy()
     for side, sign in (("Left", -1), ("Right", 1)):
         turns[human.rig.index(f"{side}Arm")] = Rotation.from_euler("z", sign * ARMS_DOWN).as_matrix()
-    body = skin(rest, human.rig.bones, human.rig.weights, bone_transforms(human.rig, heads, turns))
+    body = skin(rest, human.rig.bones, human.rig.weights, bone_transforms(human.rig.parents, heads, turns))
     size = (height, 3 * height // 4)
     camera = Camera((0.0, 0.95, 4.4), 1.6 * height, ((size[1] - 1) / 2, (height - 1) / 2), size)
     raster = rasterise(camera.project(body), human.triangles, size, perspective=True)

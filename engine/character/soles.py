@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.render.surface import vertex_normals
+from engine.geometry.surface import vertex_normals
 
 DOWN = -0.35
 """The upward part of the normal, at most, of what is an underside."""

@@ -18,14 +18,14 @@ from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
 from engine.body.outline import Skin, skin_model, trace
 from engine.body.rig import Rig
-from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
 from engine.character.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand
 from engine.character.figure import Figure
 from engine.character.picture_space import PictureCamera
 from engine.character.posed_template import PosedTemplate
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import triangulate
 from engine.perception.body import LANDMARKS
-from engine.render.surface import triangulate
 
 RIG = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE` would move nothing that opens or turns."""
@@ -137,7 +137,7 @@ def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> Po
     """The fitted template in the picture space of a camera: that of the picture, or of a grid on it."""
     fit = fitted.fit
     rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)
-    transforms = bone_transforms(human.rig, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.place - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     vertices = skin(rest, human.rig.bones, human.rig.weights, transforms)
     return PosedTemplate(

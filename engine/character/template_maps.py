@@ -12,9 +12,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
-from engine.render.surface import vertex_normals
 
 Side = Literal["front", "back"]
 

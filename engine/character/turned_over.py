@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from engine.body.skinning import pose_transforms
 from engine.character.measures import pose, projected_areas
 from engine.character.rigging import Character, at_rest
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms
 from engine.geometry.welding import weld
-from engine.render.camera import Camera
 from engine.render.rasteriser import rasterise
 
 ROUNDS = 6

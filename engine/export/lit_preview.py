@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.render.camera import Camera
+from engine.geometry.surface import vertex_normals
 from engine.render.character import Drawn
-from engine.render.surface import vertex_normals
 
 NEAR, FAR = 0.05, 100.0
 """Metres from the camera between which things are seen."""

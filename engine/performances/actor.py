@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import vertex_mask
+from engine.geometry.surface import triangulate, vertex_normals
 from engine.performances import chart
 from engine.performances.brows import Rooted, grow_brows, grow_lashes, plant
 from engine.performances.eyes import Eyeball, build_eyeball
@@ -21,7 +22,6 @@ from engine.performances.skin import Skin, paint_skin
 from engine.performances.teeth import Arch, Dentition, build_dentition
 from engine.performances.wrinkles import Wrinkles, carve, pressed
 from engine.render.light import Lamps
-from engine.render.surface import triangulate, vertex_normals
 
 
 class Part(IntEnum):

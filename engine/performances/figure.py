@@ -12,12 +12,12 @@ from scipy.spatial.transform import Rotation
 
 from engine.body import Phenotype, Template, load_shape_space, load_template
 from engine.body.rig import Rig
-from engine.body.skinning import bone_transforms, skin
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import triangulate
 from engine.performances.eyes import RADIUS, build_eyeball, profile
 from engine.performances.lids import Lids, build_lids
-from engine.render.surface import triangulate
 
 PERSON = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
 
@@ -144,7 +144,7 @@ def pose_figure(figure: Figure, pose: Pose) -> Posed:
     moved = figure.rest + figure.template.face_units.displacement(units)
     shut = [lids.close(moved, pose.units.get(name, 0.0)) for lids, name in zip(figure.lids, BLINKS, strict=True)]
     moved = moved + shut[0] + shut[1]
-    transforms = bone_transforms(figure.rig, figure.heads, _rotations(figure.rig, pose), np.asarray(pose.lean))
+    transforms = bone_transforms(figure.rig.parents, figure.heads, _rotations(figure.rig, pose), np.asarray(pose.lean))
     cage = skin(moved, figure.rig.bones, figure.rig.weights, transforms)
     head = transforms[figure.rig.index("head")]
     teeth = figure.template.vertices_of("lower_teeth")
@@ -187,7 +187,7 @@ def _arms_down(rig: Rig, shape: NDArray[np.float32]) -> NDArray[np.float32]:
     for side, sign in (("L", 1), ("R", -1)):
         for bone, angle in (("clavicle", -5), ("upperarm01", -34)):
             turns[rig.index(f"{bone}.{side}")] = Rotation.from_euler("z", sign * angle, degrees=True).as_matrix()
-    return skin(shape, rig.bones, rig.weights, bone_transforms(rig, rig.joints(shape)[0], turns))
+    return skin(shape, rig.bones, rig.weights, bone_transforms(rig.parents, rig.joints(shape)[0], turns))
 
 
 def _compact(points: sp.csr_array, quads: NDArray[np.int32]) -> tuple[sp.csr_array, NDArray[np.int32]]:

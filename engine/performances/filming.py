@@ -18,10 +18,10 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.geometry.camera import Camera
 from engine.performances.actor import Actor, Scene, stage
 from engine.performances.figure import Pose
 from engine.performances.studio import CAMERA, SAMPLES, Exposure, backdrop, expose, finish, parts_seen
-from engine.render.camera import Camera
 from engine.render.rasteriser import Raster, rasterise
 
 FURTHEST_APART = 14

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.surface import chart_tangents
 from engine.performances import chart
 from engine.performances.actor import Actor, Part, Scene
 from engine.performances.eyes import colour_of_eye
 from engine.performances.shirt import BAND
 from engine.performances.sight import Seen, unit
 from engine.render.attributes import interpolate, sample_texture
-from engine.render.surface import bump, chart_tangents
+from engine.render.bump import bump
 
 
 @dataclass(frozen=True)

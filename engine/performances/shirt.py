@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.surface import triangulate
 from engine.performances.figure import Figure
 from engine.render.rasteriser import rasterise
-from engine.render.surface import triangulate
 
 AXIS = 0.012
 """z of the vertical axis around which the neckline runs, metres."""

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.camera import Camera
 from engine.performances.actor import Scene
 from engine.render.attributes import interpolate
-from engine.render.camera import Camera
 from engine.render.rasteriser import Raster, rasterise
 
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.camera import Camera
 from engine.performances.actor import Actor, Scene
 from engine.performances.lighting import bounce, catchlights, lamps
 from engine.performances.matter import materials
 from engine.performances.sight import look, unit
-from engine.render.camera import Camera
 from engine.render.film import develop, shrink
 from engine.render.light import Lamps
 from engine.render.rasteriser import Raster

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:  # a job kind's options name the moves, and stay light
-    from engine.render.camera import Camera
+    from engine.geometry.camera import Camera
 
 Move = Literal["fixed", "orbit", "parallax"]
 

@@ -16,19 +16,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.skinning import pose_transforms, skin
 from engine.compiled import njit
+from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.surface import vertex_normals
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
-from engine.render.camera import Camera
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
 from engine.render.multisampling import choose, draw_samples, sample_offsets
 from engine.render.outline import edge_table, facings, mark_outline
 from engine.render.rasteriser import SUBPIXELS, draw_into
 from engine.render.scratch import Scratch
-from engine.render.surface import vertex_normals
 from engine.render.texturing import colour_inside, colour_samples, corner_table
 
 SAMPLES = 3

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
 from engine.render.rasteriser import draw_into
 
 CELL = 0.02

@@ -12,9 +12,9 @@ from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Fit, Seen, fit_body
 from engine.body.landmarks import landmark_model
 from engine.body.outline import Outline, meet, skin_model, trace
 from engine.body.rig import HUMAN
-from engine.body.skinning import bone_transforms, skin
 from engine.body.template import load_rig
-from engine.render.surface import triangulate
+from engine.geometry.skinning import bone_transforms, skin
+from engine.geometry.surface import triangulate
 
 TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN)
 MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_model(TEMPLATE, SPACE, BONES)
@@ -50,7 +50,9 @@ def mask_of(truth: np.ndarray) -> np.ndarray:
     rotations = np.broadcast_to(np.eye(3), (len(SPACE.names), 3, 3)).copy()
     rotations[[SPACE.names.index(name) for name in TURNED]] = rotation_matrices(turns)
     heads = SPACE.joints(coefficients)
-    transforms = bone_transforms(BONES, heads, rotations.astype(np.float32), (truth[:3] - heads[0]).astype(np.float32))
+    transforms = bone_transforms(
+        BONES.parents, heads, rotations.astype(np.float32), (truth[:3] - heads[0]).astype(np.float32)
+    )
     at = skin(SPACE.vertices(coefficients), BONES.bones, BONES.weights, transforms)
     pixels = at[:, :2] * [FOCAL, -FOCAL] / -at[:, 2:] + CENTRE
     mask = np.zeros(SIZE, np.uint8)

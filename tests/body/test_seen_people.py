@@ -12,11 +12,11 @@ from trimesh.registration import procrustes
 from benchmarks.dressed_template import LOOKS, dress
 from benchmarks.known_person import SIZE, KnownPicture, draw_into
 from benchmarks.known_places import places
-from engine.body.skinning import bone_transforms
 from engine.character.figure import Choice, find_figure
 from engine.character.silhouette import cut_out
 from engine.character.stages import fit_template
 from engine.character.template_fit import load_human
+from engine.geometry.skinning import bone_transforms
 from engine.media.limits import Limits
 
 SEEN = LOOKS[1:4]
@@ -34,7 +34,7 @@ def fitted_joints(known: KnownPicture, folder: Path) -> NDArray[np.float64]:
     silhouette = cut_out(figure, None, (), Limits(), None, None, lambda code, message: None)
     fit = fit_template(figure, silhouette).fit
     heads = HUMAN.space.joints(fit.coefficients)
-    transforms = bone_transforms(HUMAN.rig, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(HUMAN.rig.parents, heads, fit.rotations, fit.place - heads[0])
     return np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
 
 

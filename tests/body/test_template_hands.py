@@ -11,8 +11,8 @@ from engine.body.body_space import BodySpace, load_body_space
 from engine.body.hand_fitting import HandFit, Standpoint, fit_hand, hand_length
 from engine.body.hands import FINGERS, HandModel, chain, hand_model
 from engine.body.rig import HUMAN
-from engine.body.skinning import bone_transforms
 from engine.body.template import load_rig
+from engine.geometry.skinning import bone_transforms
 from engine.perception.hands import JOINTS
 
 FOCAL, CENTRE, WRIST = 2000.0, (500.0, 500.0), np.array([0.4, 0.1, -3.5])
@@ -35,7 +35,7 @@ def bent(model: HandModel, space: BodySpace, turns: dict[str, Rotation], arm: np
     own = np.tile(np.eye(3), (len(rig.names), 1, 1))
     for name, turn in turns.items():
         own[space.names.index(f"{model.side}Hand{name}")] = turn.as_matrix()
-    transforms = bone_transforms(rig, space.joint_mean, own)[model.joints]
+    transforms = bone_transforms(rig.parents, space.joint_mean, own)[model.joints]
     places = np.einsum("nij,nj->ni", transforms[:, :3, :3], model.mean) + transforms[:, :3, 3]
     return (places - places[0]) @ arm.T
 

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from template_character import still, template_character
 
-from engine.body.skinning import pose_transforms, skin
 from engine.character.film import moving_camera
 from engine.character.motions import choose_motion
 from engine.character.options import MOTIONS
 from engine.character.rigging import Character
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion import rotation
 from engine.motion.edit import repeated
 from engine.motion.foot_contact import sole_places
@@ -20,7 +21,6 @@ from engine.motion.library import built_in
 from engine.motion.rotation import about
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
-from engine.render.camera import Camera
 from engine.render.camera_moves import MOVES, Move, camera_at
 
 DISTANCE = 4.0

@@ -12,7 +12,6 @@ from scipy.spatial.transform import Rotation
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
 from engine.body.parts import PARTS
-from engine.body.skinning import pose_transforms, skin
 from engine.character.labels import (
     hair_beside_arms,
     refined_labels,
@@ -26,6 +25,7 @@ from engine.character.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed
 from engine.imaging.nearest import continued_colours
 from engine.motion.kinematics import joint_places

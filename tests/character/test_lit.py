@@ -11,7 +11,7 @@ from template_character import still, template_character
 
 from engine.character.lit import lit_picture
 from engine.errors import InputError
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
 from engine.render.character import Actor, film_cast, prepare
 
 SIZE = (300, 320)

@@ -12,6 +12,7 @@ from template_character import still, template_character
 from engine.character.motions import Played, choose_motion
 from engine.character.pipeline import MOST_BYTES, write_small_glb
 from engine.character.rigging import Character
+from engine.geometry.camera import Camera
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import travel
@@ -19,7 +20,6 @@ from engine.motion.foot_contact import sinking, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS
 from engine.motion.skeleton import Skeleton
-from engine.render.camera import Camera
 from engine.run import Run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "export"))

@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 from template_character import template_character
 
 from benchmarks.stretching import stretched
-from engine.body.skinning import pose_transforms, skin
 from engine.character.measures import pose
 from engine.character.relaxing import _evened, _Surface, relaxed
 from engine.character.rigging import Character, at_rest
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
 

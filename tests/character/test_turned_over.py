@@ -12,10 +12,10 @@ from template_character import template_character
 from engine.character.measures import pose
 from engine.character.rigging import Character
 from engine.character.turned_over import _backs, without_backs_in_view
+from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import weld
 from engine.motion.clip import Clip
-from engine.render.camera import Camera
 
 CAMERA = Camera((0.0, 1.0, 4.0), 700.0, (200.0, 300.0), (600, 400))
 

@@ -15,12 +15,12 @@ from benchmarks.written_character import outline, read_written
 from engine.character.measures import _odd_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError
+from engine.geometry.camera import Camera
 from engine.geometry.welding import weld
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation
 from engine.motion.gltf_motion import read_gltf_motion
-from engine.render.camera import Camera
 from engine.render.character import draw_character, prepare
 from engine.run import Progress
 from galatea import wake_up

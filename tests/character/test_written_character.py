@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from template_character import template_character
 
 from benchmarks.written_character import outline, read_written
-from engine.body.skinning import pose_transforms, skin
 from engine.export.glb import write_glb
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
 
 SQUARE = np.array([[0, 1, 2], [0, 2, 3]])

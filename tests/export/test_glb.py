@@ -11,9 +11,9 @@ from glb_reader import Glb, validate
 from PIL import Image
 from template_character import still, template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
 from engine.export.glb import QUALITY, TIGHTER, Written, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.edit import travel
 from engine.motion.library import CLIPS, built_in
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from template_character import template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
 from engine.errors import InputError
 from engine.export.lit_preview import LitPreview
-from engine.render.camera import Camera
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms, skin
 from engine.render.character import draw_character, prepare
 
 SIZE = (480, 360)

@@ -9,9 +9,9 @@ from PIL import Image
 from pxr import Usd, UsdGeom, UsdShade, UsdSkel, UsdValidation
 from template_character import still, template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
 from engine.export.usdz import joint_paths, write_usdz
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 
 
 @pytest.fixture(scope="module")

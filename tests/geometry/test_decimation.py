@@ -5,12 +5,12 @@ import pytest
 import trimesh
 from template_character import template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
+from engine.geometry.camera import Camera
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
 from engine.motion.skeleton import Skeleton
-from engine.render.camera import Camera
 from engine.render.rasteriser import rasterise
 
 TWO = Skeleton(("Hips", "Spine"), np.array([-1, 0], np.int32), np.array([[0, 0, 0], [0, 0.5, 0]], np.float32))

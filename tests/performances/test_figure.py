@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from engine.geometry.surface import triangulate
 from engine.performances.eyes import CORNEA, IRIS, RADIUS, build_eyeball, colour_of_eye, profile
 from engine.performances.figure import Figure, Pose, build_figure, pose_figure, rigid_motion
 from engine.render.rasteriser import rasterise
-from engine.render.surface import triangulate
 
 SMILE = {f"{unit}{side}": 0.8 for unit in ("mouthSmile", "cheekSquint") for side in ("Left", "Right")}
 WIDE = {"eyeWideLeft": 0.85, "eyeWideRight": 0.85, "browInnerUp": 1.0}

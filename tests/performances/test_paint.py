@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from engine.geometry.surface import triangulate, vertex_normals
 from engine.performances import chart
 from engine.performances.actor import LOWER_ARCH, UPPER_ARCH
 from engine.performances.figure import Figure, build_figure
@@ -11,7 +12,6 @@ from engine.performances.shirt import drape, sew_shirt
 from engine.performances.skin import Skin, paint_skin
 from engine.performances.teeth import build_dentition
 from engine.performances.wrinkles import PRESSED_BY, Wrinkles, carve, pressed
-from engine.render.surface import triangulate, vertex_normals
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.ndimage import center_of_mass
 
+from engine.geometry.camera import Camera
 from engine.render.backdrop import Backdrop
-from engine.render.camera import Camera
 from engine.render.camera_moves import PERIOD, camera_at
 
 CAMERA = Camera((0, 0, 0), 500, (199.5, 129.5), (300, 400)).aimed((0, 1.4, 3), (0, 0.8, 0))

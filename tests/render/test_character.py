@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from template_character import template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
+from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 from engine.render.backdrop import Backdrop
-from engine.render.camera import Camera
 from engine.render.camera_moves import camera_at
 from engine.render.character import LIGHT, SAMPLES, Actor, draw_character, film_cast, prepare
 from engine.render.ground_shadow import CELL, GroundShadow, shadow_map

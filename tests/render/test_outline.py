@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from template_character import template_character, walk
 
-from engine.body.skinning import pose_transforms, skin
+from engine.geometry.camera import Camera
+from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
-from engine.render.camera import Camera
 from engine.render.multisampling import choose, draw_samples, sample_offsets
 from engine.render.outline import edge_table, facings, mark_outline
 from engine.render.rasteriser import SUBPIXELS, draw_into, rasterise

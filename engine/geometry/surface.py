@@ -1,4 +1,4 @@
-"""Geometry of surfaces that renderers ask for: normals, and the directions in which a chart runs."""
+"""Surfaces made of triangles: their normals, and the directions in which a chart runs on them."""
 
 from __future__ import annotations
 
@@ -31,22 +31,6 @@ def chart_tangents(
         np.ascontiguousarray(chart, np.float32),
         np.ascontiguousarray(triangles, np.int32),
     )
-
-
-def bump(
-    normals: NDArray[np.floating], tangents: NDArray[np.floating], slopes: NDArray[np.floating]
-) -> NDArray[np.float32]:
-    """Unit normals (N, 3) of a surface raised by a height over its chart.
-
-    `tangents` (N, 6) are dP/du and dP/dv, `slopes` (N, 2) dh/du and dh/dv, heights in the unit of P.
-    Source: J. Blinn, Simulation of wrinkled surfaces, SIGGRAPH 1978.
-    """
-    along_u, along_v = tangents[:, :3], tangents[:, 3:]
-    from_u, from_v = np.cross(along_v, normals), np.cross(normals, along_u)
-    determinant = (along_u * from_u).sum(1, keepdims=True)
-    turn = np.where(determinant < 0, -1.0, 1.0)
-    raised = np.abs(determinant) * normals - turn * (slopes[:, :1] * from_u + slopes[:, 1:] * from_v)
-    return (raised / np.maximum(np.linalg.norm(raised, axis=1, keepdims=True), 1e-12)).astype(np.float32)
 
 
 @njit()

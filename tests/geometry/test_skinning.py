@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from engine.body.skinning import pose_transforms, skin
+from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.skeleton import Skeleton
 
 ARM = Skeleton(

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.rig import Rig
 from engine.compiled import njit
 from engine.motion import rotation
 from engine.motion.kinematics import place_joints, world_rotations
@@ -17,7 +16,7 @@ from engine.motion.skeleton import Skeleton
 
 
 def bone_transforms(
-    rig: Rig,
+    parents: NDArray[np.integer],
     heads: NDArray[np.floating],
     rotations: NDArray[np.floating],
     root_offset: NDArray[np.floating] | None = None,
@@ -26,12 +25,13 @@ def bone_transforms(
 
     Parameters
     ----------
-    heads : (B, 3) joints of the rest pose (`Rig.joints`).
+    parents : (B,) each bone's parent, before it; -1 for the root.
+    heads : (B, 3) joints of the rest pose, metres.
     rotations : (B, 3, 3) each bone's own turn about its head, in the axes of the world at rest.
     root_offset : (3,) metres by which the root moves.
     """
-    world = np.zeros((len(rig.names), 4, 4))
-    for bone, parent in enumerate(rig.parents):
+    world = np.zeros((len(parents), 4, 4))
+    for bone, parent in enumerate(parents):
         own = np.eye(4)
         own[:3, :3] = rotations[bone]
         own[:3, 3] = heads[bone] - rotations[bone] @ heads[bone]
