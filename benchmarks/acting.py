@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.media.image import write_image
 from engine.media.limits import Limits
+from engine.portrait.acting_options import ActingOptions
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.fine_details import RatioImages, keep_ratio_images
 from engine.portrait.layers import Layers, separate_layers
@@ -20,7 +21,8 @@ from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer, draw_in_order
 from engine.portrait.rig import Rig, rig_target
 from engine.portrait.second_look import glance_at_driver, look_again
-from engine.portrait.target import TargetFace, find_target_face
+from engine.portrait.target import find_target_face
+from engine.portrait.target_face import TargetFace
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Acting:
     target: TargetFace
     layers: Layers
     rig: Rig
-    options: PortraitOptions
+    options: ActingOptions
     looked: bool = True
     """Whether a second look corrects it."""
 

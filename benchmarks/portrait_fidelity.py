@@ -85,7 +85,7 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
             kept = true[::STEP]
             for label, parts, space in ABLATIONS:
                 rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING.get(label, "confidence"))
-                options = acting.options.model_copy(update=space)
+                options = replace(acting.options, **space)
                 varied = replace(acting, rig=rig, options=options, looked=label == ALL)
                 made = list(varied.frames(parts, refined=label != FULL, step=STEP))
                 regions = _regional(kept, made)
@@ -107,7 +107,7 @@ def pair(pictures: Path | None) -> None:
             options = PortraitOptions(neutral_frame=0)
             target, *ready = read_target(Path(folder), neutral, options)
             track, chosen = read_driver(write_clip(Path(folder) / "driver.mp4", driver), target, 0)
-            made = list(Acting(track, chosen, target, *ready, options).frames())[-1]
+            made = list(Acting(track, chosen, target, *ready, options.acting()).frames())[-1]
         kept = [neutral, smile]
         still, ours = (_measures(kept, [neutral, frame], last=True) for frame in (neutral, made))
         rows.append([label, *_shown([*still, *ours], (4, 2, 4, 4, 2, 4))])
@@ -126,11 +126,11 @@ def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[n
     options = PortraitOptions(neutral_frame=0, size=(width, height) if max(width, height) > 64 else None)
     target, *ready = read_target(folder, true[0], options)
     track, neutral = read_driver(write_clip(folder / "disguised.mp4", disguised), target, 0)
-    acting = Acting(track, neutral, target, *ready, options)
+    acting = Acting(track, neutral, target, *ready, options.acting())
     if not with_self:
         return true, acting, acting
     track, neutral = read_driver(write_clip(folder / "itself.mp4", true), target, 0)
-    return true, acting, Acting(track, neutral, target, *ready, options)
+    return true, acting, Acting(track, neutral, target, *ready, options.acting())
 
 
 def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:

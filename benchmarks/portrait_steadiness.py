@@ -47,7 +47,7 @@ def stillness(names: Sequence[str]) -> None:
                 for _ in range(REPEATS)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
-            frames = list(Acting(track, neutral, target, *ready, options).frames())
+            frames = list(Acting(track, neutral, target, *ready, options.acting()).frames())
             deviation = np.array(frames, np.float32).std(axis=0).mean(axis=2)[face > 0]
             inner = np.array(frames[10:-10], np.float32).std(axis=0).mean(axis=2)[face > 0]
             jitter = track.meshes[..., :2].std(axis=0).mean()
@@ -100,7 +100,7 @@ def _followed(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32], NDA
         options = PortraitOptions(neutral_frame=0)
         target, *ready = read_target(Path(folder), next(iter(read_video(path))).rgb, options)
         track, neutral = read_driver(path, target, 0)
-        made = _looked_at(Acting(track, neutral, target, *ready, options).frames())
+        made = _looked_at(Acting(track, neutral, target, *ready, options.acting()).frames())
     return _looked_at(frame.rgb for frame in read_video(path, longest_side=1280)), track.meshes, made
 
 

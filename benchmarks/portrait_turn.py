@@ -42,7 +42,7 @@ def turn(pictures: Path | None) -> None:
             options = PortraitOptions(neutral_frame=0, head_3d=head_3d)
             target, *ready = read_target(Path(folder), true[0], options)
             track, neutral = read_driver(driver, target, 0)
-            acting = Acting(track, neutral, target, *ready, options)
+            acting = Acting(track, neutral, target, *ready, options.acting())
             made[label] = list(acting.frames())
         lines = grid_deviation(acting, rendered[0][1])
     rows = []

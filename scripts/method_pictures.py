@@ -24,7 +24,8 @@ from engine.portrait.options import PortraitOptions
 from engine.portrait.registration import register_track
 from engine.portrait.render import ALL_PARTS, Parts, Renderer
 from engine.portrait.rig import Rig, rig_target
-from engine.portrait.target import TargetFace, find_target_face
+from engine.portrait.target import find_target_face
+from engine.portrait.target_face import TargetFace
 
 OUT = Path(__file__).parent.parent / "docs" / "pictures"
 PERFORMANCE, SECONDS = "surprise", 1.25
@@ -48,11 +49,11 @@ def main() -> None:
     frame = round(SECONDS * track.fps)
 
     def drawn(parts: Parts) -> Picture:
-        renderer = Renderer(track, neutral, target, layers, rig, options, parts=parts)
+        renderer = Renderer(track, neutral, target, layers, rig, options.acting(), parts=parts)
         motion = next(one for one in renderer.motions() if one.frame == frame)
         return renderer.draw(motion, ratios[frame])
 
-    renderer = Renderer(track, neutral, target, layers, rig, options)
+    renderer = Renderer(track, neutral, target, layers, rig, options.acting())
     motion = next(one for one in renderer.motions() if one.frame == frame)
     moved = rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
 

@@ -16,7 +16,7 @@ from engine.perception.landmarks import FACE_OVAL
 from engine.perception.models import MattingModel
 from engine.perception.person import person_mask
 from engine.portrait.bystanders import own_share
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 
 
 @dataclass(frozen=True)

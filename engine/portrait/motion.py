@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance
+from engine.portrait.acting_options import ActingOptions, Part
 from engine.portrait.alignment import Similarity, align
 from engine.portrait.contour import keep_inside, rim_distance
 from engine.portrait.control_points import ControlPoints, carry_fiducials, carry_periphery
@@ -22,7 +23,6 @@ from engine.portrait.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.portrait.lids_and_lips import lid_ratio, meet
 from engine.portrait.lips_and_skin import keep_lips_off_skin, lips_room
 from engine.portrait.misfit import Misfit
-from engine.portrait.options import Part, PortraitOptions
 
 PLANE_SHARE = 0.65
 """Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
@@ -58,7 +58,7 @@ def carry_motion(
     target: NDArray[np.float32],
     control: ControlPoints,
     proxy: HeadProxy | None,
-    options: PortraitOptions,
+    options: ActingOptions,
     misfit: Misfit | None = None,
 ) -> Iterator[ControlMotion]:
     """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `misfit`.

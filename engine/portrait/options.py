@@ -7,9 +7,8 @@ from typing import Annotated, Literal, Self
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from engine.performances import names
+from engine.portrait.acting_options import PARTS, ActingOptions, Part
 
-Part = Literal["eyes", "mouth", "brows", "head"]
-PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
 Seconds = Annotated[float, Field(ge=0, le=86_400)]
@@ -119,6 +118,6 @@ class PortraitOptions(BaseModel):
         kept |= {"format": "gif"} if self.format == "gif" else {}  # which is smaller
         return PortraitOptions.model_validate({**kept, "reactive": bool(self.reactive)})
 
-    def acting(self) -> PortraitOptions:
+    def acting(self) -> ActingOptions:
         """Only what decides on how the target moves, so that other choices leave what a second look found as it is."""
-        return PortraitOptions.model_validate({name: getattr(self, name) for name in ("strength", "follow", "head_3d")})
+        return ActingOptions(self.strength, self.follow, self.head_3d)

@@ -28,7 +28,8 @@ from engine.portrait.registration import register_track
 from engine.portrait.render import render
 from engine.portrait.rig import Rig, rig_target
 from engine.portrait.second_look import Glances, glance_at_driver, look_again
-from engine.portrait.target import TargetFace, in_pixels, look_for_face
+from engine.portrait.target import in_pixels, look_for_face
+from engine.portrait.target_face import TargetFace
 from engine.run import Beside, Run, write_report
 
 STAGES = {
@@ -76,7 +77,8 @@ def animate_portrait(
     misfit = performed.look_again(target, prepared.details(), options, run)
     layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
-        frames = render(track, neutral, performed.ratios, target, layers, rig, options, misfit)
+        acting, keep_alpha = options.acting(), options.format != "mp4"
+        frames = render(track, neutral, performed.ratios, target, layers, rig, acting, misfit, keep_alpha)
         _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
     write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(

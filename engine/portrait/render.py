@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from engine.imaging.composite import doubled, over, warp_layer
 from engine.imaging.fold_edges import smooth_folds
 from engine.perception.landmarks import MESH_SIZE
+from engine.portrait.acting_options import ActingOptions
 from engine.portrait.driver import DriverTrack
 from engine.portrait.eyes import closing, draw_eye, prepare_eyes
 from engine.portrait.fine_details import shade
@@ -24,9 +25,8 @@ from engine.portrait.layers import Layers
 from engine.portrait.lid_skin import draw_lid, lid_skins
 from engine.portrait.misfit import Misfit
 from engine.portrait.motion import ControlMotion, carry_motion
-from engine.portrait.options import PortraitOptions
 from engine.portrait.rig import Rig
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 from engine.portrait.teeth import draw_teeth, shown_teeth
 
 AHEAD = 2
@@ -76,16 +76,17 @@ class Renderer:
         target: TargetFace,
         layers: Layers,
         rig: Rig,
-        options: PortraitOptions,
+        options: ActingOptions,
         misfit: Misfit | None = None,
         parts: Parts = ALL_PARTS,
+        keep_alpha: bool = False,
     ):
         self._track, self._neutral, self._target, self._rig, self._misfit = track, neutral, target, rig, misfit
         self._options, self._parts = options, parts
         opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
         self._person = doubled(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
         self._plate = layers.plate
-        self._keep_alpha = layers.transparent and options.format != "mp4"
+        self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
         self._lids = lid_skins(target.rgb, target.mesh) if parts.eyes else []
         self._teeth = shown_teeth(target.rgb, target.mesh) if parts.hidden else None
@@ -143,17 +144,17 @@ def render(
     target: TargetFace,
     layers: Layers,
     rig: Rig,
-    options: PortraitOptions,
+    options: ActingOptions,
     misfit: Misfit | None = None,
+    keep_alpha: bool = False,
 ) -> Iterator[NDArray[np.uint8]]:
     """The target acting out the driver: one (H, W, 3) uint8 frame for each frame of the driver.
 
     `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame; `misfit` corrects what a second look
-    found amiss. A cut-out target gives (H, W, 4)
-    where the format can hold its alpha. Frames are drawn side by side on all cores and given in order; memory does
-    not grow with the length.
+    found amiss. A cut-out target gives (H, W, 4) where its alpha is to be kept. Frames are drawn side by side on all cores and
+    given in order; memory does not grow with the length.
     """
-    renderer = Renderer(track, neutral, target, layers, rig, options, misfit)
+    renderer = Renderer(track, neutral, target, layers, rig, options, misfit, keep_alpha=keep_alpha)
     yield from draw_in_order(renderer, zip(renderer.motions(), ratios, strict=True))
 
 

@@ -10,7 +10,7 @@ from engine.portrait.control_points import ControlPoints, place_control_points
 from engine.portrait.dense_field import build_warp_mesh
 from engine.portrait.fine_details import DetailRegion, detail_region
 from engine.portrait.layers import Layers
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 from engine.portrait.warp_mesh import WarpMesh
 
 

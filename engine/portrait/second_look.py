@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
+from engine.portrait.acting_options import ActingOptions
 from engine.portrait.appearance import CROP, crop_place
 from engine.portrait.driver import DriverTrack
 from engine.portrait.fine_details import DetailRegion, RatioStrip
 from engine.portrait.layers import uncut
 from engine.portrait.misfit import Misfit, fit_misfit, flat, no_misfit
-from engine.portrait.options import PortraitOptions
 from engine.portrait.render import Renderer, Window
 from engine.portrait.rig import rig_target
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 
 LOOKS = 24
 """Frames that are looked at, besides the neutral one."""
@@ -58,7 +58,7 @@ def look_again(
     ratios: RatioStrip,
     target: TargetFace,
     details: DetailRegion,
-    options: PortraitOptions,
+    options: ActingOptions,
     tick: Callable[[float], None] = lambda fraction: None,
     cores: Callable[[], int] = lambda: 1,
 ) -> Misfit:
@@ -69,7 +69,7 @@ def look_again(
     Parameters
     ----------
     ratios : the driver's, one for each frame. details : where its creases go to.
-    options : how the target moves, see `PortraitOptions.acting`.
+    options : how the target moves.
     cores : how many may look: more than are idle would only be in the way of what works beside.
 
     Returns

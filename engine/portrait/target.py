@@ -1,10 +1,9 @@
-"""The target: one picture, and the face in it that is to act."""
+"""The target: one picture is read, the face in it that is to act is chosen, checked, and brought to the result's size."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
@@ -23,6 +22,7 @@ from engine.perception.segmentation import people_in
 from engine.portrait.expression import EXPRESSION, expression
 from engine.portrait.lower_lids import fit_lower_lids
 from engine.portrait.options import PortraitOptions
+from engine.portrait.target_face import TargetFace
 from engine.run import Beside, Run
 
 LONGEST_SIDE = 1920
@@ -49,34 +49,6 @@ CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of
 SHUT = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.portrait.eyes`): calm
 people have 0.22 to 0.43, a laugh 0.2."""
-
-
-@dataclass(frozen=True)
-class TargetFace:
-    """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
-    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture, or in a crop of it that
-    numbers give, the placed one among them; `people` (h, w) in
-    [0, 1], at whatever size, where people are believed to be, if the picture is not cropped."""
-
-    rgb: NDArray[np.uint8]
-    alpha: NDArray[np.float32] | None
-    mesh: NDArray[np.float32]
-    faces: NDArray[np.float32]
-    original_size: tuple[int, int]
-    place: NDArray[np.float64]
-    people: NDArray[np.float32] | None = None
-
-    def face_boxes(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """The box (4,) of the face that acts and those of the others (K, 4), in pixels of the result: x, y, width, height."""
-        low, high = self.mesh[:, :2].min(axis=0), self.mesh[:, :2].max(axis=0)
-        scale = float(self.place[0, 0])
-        corners = self.faces[:, :2] * scale + self.place[:, 2]
-        boxes = np.hstack([corners, self.faces[:, 2:] * scale]).astype(np.float32)
-        middles = boxes[:, :2] + boxes[:, 2:] / 2
-        own = np.linalg.norm(middles - (low + high) / 2, axis=1) < np.linalg.norm(high - low) / 2
-        width, height = self.rgb.shape[1::-1]
-        seen = ((middles > 0) & (middles < [width, height])).all(axis=1)
-        return np.concatenate([low, high - low]).astype(np.float32), boxes[seen & ~own]
 
 
 def look_for_face(path: Path, options: PortraitOptions, run: Run) -> Beside[TargetFace]:

@@ -12,7 +12,7 @@ from tiny_onnx import brightness_model
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
 from engine.perception.person import DOUBT, person_mask
 from engine.portrait.layers import separate_layers
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 
 
 def settings_for(path: Path, **more: str) -> dict[str, str]:

@@ -22,7 +22,7 @@ from engine.perception.faces import find_faces
 from engine.performances import names, performance, video
 from engine.portrait.choice import WEIGHTS, choose_driver, fit, library_looks
 from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
-from engine.portrait.target import TargetFace
+from engine.portrait.target_face import TargetFace
 from engine.run import Run
 from galatea import animate
 

@@ -124,9 +124,9 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 2), Limits())
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, glances = keep_ratio_images(track, 0), glance_at_driver(track, 0)
-    misfit = look_again(track, 0, glances, ratios, target, rig.details, options)
-    plain = Renderer(track, 0, target, layers, rig, options)
-    better = Renderer(track, 0, target, layers, rig, options, misfit)
+    misfit = look_again(track, 0, glances, ratios, target, rig.details, options.acting())
+    plain = Renderer(track, 0, target, layers, rig, options.acting())
+    better = Renderer(track, 0, target, layers, rig, options.acting(), misfit)
     meant = [plain.face(motion) for motion in plain.motions()]
     left = {}
     with FaceTracker(alone=True) as tracker:
@@ -154,4 +154,4 @@ def test_where_the_tracker_sees_no_face_nothing_is_corrected(woman_white, mouth_
     target = replace(target, rgb=np.full_like(target.rgb, 128))
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 0.3), Limits())
     given = track, 0, glance_at_driver(track, 0), keep_ratio_images(track, 0)
-    assert len(look_again(*given, target, detail_region(target.rgb, target.mesh), options).faces) == 0
+    assert len(look_again(*given, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0

@@ -21,10 +21,11 @@ from engine.perception.landmarks import (
     RIGHT_EYE,
     RIGHT_IRIS,
 )
+from engine.portrait.acting_options import ActingOptions, Part
 from engine.portrait.control_points import place_control_points
 from engine.portrait.head_proxy import build_head_proxy
 from engine.portrait.motion import PLANE_SHARE, ControlMotion, carry_motion, plane_share
-from engine.portrait.options import Part, PortraitOptions
+from engine.portrait.options import PortraitOptions
 
 PARTS: dict[Part, list[int]] = {
     "eyes": [*RIGHT_EYE, *LEFT_EYE],
@@ -59,7 +60,7 @@ def carried(folder: Path, in_space: bool, **options: object) -> ControlMotion:
     track = driver(folder, [rest, grimace(rest)], size=(400, 400))
     control = place_control_points(target, np.ones((300, 300), np.float32))
     proxy = build_head_proxy(control.points, target) if in_space else None
-    return list(carry_motion(track, 0, target, control, proxy, PortraitOptions(**options)))[1]
+    return list(carry_motion(track, 0, target, control, proxy, ActingOptions(**options)))[1]
 
 
 def test_all_parts_can_be_named_in_one_word() -> None:

@@ -106,7 +106,10 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     white = Layers(layers.person, np.full_like(layers.plate, 255))
     moved = np.zeros(rgb.shape[:2])
     for frame, low, high in zip(
-        *(render(track, 0, RatioImages(track, 0), target, some, rig, options) for some in (layers, black, white)),
+        *(
+            render(track, 0, RatioImages(track, 0), target, some, rig, options.acting())
+            for some in (layers, black, white)
+        ),
         strict=True,
     ):
         seen_through = (high.astype(float) - low).mean(axis=2) / 255

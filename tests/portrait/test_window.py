@@ -23,7 +23,7 @@ def test_a_window_of_a_frame_is_that_part_of_it(woman_white: Path, mouth_opens: 
     layers = separate_layers(target)
     track = track_driver(mouth_opens, None, OPENS, Limits())
     ratios = keep_ratio_images(track, 0)
-    renderer = Renderer(track, 0, target, layers, rig_target(target, layers), options)
+    renderer = Renderer(track, 0, target, layers, rig_target(target, layers), options.acting())
     motion = list(renderer.motions())[-1]
     whole = renderer.draw(motion, ratios.ratio(motion.frame)).astype(int)
     face = renderer.face(motion)

@@ -30,7 +30,8 @@ from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
 from engine.portrait.render import Renderer, draw_in_order
 from engine.portrait.rig import Rig
-from engine.portrait.target import TargetFace, in_pixels, look_for_face
+from engine.portrait.target import in_pixels, look_for_face
+from engine.portrait.target_face import TargetFace
 from engine.run import Run, write_report
 
 MOST_SECONDS = 20.0
@@ -146,7 +147,7 @@ def plan_acts(
     proxy = build_head_proxy(rig.control.points, target.mesh) if options.head_3d else None
     poses, rests = [], []
     for state, one, misfit in zip(states, performed, misfits, strict=True):
-        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options, misfit))
+        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options.acting(), misfit))
         rests.append(motions[one.neutral].depth)
         poses.append(excursion(motions, rests[-1], one.track.fps, state.loops))
     steps = [longest_step(one, state.loops) for state, one in zip(states, poses, strict=True)]
@@ -169,7 +170,7 @@ def _draw(
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
                 track, neutral, ratios = act.performed.track, act.performed.neutral, act.performed.ratios
-                renderer = Renderer(track, neutral, target, layers, rig, options)
+                renderer = Renderer(track, neutral, target, layers, rig, options.acting())
                 name = out / clip_name(act.state)
                 clip = files.enter_context(VideoWriter(name, size, fps, entries=(0,), synthetic=mark))
                 segments = act.exits.segments()

@@ -1,0 +1,36 @@
+"""A picture with the face in it that is to act, at the size of the result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class TargetFace:
+    """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
+    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture, or in a crop of it that
+    numbers give, the placed one among them; `people` (h, w) in
+    [0, 1], at whatever size, where people are believed to be, if the picture is not cropped."""
+
+    rgb: NDArray[np.uint8]
+    alpha: NDArray[np.float32] | None
+    mesh: NDArray[np.float32]
+    faces: NDArray[np.float32]
+    original_size: tuple[int, int]
+    place: NDArray[np.float64]
+    people: NDArray[np.float32] | None = None
+
+    def face_boxes(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """The box (4,) of the face that acts and those of the others (K, 4), in pixels of the result: x, y, width, height."""
+        low, high = self.mesh[:, :2].min(axis=0), self.mesh[:, :2].max(axis=0)
+        scale = float(self.place[0, 0])
+        corners = self.faces[:, :2] * scale + self.place[:, 2]
+        boxes = np.hstack([corners, self.faces[:, 2:] * scale]).astype(np.float32)
+        middles = boxes[:, :2] + boxes[:, 2:] / 2
+        own = np.linalg.norm(middles - (low + high) / 2, axis=1) < np.linalg.norm(high - low) / 2
+        width, height = self.rgb.shape[1::-1]
+        seen = ((middles > 0) & (middles < [width, height])).all(axis=1)
+        return np.concatenate([low, high - low]).astype(np.float32), boxes[seen & ~own]
