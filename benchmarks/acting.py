@@ -9,20 +9,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.acting_options import ActingOptions
+from engine.face_animation.driver import DriverTrack, track_driver
+from engine.face_animation.fine_details import RatioImages, keep_ratio_images
+from engine.face_animation.layers import Layers, separate_layers
+from engine.face_animation.neutral import choose_neutral_frame
+from engine.face_animation.registration import register_track
+from engine.face_animation.render import ALL_PARTS, Parts, Renderer, draw_in_order
+from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.second_look import glance_at_driver, look_again
+from engine.face_animation.target_face import TargetFace
 from engine.media.image import write_image
 from engine.media.limits import Limits
-from engine.portrait.acting_options import ActingOptions
-from engine.portrait.driver import DriverTrack, track_driver
-from engine.portrait.fine_details import RatioImages, keep_ratio_images
-from engine.portrait.layers import Layers, separate_layers
-from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
-from engine.portrait.registration import register_track
-from engine.portrait.render import ALL_PARTS, Parts, Renderer, draw_in_order
-from engine.portrait.rig import Rig, rig_target
-from engine.portrait.second_look import glance_at_driver, look_again
 from engine.portrait.target import find_target_face
-from engine.portrait.target_face import TargetFace
 
 
 @dataclass(frozen=True)

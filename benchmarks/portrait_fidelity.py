@@ -15,16 +15,16 @@ from scipy.spatial import Delaunay
 from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.shared_media import driving_clips, media, tool, write_clip
 from benchmarks.tables import mean_row, table
+from engine.face_animation.alignment import align
+from engine.face_animation.control_points import carry_fiducials
+from engine.face_animation.render import Parts
+from engine.face_animation.rig import rig_target
 from engine.imaging.mesh_warp import inverse_map
 from engine.media.image import read_image
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
 from engine.perception.segmentation import believed_person
-from engine.portrait.alignment import align
-from engine.portrait.control_points import carry_fiducials
 from engine.portrait.options import PortraitOptions
-from engine.portrait.render import Parts
-from engine.portrait.rig import rig_target
 
 FRAMES, STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""

@@ -14,7 +14,7 @@ from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.head_scan import read_head_scan, render_head
 from benchmarks.shared_media import media, tool, write_clip
 from benchmarks.tables import table
-from engine.portrait.layers import Layers
+from engine.face_animation.layers import Layers
 from engine.portrait.options import PortraitOptions
 
 SIZE = (480, 576)

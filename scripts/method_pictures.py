@@ -13,19 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from engine.face_animation.driver import track_driver
+from engine.face_animation.fine_details import keep_ratio_images
+from engine.face_animation.layers import Layers, separate_layers
+from engine.face_animation.neutral import choose_neutral_frame
+from engine.face_animation.registration import register_track
+from engine.face_animation.render import ALL_PARTS, Parts, Renderer
+from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.target_face import TargetFace
 from engine.imaging.composite import doubled, over, warp_layer
 from engine.media.limits import Limits
 from engine.performances import video
-from engine.portrait.driver import track_driver
-from engine.portrait.fine_details import keep_ratio_images
-from engine.portrait.layers import Layers, separate_layers
-from engine.portrait.neutral import choose_neutral_frame
 from engine.portrait.options import PortraitOptions
-from engine.portrait.registration import register_track
-from engine.portrait.render import ALL_PARTS, Parts, Renderer
-from engine.portrait.rig import Rig, rig_target
 from engine.portrait.target import find_target_face
-from engine.portrait.target_face import TargetFace
 
 OUT = Path(__file__).parent.parent / "docs" / "pictures"
 PERFORMANCE, SECONDS = "surprise", 1.25

@@ -14,6 +14,8 @@ from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
 from swift import s3_server
 
+pytest_plugins = ("real_faces",)
+
 ROOT = Path(__file__).parent.parent
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # run in the background, it would be ignored in every child

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates
 from engine.package_data import package_data
 from engine.performances import names
 from engine.performances.catalogue import VIDEOS
 from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
-from engine.portrait.target_face import TargetFace
 from engine.run import Run
 
 WEIGHTS: Mapping[str, float] = {"expression": 0.35, "proportions": 0.25, "light": 0.15, "palette": 0.15, "turn": 0.10}

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.face_animation.expression import expression, frontal
+from engine.face_animation.head_motion import fit_rigid
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.head_pose import canonical_face, head_pose
 from engine.perception.landmarks import RIGID, eye_distance
 from engine.perception.one_face import OneFace
-from engine.portrait.expression import expression, frontal
-from engine.portrait.head_motion import fit_rigid
 
 SKIN = (
     *(50, 101, 118, 205, 207, 36, 280, 330, 347, 425, 427, 266),  # cheeks

@@ -6,8 +6,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
+from engine.face_animation.acting_options import PARTS, ActingOptions, Part
 from engine.performances import names
-from engine.portrait.acting_options import PARTS, ActingOptions, Part
 
 Side = Annotated[int, Field(ge=64, le=4096)]
 Coordinate = Annotated[float, Field(ge=-16384, le=16384)]

@@ -13,23 +13,23 @@ from numpy.typing import NDArray
 
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
+from engine.face_animation.driver import DriverTrack, track_driver
+from engine.face_animation.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
+from engine.face_animation.layers import Layers, separate_layers
+from engine.face_animation.loop import close_loop
+from engine.face_animation.misfit import Misfit
+from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
+from engine.face_animation.registration import register_track
+from engine.face_animation.render import render
+from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.second_look import Glances, glance_at_driver, look_again
+from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
 from engine.perception.landmarks import fiducials
 from engine.perception.models import matting_model
 from engine.portrait.choice import choose_driver
-from engine.portrait.driver import DriverTrack, track_driver
-from engine.portrait.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
-from engine.portrait.layers import Layers, separate_layers
-from engine.portrait.loop import close_loop
-from engine.portrait.misfit import Misfit
-from engine.portrait.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
 from engine.portrait.options import PortraitOptions
-from engine.portrait.registration import register_track
-from engine.portrait.render import render
-from engine.portrait.rig import Rig, rig_target
-from engine.portrait.second_look import Glances, glance_at_driver, look_again
 from engine.portrait.target import in_pixels, look_for_face
-from engine.portrait.target_face import TargetFace
 from engine.run import Beside, Run, write_report
 
 STAGES = {

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
+from engine.face_animation.expression import EXPRESSION, expression
+from engine.face_animation.lower_lids import fit_lower_lids
+from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
@@ -19,10 +22,7 @@ from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
 from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
 from engine.perception.segmentation import people_in
-from engine.portrait.expression import EXPRESSION, expression
-from engine.portrait.lower_lids import fit_lower_lids
 from engine.portrait.options import PortraitOptions
-from engine.portrait.target_face import TargetFace
 from engine.run import Beside, Run
 
 LONGEST_SIDE = 1920
@@ -47,7 +47,7 @@ LEAST_INSIDE = 0.5
 """Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
 SHUT = 0.13
-"""Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.portrait.eyes`): calm
+"""Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.face_animation.eyes`): calm
 people have 0.22 to 0.43, a laugh 0.2."""
 
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from tiny_onnx import brightness_model
 
+from engine.face_animation.layers import separate_layers
+from engine.face_animation.target_face import TargetFace
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
 from engine.perception.person import DOUBT, person_mask
-from engine.portrait.layers import separate_layers
-from engine.portrait.target_face import TargetFace
 
 
 def settings_for(path: Path, **more: str) -> dict[str, str]:

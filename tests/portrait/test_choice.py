@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.export.video import VideoWriter
+from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates
 from engine.media.image import write_image
 from engine.media.limits import Limits
@@ -22,7 +23,6 @@ from engine.perception.faces import find_faces
 from engine.performances import names, performance, video
 from engine.portrait.choice import WEIGHTS, choose_driver, fit, library_looks
 from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
-from engine.portrait.target_face import TargetFace
 from engine.run import Run
 from galatea import animate
 

@@ -11,17 +11,17 @@ import pytest
 from made_clip import face, unpacked, write_frames
 from numpy.typing import NDArray
 
+from engine.face_animation.driver import track_driver
+from engine.face_animation.fine_details import RatioImages
+from engine.face_animation.layers import Layers, separate_layers
+from engine.face_animation.registration import register_track
+from engine.face_animation.render import render
+from engine.face_animation.rig import rig_target
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.person import person_mask
-from engine.portrait.driver import track_driver
-from engine.portrait.fine_details import RatioImages
-from engine.portrait.layers import Layers, separate_layers
 from engine.portrait.options import PortraitOptions
-from engine.portrait.registration import register_track
-from engine.portrait.render import render
-from engine.portrait.rig import rig_target
 from engine.portrait.target import find_target_face
 
 STILL = 0.5

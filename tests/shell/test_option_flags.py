@@ -9,7 +9,7 @@ import pytest
 from pydantic import BaseModel
 
 from engine.character.options import CharacterOptions
-from engine.portrait.acting_options import PARTS
+from engine.face_animation.acting_options import PARTS
 from engine.portrait.options import PortraitOptions
 from shell.option_flags import DEST, flag_of, form_of, given_options, option_flags
 

@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.measures import MEASURES
 from engine.performances import State
-from engine.portrait.measures import MEASURES
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.export.still import write_thumbnail
+from engine.face_animation.measures import SPREAD
 from engine.kind import Given
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
-from engine.portrait.measures import SPREAD
 from engine.portrait.moments.portions import Portion, find_portions
 from engine.portrait.moments.rest import own_rest
 from engine.portrait.moments.watching import FPS, LONGEST_SIDE, Watched, watch

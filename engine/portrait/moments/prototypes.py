@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.face_animation.measures import MEASURES
 from engine.performances import State
-from engine.portrait.measures import MEASURES
 
 CLEAR: Mapping[str, float] = {
     "corners_up": 0.085,

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.face_animation.measures import MEASURES, measure
 from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
 from engine.perception.one_face import OneFace
-from engine.portrait.measures import MEASURES, measure
 
 FPS = 12.0
 """Frames a second that are looked at: a wink has three of them, a syllable two."""

@@ -12,15 +12,18 @@ from numpy.typing import NDArray
 
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
+from engine.face_animation.fine_details import RatioStrip
+from engine.face_animation.head_proxy import build_head_proxy
+from engine.face_animation.layers import Layers
+from engine.face_animation.misfit import Misfit
+from engine.face_animation.motion import carry_motion
+from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
+from engine.face_animation.render import Renderer, draw_in_order
+from engine.face_animation.rig import Rig
+from engine.face_animation.target_face import TargetFace
 from engine.kind import Given
 from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
-from engine.portrait.fine_details import RatioStrip
-from engine.portrait.head_proxy import build_head_proxy
-from engine.portrait.layers import Layers
-from engine.portrait.misfit import Misfit
-from engine.portrait.motion import carry_motion
-from engine.portrait.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, Performed, analyse_driver, follow, prepare_target, write_landmarks
 from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
@@ -28,10 +31,7 @@ from engine.portrait.reactive.bundle import player, write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
 from engine.portrait.reactive.excursion import Pose, excursion
 from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
-from engine.portrait.render import Renderer, draw_in_order
-from engine.portrait.rig import Rig
 from engine.portrait.target import in_pixels, look_for_face
-from engine.portrait.target_face import TargetFace
 from engine.run import Run, write_report
 
 MOST_SECONDS = 20.0

@@ -1,0 +1,76 @@
+"""A driver's face as it looks: its mesh, and a small picture of it, upright by the eyes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.alignment import fit_similarity
+from engine.imaging.delaunay import delaunay
+from engine.imaging.mesh_warp import inverse_map
+from engine.perception.landmarks import LIPS_INNER
+
+CROP = (320, 288)
+"""Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
+CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
+"""Where the eyes' centres lie in it."""
+EDGE = np.array(
+    [(x * (CROP[1] - 1), y * (CROP[0] - 1)) for x in (0, 0.5, 1) for y in (0, 0.5, 1) if x * y != 0.25], np.float32
+)
+"""(8, 2) points of the crop that stay where they are when the face in it moves."""
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """`mesh` (478, 3) float32, pixels of the frame; `place` (2, 3) carries these to pixels of `crop`, uint8 (*CROP, 3)."""
+
+    mesh: NDArray[np.float32]
+    place: NDArray[np.float64]
+    crop: NDArray[np.uint8]
+
+    def in_crop(self) -> NDArray[np.float32]:
+        """(478, 2) the mesh in the crop's pixels."""
+        return np.asarray(self.mesh[:, :2] @ self.place[:, :2].T + self.place[:, 2], np.float32)
+
+
+def crop_place(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(2, 3): carries pixels of a picture with a face at `mesh` (478, 2 or 3) to pixels of the crop, upright by the eyes."""
+    eyes = np.array([mesh[[33, 133], :2].mean(axis=0), mesh[[263, 362], :2].mean(axis=0)])
+    return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
+
+
+def appearance(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> Appearance:
+    """The face at `mesh` in a frame (H, W, 3)."""
+    place = crop_place(mesh)
+    crop = cv2.warpAffine(rgb, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return Appearance(mesh, place, np.asarray(crop, np.uint8))
+
+
+def between(one: Appearance, other: Appearance, share: float) -> Appearance:
+    """The face on its way from one look to another, 0 is the one, 1 the other: both are warped to the mesh between them,
+    and faded into each other. The inside of the mouth is of the one who opens it more."""
+    mesh = (one.mesh + np.float32(share) * (other.mesh - one.mesh)).astype(np.float32)
+    place = crop_place(mesh)
+    lands = np.concatenate([mesh[:468, :2] @ place[:, :2].T + place[:, 2], EDGE]).astype(np.float32)
+    triangles = delaunay(lands)
+
+    warped = []
+    for look in (one, other):
+        origin = inverse_map(lands, np.concatenate([look.in_crop()[:468], EDGE]), triangles, CROP)
+        there = cv2.remap(look.crop, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        warped.append(there.astype(np.float32))
+    mouth = np.zeros(CROP, np.float32)
+    cv2.fillPoly(mouth, [lands[list(LIPS_INNER)].round().astype(np.int32)], 1.0)
+    open_one, open_other = (1 - share) * _opening(one), share * _opening(other)
+    inside = open_other / (open_one + open_other) if open_one + open_other > 0 else share
+    shares = share + cv2.GaussianBlur(mouth, (0, 0), 1)[..., None] * (inside - share)
+    crop = warped[0] + shares * (warped[1] - warped[0])
+    return Appearance(mesh, place, (crop + 0.5).astype(np.uint8))
+
+
+def _opening(look: Appearance) -> float:
+    """How far the mouth is open, square pixels of the crop."""
+    return float(cv2.contourArea(look.in_crop()[list(LIPS_INNER)]))

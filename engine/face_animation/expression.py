@@ -1,0 +1,62 @@
+"""A face's expression in a few numbers, whatever the head's turn."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.head_motion import fit_rigid
+from engine.perception.head_pose import canonical_face, mirror_vertices
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID, eye_distance, eye_opening, mouth_opening
+
+EXPRESSION = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
+"""What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over
+their own width."""
+
+AT_ONCE = 256
+"""Meshes that are turned to the front together, so that memory does not grow with a video's length."""
+
+
+def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+    """`EXPRESSION` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
+    return np.concatenate([_expressed(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
+
+
+def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+    front = frontal(meshes)
+    middle = (front[:, 13] + front[:, 14]) / 2
+    corners = (front[:, 61] + front[:, 291]) / 2
+    lids = (front[:, 33] + front[:, 133] + front[:, 263] + front[:, 362]) / 4
+    wide = np.linalg.norm(front[:, 61] - front[:, 291], axis=1)
+    return np.stack(
+        [
+            mouth_opening(meshes) * wide,
+            wide,
+            (middle - corners)[:, 1],
+            lids[:, 1] - (front[:, 107] + front[:, 336])[:, 1] / 2,
+            lids[:, 1] - (front[:, 70] + front[:, 300])[:, 1] / 2,
+            eye_opening(meshes).mean(axis=1),
+        ],
+        axis=1,
+    ).astype(np.float32)
+
+
+def lopsided(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(N, L, 2) by how much the lips' points of meshes (N, 478, 3) lie off the mirror images of those opposite, in eye
+    distances of the face turned to the front."""
+    lips = list(LIPS_OUTER + LIPS_INNER)
+    opposite = mirror_vertices()[lips]
+
+    def off(some: NDArray[np.floating]) -> NDArray[np.float32]:
+        front = frontal(some)[..., :2]
+        return np.asarray(front[:, lips] - front[:, opposite] * (-1, 1), np.float32)
+
+    return np.concatenate([off(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
+
+
+def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Meshes (N, 478, 3) turned to the front, the eye distance 1."""
+    chosen = list(RIGID)
+    scale, rotation, shift = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
+    front = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
+    return np.asarray(front / eye_distance(front)[:, None, None], float)

@@ -1,0 +1,46 @@
+"""A driver's face through frames in which it is not seen."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from engine.face_animation.appearance import Appearance, between
+
+EASE_BACK = 8
+"""Frames over which what had vanished eases from its held place back to where it was found again."""
+
+
+def way_back(frames: ArrayLike) -> NDArray[np.float64]:
+    """How far something is on its way back, in [0, 1], so many frames after it was found again, the first of them 1."""
+    t = np.clip(np.asarray(frames) / (EASE_BACK + 1), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), float)
+
+
+class HeldFace:
+    """A face that is not always seen: where it is lost it stays as it was last seen, where it comes back it eases over
+    from there; before it is first seen it is as it will be."""
+
+    def __init__(self) -> None:
+        self._waiting = 0
+        self._last: Appearance | None = None
+        self._lost: Appearance | None = None
+        self._since = 0
+
+    def __call__(self, seen: Appearance | None) -> list[Appearance]:
+        """How it looks in this frame, in which it is `seen` so; the first that is seen comes as often as there were frames
+        up to here, and nothing before."""
+        if seen is None:
+            self._lost = self._last
+            self._since = 0
+            self._waiting += self._last is None
+            return [self._last] if self._last else []
+        if self._lost is not None:
+            self._since += 1
+            seen = between(self._lost, seen, float(way_back(self._since)))
+            if self._since == EASE_BACK:
+                self._lost = None
+        self._last = seen
+        looks = [seen] * (self._waiting + 1)
+        self._waiting = 0
+        return looks

@@ -1,0 +1,82 @@
+"""Lower lids where the picture has them.
+
+A mesh knows the eyes of people. Drawn ones may reach further down, and what is left of them below the mesh's lid would
+show under every shut one. So the eye is cut out by its colours, and where both reach further, the lids follow.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.eyes import SIDES
+
+WIDTH = 48
+"""Pixels of an eye's width at which it is cut out."""
+DOUBT = 0.2
+"""Eye widths around the mesh's opening in which colours decide."""
+LEAST, MOST = 0.03, 0.16
+"""Eye widths by which a drawn eye reaches below the mesh's lid, along all of it but its ends: less is the mesh's own error or a lash,
+more a shadow."""
+REACH = 0.4
+"""Eye widths over which the skin below follows its lid."""
+
+
+def fit_lower_lids(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> NDArray[np.float32]:
+    """`mesh` (478, 3), pixels of the picture (H, W, 3), with the lower lids where both eyes end."""
+    fitted = mesh.copy()
+    for contour, _, _, _ in SIDES:
+        eye = _Eye(mesh, contour)
+        reach = eye.reach_below(rgb)
+        if reach[1:6].min() < LEAST or reach.max() > MOST:
+            return mesh
+        eye.lower(fitted, reach)
+    return fitted
+
+
+class _Eye:
+    """An eye of a mesh: its `contour` from one corner over the upper lid to the other and back."""
+
+    def __init__(self, mesh: NDArray[np.float32], contour: tuple[int, ...]):
+        self.upper = list(contour[:9])
+        self.opening = mesh[list(contour), :2].astype(float)
+        across = self.opening[8] - self.opening[0]
+        self.width = max(float(np.linalg.norm(across)), 1.0)
+        right = across / self.width * np.sign(across[0])
+        self.axes = np.array([right, (-right[1], right[0])])
+
+    def reach_below(self, rgb: NDArray[np.uint8]) -> NDArray[np.float64]:
+        """(7,) eye widths by which the eye in the picture reaches below the points of the lower lid."""
+        turn = self.axes * WIDTH / self.width
+        middle = (self.opening[0] + self.opening[8]) / 2
+        place = np.column_stack([turn, np.array([WIDTH, 0.75 * WIDTH]) - turn @ middle])
+        size = 2 * WIDTH, 3 * WIDTH // 2
+        patch = cv2.warpAffine(rgb, place, size, flags=cv2.INTER_AREA, borderMode=cv2.BORDER_REPLICATE)
+        points = self.opening @ turn.T + place[:, 2]
+        opening = np.zeros(size[::-1], np.uint8)
+        cv2.fillPoly(opening, [points.round().astype(np.int32)], 1)
+        disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(DOUBT * WIDTH) + 1,) * 2)
+        labels = np.where(cv2.dilate(opening, disk) > 0, cv2.GC_PR_BGD, cv2.GC_BGD).astype(np.uint8)
+        labels[cv2.erode(opening, np.ones((3, 3))) > 0] = cv2.GC_FGD
+        if not (labels == cv2.GC_FGD).any():
+            return np.zeros(7)
+        cv2.setRNGSeed(1)
+        models = np.zeros((1, 65)), np.zeros((1, 65))
+        cv2.grabCut(cv2.GaussianBlur(patch, (0, 0), 1), labels, (0, 0, 1, 1), *models, 2, cv2.GC_INIT_WITH_MASK)
+        eye = np.pad((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD), ((0, 1), (0, 0)))
+        columns, rows = points[9:].round().astype(int).T
+        ends = [row + int(eye[row:, column].argmin()) for column, row in zip(columns, rows, strict=True)]
+        reach = (np.array(ends) - points[9:, 1]) / WIDTH
+        return np.convolve(np.pad(reach, 1, "edge"), (0.25, 0.5, 0.25), "valid")
+
+    def lower(self, mesh: NDArray[np.float32], reach: NDArray[np.float64]) -> None:
+        """Move the lower lid's points down by `reach` (7,) eye widths, in place, and the skin below with them."""
+        lid, down = self.opening[9:], self.axes[1]
+        away = mesh[:, None, :2] - lid
+        nearest = np.linalg.norm(away, axis=2).argmin(axis=1)
+        away = away[np.arange(len(mesh)), nearest]
+        share = np.clip(1 - np.linalg.norm(away, axis=1) / (REACH * self.width), 0, 1)
+        share[(away @ down < -1e-3 * self.width) | (np.arange(len(mesh)) >= 468)] = 0
+        share[self.upper] = 0
+        mesh[:, :2] += ((share * reach[nearest] * self.width)[:, None] * down).astype(np.float32)

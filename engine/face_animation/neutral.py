@@ -1,0 +1,178 @@
+"""The driver's neutral frame s*: closed mouth, open eyes, calm brows, frontal, near the calm frames' mean (section 4).
+
+First the driver's own face at rest is found, from the driver alone; then the frame nearest to it. Only where the target
+itself wears an expression is the frame nearest to that looked for, because equation 1 carries differences against it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
+
+from engine.errors import InputError
+from engine.face_animation.driver import DriverTrack
+from engine.face_animation.expression import lopsided
+from engine.face_animation.eyes import look
+from engine.face_animation.head_motion import turns
+from engine.face_animation.measures import (
+    FACE,
+    LIDS,
+    MEASURES,
+    MOUTH,
+    SPREAD,
+    USUAL,
+    USUAL_BELOW,
+    general_rest,
+    lowered,
+    measure,
+)
+
+LOWERED = 4.0
+"""How much lowered lids count, as a share of how far they are usually open."""
+
+ALIKE = 0.5
+"""Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
+is the rest."""
+
+MOST = 2000
+"""Frames that are compared with one another: of longer videos as many, evenly spread."""
+
+AS_CALM = 0.5
+"""Frames whose mean square difference from what is looked for, in `SPREAD`, is greater than the least by no more than this
+are as good; the head's turn and the gaze choose among them."""
+
+TURN, ASIDE = 0.2, 0.1
+"""What counts as much as one `SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
+look, elsewhere than the target's."""
+
+TORN = 0.05
+"""The same of a mouth that is torn aside, in eye distances."""
+
+UNEVEN = 0.15
+"""Eye distances from which on a target's mouth is torn aside: under it, faces that are turned or painted seem so, too."""
+
+WORN = 0.5
+"""Beyond this, in standard deviations of `USUAL` past the first, a target wears an expression."""
+
+CALM = 2.0
+"""Mean square of a calm face's differences from a face at rest, in standard deviations of `USUAL`."""
+
+Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
+
+
+@dataclass(frozen=True)
+class NeutralFrame:
+    """A frame of the driver and why it was taken: `chosen` by the user; `at_rest` as the target is; `like_the_target`, whose
+    expression it shares; `nearest_to_rest`, of a driver that is never at rest."""
+
+    frame: int
+    reason: Reason
+
+
+def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> NeutralFrame:
+    """The frame of the driver that shows what the target shows: rest, or the expression that the target wears.
+
+    Parameters
+    ----------
+    target : (478, 3) the target's mesh. chosen : the user's own choice, a frame of the track.
+
+    Raises `InputError` `neutral_frame_out_of_range`.
+    """
+    if chosen is not None:
+        if chosen >= len(track):
+            raise InputError(
+                "neutral_frame_out_of_range",
+                f"neutral_frame counts the driver's frames that are used, from 0: after trim, at {track.fps:g} a second, there "
+                f"are {len(track)}.",
+                ("neutral_frame",),
+            )
+        return NeutralFrame(chosen, "chosen")
+    values = measure(track.meshes)
+    rest = probable_rest(values[track.found])
+    worn = worn_expression(target)
+    face = (
+        _face_unlike(values, rest + worn) + _torn(track, target, values, rest) + LOWERED * lowered(values, rest[LIDS])
+    )
+    face = np.where(track.found, face, np.inf)
+    place = (turns(track.meshes, target) / TURN) ** 2 + _gaze_unlike(track.meshes, target)
+    frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
+    taken = values[[frame]]
+    if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
+        return NeutralFrame(frame, "like_the_target")
+    return NeutralFrame(frame, "at_rest" if unlike_rest(taken)[0] <= CALM else "nearest_to_rest")
+
+
+def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
+    """Warn (`driver_never_at_rest`) where the driver shows a face at rest in none of its frames."""
+    if choice.reason == "nearest_to_rest":
+        warn(
+            "driver_never_at_rest",
+            f"The driver's face is at rest in none of its frames, so that frame {choice.frame} stands for it: let the "
+            "performance begin with a calm face and closed lips, or choose neutral_frame by hand.",
+        )
+
+
+def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
+
+    The most probable one, where people at rest are distributed about the general rest by `USUAL`, and one person at rest
+    about their own by `SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
+    for a driver may laugh through most of a clip; likeness alone would not, for people differ.
+
+    It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
+    the target, who is taken to be at rest. `moments.rest.own_rest` looks for a habit instead, which may be a smile.
+    """
+    seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
+    apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
+    blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
+    cost = unlike_rest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
+    alike = apart[int(np.argmin(cost))] < ALIKE**2
+    return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
+
+
+def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) how unlike a face at rest faces with these measures (N, 12) are, whoever they are: the mean square of the
+    differences, 1 is what people at rest differ by."""
+    apart = values - general_rest()
+    return np.asarray(np.mean((apart / np.where(apart < 0, USUAL_BELOW, USUAL))[:, FACE] ** 2, axis=1), float)
+
+
+def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """By how much the target's measures (12,) are beyond what people at rest differ by: of a mouth that is open or smiles.
+    Brows and lids differ between people by as much as an expression moves them, and narrow mouths are a matter of style: of
+    these a target tells nothing, and is taken to be at rest."""
+    shown = (measure(np.asarray(target)[None])[0] - general_rest()) / USUAL
+    worn = np.zeros(len(MEASURES))
+    worn[MOUTH] = np.maximum(shown[MOUTH] - 1, 0)
+    return np.asarray(np.where(worn > WORN, worn, 0) * USUAL, float)
+
+
+def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) mean square difference of measures (N, 12) from those `wanted` (12,), in `SPREAD`, the head's turn left out."""
+    return np.asarray((((values - wanted) / SPREAD)[:, FACE] ** 2).mean(axis=1), float)
+
+
+def _torn(
+    track: DriverTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """(N,) square of how far each frame's mouth is torn aside, in `TORN`: from where it is at rest, which is even but for as
+    much, or from the target's where that is torn."""
+    torn = lopsided(track.meshes)
+    nearest = np.argsort(np.where(track.found, _face_unlike(values, rest), np.inf))[:5]
+    wanted = np.median(torn[nearest], axis=0)
+    wanted *= min(1, TORN / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
+    shown = lopsided(np.asarray(target)[None])[0]
+    if np.linalg.norm(shown, axis=-1).mean() > UNEVEN:
+        wanted = shown
+    return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN) ** 2, float)
+
+
+def _gaze_unlike(meshes: NDArray[np.floating], target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(N,) square of how far each frame's eyes look elsewhere than the target's, in `ASIDE`."""
+    aside = np.linalg.norm(look(meshes) - look(np.asarray(target)[None]), axis=-1).mean(axis=-1)
+    return np.asarray((aside / ASIDE) ** 2, float)

@@ -1,0 +1,33 @@
+"""A target made ready to move: what all its animations share, whoever drives them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from engine.face_animation.control_points import ControlPoints, place_control_points
+from engine.face_animation.dense_field import build_warp_mesh
+from engine.face_animation.fine_details import DetailRegion, detail_region
+from engine.face_animation.layers import Layers
+from engine.face_animation.target_face import TargetFace
+from engine.face_animation.warp_mesh import WarpMesh
+
+
+@dataclass(frozen=True)
+class Rig:
+    """`control` points at rest, the `mesh` that follows them, and the region that `details` go to."""
+
+    control: ControlPoints
+    mesh: WarpMesh
+    details: DetailRegion
+
+
+def rig_target(
+    target: TargetFace, layers: Layers, details: DetailRegion | None = None, smoothing: str = "confidence"
+) -> Rig:
+    """Section 4 as far as it does not depend on the driver; `smoothing` as `build_warp_mesh` takes it, `details` the region
+    if it is known already."""
+    control = place_control_points(target.mesh, layers.person[..., 3] / np.float32(255))
+    mesh = build_warp_mesh(control.points, target.mesh, target.rgb.shape[:2], smoothing, control.usable)
+    return Rig(control, mesh, details or detail_region(target.rgb, target.mesh))
