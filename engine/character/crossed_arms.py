@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.body.fitting import Crossing
 from engine.character.figure import SEEN, SIDES, Figure
-from engine.character.labels import Colours
+from engine.imaging.colour_segmentation import ColourMixture
 from engine.perception.body import LANDMARKS
 from engine.perception.hands import Side
 from engine.perception.landmarks import FACE_OVAL
@@ -105,11 +105,11 @@ def _skin(figure: Figure, mask: NDArray[np.bool_], at: dict[str, NDArray[np.floa
     own, worn = (colours[(area > 0) & person] for area in (face, sleeves))
     if min(len(own), len(worn)) < LEAST:
         return None
-    skin, cloth = Colours.of(own), Colours.of(worn)
-    if (skin.unlikely(worn) < cloth.unlikely(worn)).mean() > MOST_SKIN:
+    skin, cloth = ColourMixture.fit(own), ColourMixture.fit(worn)
+    if (skin.negative_log_likelihood(worn) < cloth.negative_log_likelihood(worn)).mean() > MOST_SKIN:
         return None
     found = np.zeros(person.shape, np.uint8)
-    found[person] = skin.unlikely(colours[person]) < cloth.unlikely(colours[person])
+    found[person] = skin.negative_log_likelihood(colours[person]) < cloth.negative_log_likelihood(colours[person])
     full = cv2.resize(found, (mask.shape[1], mask.shape[0]), interpolation=cv2.INTER_NEAREST_EXACT)
     return np.asarray(full > 0) & mask
 

@@ -12,8 +12,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.labels import COLOURS, NOWHERE, Colours, contrast
-from engine.geometry.graph_cut import alpha_expansion
+from engine.imaging.colour_segmentation import (
+    FREE,
+    MIN_SAMPLES,
+    ColourMixture,
+    ContrastGraph,
+    log_likelihood_ratio,
+)
 from engine.imaging.mask_distance import distance_inside, distance_to, grown
 
 WORKING = 500
@@ -119,8 +124,8 @@ def _by_colour(
     for part, enough in ((asked, np.full_like(in_doubt, CERTAIN)), *((pieces == piece, in_doubt) for piece in large)):
         near = cv2.dilate(part.astype(np.uint8), _square(NEAR * height)) > 0
         close = outside & near
-        own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 60 * COLOURS else outside
-        if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= 10 * COLOURS:
+        own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 6 * MIN_SAMPLES else outside
+        if min(int(own.sum()), int(behind.sum()), int(part.sum())) >= MIN_SAMPLES:
             likely = part & (_likelier(lab, part, own, behind) > enough)
             found |= _large_with_edges(lab, likely, alpha, belief, height)
     return found
@@ -167,10 +172,10 @@ def _to_their_ends(
     person, gap = alpha[box] > 0.5, found[box]
     asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height) & ~hands[box]
     body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
-    if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < 10 * COLOURS:
+    if min(int(body.sum()), int(gap.sum()), int(asked.sum())) < MIN_SAMPLES:
         return found
     lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
-    background = _cut(lab, asked, gap, Colours.of(lab[body]), Colours.of(lab[behind]))
+    background = _cut(lab, asked, gap, ColourMixture.fit(lab[body]), ColourMixture.fit(lab[behind]))
     _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
     whole = found.copy()
     whole[box] = background & np.isin(pieces, np.unique(pieces[gap & background]))
@@ -178,19 +183,23 @@ def _to_their_ends(
 
 
 def _cut(
-    lab: NDArray[np.float64], asked: NDArray[np.bool_], gap: NDArray[np.bool_], body: Colours, behind: Colours
+    lab: NDArray[np.float64],
+    asked: NDArray[np.bool_],
+    gap: NDArray[np.bool_],
+    body: ColourMixture,
+    behind: ColourMixture,
 ) -> NDArray[np.bool_]:
     """The `gap` (h, w) and what of the pixels that are `asked` (h, w) is more of it, up to where colours (h, w, 3) change: those of a
     white shirt before a white wall say little of themselves."""
     core = distance_inside(gap) > 1
     zone = grown(asked | gap, 1)
     pixels = lab[zone]
-    likelier = np.clip(body.unlikely(pixels) - behind.unlikely(pixels) - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)
-    unary = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
-    unary[core[zone]] = NOWHERE, 0
-    unary[~(asked | gap)[zone]] = 0, NOWHERE
+    likelier = body.negative_log_likelihood(pixels) - behind.negative_log_likelihood(pixels)
+    likelier = np.clip(likelier - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)
+    costs = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
+    seeds = np.where(core, 1, np.where(asked | gap, FREE, 0))[zone]
     out = np.zeros_like(gap)
-    out[zone] = alpha_expansion(unary, *contrast(lab, zone), gap[zone].astype(np.intp)) > 0
+    out[zone] = ContrastGraph.of(lab, zone).cut(costs, gap[zone].astype(np.intp), seeds) > 0
     return out
 
 
@@ -199,9 +208,8 @@ def _likelier(
 ) -> NDArray[np.float32]:
     """By how much (h, w), a logarithm, pixels that are `asked` (h, w) rather have the colours (h, w, 3) of what is `behind` (h, w)
     than the person's `own` (h, w)."""
-    like = np.zeros(asked.shape, np.float32)
-    like[asked] = Colours.of(lab[own]).unlikely(lab[asked]) - Colours.of(lab[behind]).unlikely(lab[asked])
-    return np.asarray(cv2.GaussianBlur(np.clip(like, -MOST, MOST), (0, 0), 1.5), np.float32)
+    of_own, of_background = ColourMixture.fit(lab[own]), ColourMixture.fit(lab[behind])
+    return log_likelihood_ratio(lab, asked, of_background, of_own, 1.5, MOST)
 
 
 def _around(lab: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.float64]:

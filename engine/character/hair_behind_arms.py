@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
-from engine.character.labels import ARMS, COLOURS, SPECK, Colours
+from engine.character.labels import ARMS, SPECK
+from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
 from engine.imaging.mask_distance import grown
 
 OUTLINE = 0.008
@@ -31,24 +32,23 @@ def hair_behind_arms(
     found = labels.astype(np.intp).copy()
     head = PARTS.index("head")
     hair = (labels == head) & (template != head)
-    if hair.sum() < 10 * COLOURS or not (template == head).any():
+    if hair.sum() < MIN_SAMPLES or not (template == head).any():
         return found
     chin = int(np.flatnonzero((template == head).any(1))[-1])
     colours = rgb.astype(np.float64)
-    of_hair = Colours.of(colours[hair])
-    hairy = float(np.percentile(of_hair.unlikely(colours[hair]), HAIRY))
+    of_hair = ColourMixture.fit(colours[hair])
+    hairy = float(np.percentile(of_hair.negative_log_likelihood(colours[hair]), HAIRY))
     for arm in ARMS:
         inner = (labels == arm) & ~_grown_by_share(template != arm, OUTLINE)
         bare = inner.copy()
-        bare[inner] = of_hair.unlikely(colours[inner]) > hairy
+        bare[inner] = of_hair.negative_log_likelihood(colours[inner]) > hairy
         doubtful = (labels == arm) & (sure != arm)
         doubtful[chin:] = False
-        if bare.sum() < max(10 * COLOURS, NOT_HAIR * inner.sum()) or doubtful.sum() < SPECK:
+        if bare.sum() < max(MIN_SAMPLES, NOT_HAIR * inner.sum()) or doubtful.sum() < SPECK:
             continue
-        like = np.zeros(labels.shape, np.float32)
-        like[doubtful] = Colours.of(colours[bare]).unlikely(colours[doubtful]) - of_hair.unlikely(colours[doubtful])
+        likelier = log_likelihood_ratio(colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), SOFT)
         clear = np.where(_grown_by_share(template == arm, OUTLINE), CLEARLY, 0)
-        given = doubtful & (cv2.GaussianBlur(like, (0, 0), SOFT) > clear)
+        given = doubtful & (likelier > clear)
         _, pieces, stats, _ = cv2.connectedComponentsWithStats(given.astype(np.uint8), connectivity=4)
         near = np.unique(pieces[_grown_by_share(labels == head, ACROSS)])
         large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= SPECK)

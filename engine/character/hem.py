@@ -16,13 +16,13 @@ from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
-from engine.character.labels import ARMS, COLOURS, LEAST, LEGS, NOWHERE, Colours, contrast
+from engine.character.labels import ARMS, LEAST, LEGS
 from engine.character.occlusion import largest
 from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
-from engine.geometry.graph_cut import alpha_expansion
+from engine.imaging.colour_segmentation import FREE, MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
 
 BAND = 0.05
@@ -119,16 +119,15 @@ def _parted(
     those that are `near` (h, w) and not in it are as `below` (h, w) says."""
     colours = rgb.astype(np.float64)
     learned = [colours[near & ~band & which] for which in (~below, below)]
-    if min(len(some) for some in learned) < 10 * COLOURS:
+    if min(len(some) for some in learned) < MIN_SAMPLES:
         return below
     rows = np.nonzero(near)[0]
     pixels, inner, before = colours[near], band[near], below[near]
-    unary = np.stack([Colours.of(some).unlikely(pixels) for some in learned], 1)
+    costs = colour_costs([ColourMixture.fit(some) for some in learned], pixels)
     off = LEAN * (rows - end) / wide
-    unary += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
-    held = np.stack([before, ~before], 1) * NOWHERE
-    edges, weights = contrast(colours, near)
-    cut = alpha_expansion(np.where(inner[:, None], unary, held), edges, weights, before.astype(np.intp))
+    costs += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
+    labels = before.astype(np.intp)
+    cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, FREE, labels))
     found = np.zeros_like(near)
     found[near] = cut > 0
     return found

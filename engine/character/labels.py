@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
+from engine.imaging.colour_segmentation import (
+    FREE,
+    MIN_SAMPLES,
+    ColourMixture,
+    ContrastGraph,
+    colour_costs,
+    log_likelihood_ratio,
+)
 from engine.imaging.mask_distance import distance_to, grown
 
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
@@ -21,15 +27,11 @@ LEAST = 50
 
 ROUGH_HEIGHT = 160
 """Pixels of height at which labels are found first."""
-GAMMA_ROUGH, GAMMA_FINE = 16.0, 8.0
-"""How much neighbours agree: the paper's values for the two stages."""
+GAMMA_ROUGH = 16.0
+"""How much neighbours agree at first: the paper's value."""
 GAMMA_HEIGHT = 640
-"""Pixels of height for which the first of them is taken to be meant: costs of areas grow with the cube of the size, those
+"""Pixels of height for which it is taken to be meant: costs of areas grow with the cube of the size, those
 of borders with the size itself."""
-COLOURS = 5
-"""Gaussians in a label's mixture of colours."""
-MOST_COLOURS = 1500
-"""Pixels from which a mixture is found."""
 ROUNDS = 3
 """How often mixtures and labels are found anew from one another."""
 SLEEVE, BEYOND = 0.04, 2.0
@@ -101,12 +103,10 @@ def hair_beside_arms(
         own = labels == arm
         close = grown(template == arm, max(1, round(BARE_ARM * labels.shape[0])))
         doubtful = own & ~close & (sure != arm)
-        if min(int(one.sum()) for one in (hair, doubtful, own & close)) < 10 * COLOURS:
+        if min(int(one.sum()) for one in (hair, doubtful, own & close)) < MIN_SAMPLES:
             continue
-        shown = colours[doubtful]
-        like = np.zeros(labels.shape, np.float32)
-        like[doubtful] = Colours.of(colours[own & close]).unlikely(shown) - Colours.of(colours[hair]).unlikely(shown)
-        given = doubtful & (cv2.GaussianBlur(like, (0, 0), 2.0) > 0)
+        of_arm, of_hair = (ColourMixture.fit(colours[area]) for area in (own & close, hair))
+        given = doubtful & (log_likelihood_ratio(colours, doubtful, of_hair, of_arm, 2.0) > 0)
         _, pieces = cv2.connectedComponents((given | (labels == head)).astype(np.uint8), connectivity=4)
         found[given & np.isin(pieces, np.unique(pieces[labels == head]))] = head
     return found
@@ -136,41 +136,6 @@ def without_specks(
     return complete_labels(labels >= 0, kept)
 
 
-@dataclass(frozen=True)
-class Colours:
-    """A mixture of K Gaussians over colours: `weights` (K,), `means` (K, 3), `covariances` (K, 3, 3). Found as GrabCut
-    does (C. Rother et al., 2004): the colours in K clusters, a Gaussian for each."""
-
-    weights: NDArray[np.float64]
-    means: NDArray[np.float64]
-    covariances: NDArray[np.float64]
-
-    @classmethod
-    def of(cls, pixels: NDArray[np.float64]) -> Colours:
-        """The mixture of some colours (N, 3)."""
-        some = np.ascontiguousarray(pixels[:: max(1, len(pixels) // MOST_COLOURS)], np.float32)
-        criteria = (cv2.TERM_CRITERIA_COUNT, 10, 0.0)
-        cv2.setRNGSeed(1)
-        _, cluster, _ = cv2.kmeans(some, COLOURS, np.empty(0, np.int32), criteria, 1, cv2.KMEANS_PP_CENTERS)
-        own = [some[cluster.ravel() == k].astype(np.float64) for k in range(COLOURS)]
-        own = [colours for colours in own if len(colours) > 3]
-        return cls(
-            np.array([len(colours) / len(some) for colours in own]),
-            np.stack([colours.mean(0) for colours in own]),
-            np.stack([np.cov(colours.T) + np.eye(3) for colours in own]),
-        )
-
-    def unlikely(self, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
-        """U of equation 16: minus the logarithm of a colour's probability, (N,)."""
-        total = np.zeros(len(pixels))
-        for weight, mean, covariance in zip(self.weights, self.means, self.covariances, strict=True):
-            inverse = np.linalg.inv(covariance)
-            off = pixels - mean
-            exponent = -0.5 * np.einsum("ni,ni->n", off @ inverse, off)
-            total += weight * np.exp(exponent) * np.sqrt(np.linalg.det(inverse) / (2 * np.pi) ** 3)
-        return np.asarray(-np.log(np.maximum(total, 1e-30)))
-
-
 def refined_labels(
     rgb: NDArray[np.uint8],
     rough: NDArray[np.integer],
@@ -195,16 +160,6 @@ def refined_labels(
     return labels
 
 
-def contrast(colours: NDArray[np.float64], mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """The neighbours within a mask (H, W), as numbers of its pixels in reading order, (E, 2), and what it costs where their labels differ,
-    (E,): little where colours (H, W, 3) do, too. Equations 17 to 19."""
-    edges, lengths = grid_edges(mask)
-    pixels = colours[mask]
-    difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
-    beta = 1 / (2 * max(float(difference.mean()), 1.0))  # equation 19
-    return edges, GAMMA_FINE * np.exp(-beta * difference) / lengths  # equations 17 and 18
-
-
 def _refine(
     colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_], template: NDArray[np.integer]
 ) -> None:
@@ -214,20 +169,20 @@ def _refine(
     meeting = [int(label) for label in np.unique(labels[region])]
     if len(meeting) < 2:
         return
-    edges, weights = contrast(colours, near)
+    graph = ContrastGraph.of(colours, near)
     pixels, inner, first = colours[near], region[near], labels[near]
     astray = ASTRAY * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
     astray[template[near] < 0] = 0
+    index = {label: k for k, label in enumerate(meeting)}
+    seeds = np.where(inner, FREE, [index.get(int(label), len(meeting)) for label in first])
     current = first
     for _ in range(ROUNDS):
         shown = [pixels[current == label] for label in meeting]
-        if min(len(own) for own in shown) < 10 * COLOURS:
+        if min(len(own) for own in shown) < MIN_SAMPLES:
             break
-        unary = np.stack([Colours.of(own).unlikely(pixels) for own in shown], 1)
-        held = np.array([[label != one for one in meeting] for label in first]) * NOWHERE
-        unary = np.where(inner[:, None], unary + astray, held)
-        start = np.array([meeting.index(label) if label in meeting else 0 for label in current])
-        found = np.array(meeting)[alpha_expansion(unary, edges, weights, start)]
+        costs = colour_costs([ColourMixture.fit(own) for own in shown], pixels) + astray
+        start = np.array([index.get(int(label), 0) for label in current])
+        found = np.array(meeting)[graph.cut(costs, start, seeds)]
         fresh = np.where(inner, found, first)
         if (fresh == current).all():
             break

@@ -7,7 +7,7 @@ lacks.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from engine.body.parts import PARTS
 from engine.body.rig import Rig
 from engine.character.figure import SIDES
-from engine.character.labels import ARMS, COLOURS, Colours, complete_labels
+from engine.character.labels import ARMS, complete_labels
 from engine.character.template_maps import side_maps
 from engine.character.unfound_hands import SURE, UnfoundHand, unit
+from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
 from engine.imaging.mask_distance import distance_to, grown
 
 UNSEEN = 0.7
@@ -87,29 +88,26 @@ def parted(
     arm, worn = labels == hand.arm, np.isin(labels, [PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
     around = (distance < AROUND * length) & (arm | worn)
     sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
-    if min(int(one.sum()) for one in (sleeve, cloth, around)) < 10 * COLOURS:
+    if min(int(one.sum()) for one in (sleeve, cloth, around)) < MIN_SAMPLES:
         return None
     colours = rgb.astype(np.float64)
-    of_cloth, of_sleeve = Colours.of(colours[cloth]), Colours.of(colours[sleeve])
-
-    def evened(values: NDArray[np.float64]) -> NDArray[np.float32]:
-        on_grid = np.zeros(labels.shape, np.float32)
-        on_grid[around] = values
-        return np.asarray(cv2.GaussianBlur(on_grid, (0, 0), EVEN))
-
-    usual = np.quantile(of_cloth.unlikely(colours[cloth]), USUAL)
-    stands_out = float((of_cloth.unlikely(colours[seen]) > usual).mean())
-    unlikely = {"cloth": of_cloth.unlikely(colours[around]), "sleeve": of_sleeve.unlikely(colours[around])}
-    if len(hand.skin) >= 10 * COLOURS and not _alike(hand.skin, rgb[cloth]):
-        skin = Colours.of(hand.skin)
-        skin = replace(skin, covariances=skin.covariances + OTHER_LIGHT * np.eye(3))
-        unlikely["skin"] = skin.unlikely(colours[around])
-        like_skin = evened(np.minimum(unlikely["cloth"], unlikely["sleeve"]) - unlikely["skin"])
+    of_cloth, of_sleeve = ColourMixture.fit(colours[cloth]), ColourMixture.fit(colours[sleeve])
+    usual = np.quantile(of_cloth.negative_log_likelihood(colours[cloth]), USUAL)
+    stands_out = float((of_cloth.negative_log_likelihood(colours[seen]) > usual).mean())
+    cost = {
+        "cloth": of_cloth.negative_log_likelihood(colours[around]),
+        "sleeve": of_sleeve.negative_log_likelihood(colours[around]),
+    }
+    if len(hand.skin) >= MIN_SAMPLES and not _alike(hand.skin, rgb[cloth]):
+        cost["skin"] = ColourMixture.fit(hand.skin).widened(OTHER_LIGHT).negative_log_likelihood(colours[around])
+        worn_cost = np.minimum(cost["cloth"], cost["sleeve"])
+        like_skin = smoothed_map(worn_cost - cost["skin"], around, EVEN)
         if (like_skin < -CERTAIN)[seen].mean() < HIDDEN or stands_out > HARDLY:
             return None if hand.before else _bare(like_skin, arm, around)
     elif hand.confidence > SURE or stands_out > (HARDLY if hand.confidence < UNSEEN else GOES_ON):
         return None
-    sleeved = evened(unlikely["cloth"] - np.minimum(unlikely["sleeve"], unlikely.get("skin", np.inf)))
+    of_arm = np.minimum(cost["sleeve"], cost.get("skin", np.inf))
+    sleeved = smoothed_map(cost["cloth"] - of_arm, around, EVEN)
     cloth = arm & around & (sleeved < np.where(beyond > CUFF * length, CERTAIN, -CERTAIN))
     fingers = cv2.morphologyEx(seen.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((WEB, WEB), np.uint8)) > 0
     return PartedHand(np.zeros_like(arm), cloth, fingers & (worn | cloth))

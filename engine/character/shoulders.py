@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
 from engine.body.rig import Rig
-from engine.character.labels import ARMS, COLOURS, Colours, contrast
+from engine.character.labels import ARMS
 from engine.character.posed_template import PosedTemplate
-from engine.geometry.graph_cut import alpha_expansion
+from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
 
 REACH, TRUNK = 0.13, 0.35
@@ -42,15 +42,15 @@ def labelled_shoulders(
         own = labels == arm
         here = (distance < REACH) & (own | torso)
         learned = [colours[torso & ~near & (distance < TRUNK)], colours[own & ~near]]
-        if not here.any() or min(len(some) for some in learned) < 10 * COLOURS:
+        if not here.any() or min(len(some) for some in learned) < MIN_SAMPLES:
             continue
-        known = [Colours.of(some) for some in learned]
+        known = [ColourMixture.fit(some) for some in learned]
         known += _hair(colours[labels == PARTS.index("head")], known[1])
-        unlikely = np.stack([one.unlikely(colours[here]) for one in known], 1)
-        likelier = unlikely[:, 0] - unlikely[:, 1]
+        costs = colour_costs(known, colours[here])
+        likelier = costs[:, 0] - costs[:, 1]
         of_the_trunk = (likelier < 0) & own[here]
         if (abs(likelier) > SURE).mean() > MOSTLY and of_the_trunk.sum() <= STRAY * own[here].sum():
-            found = alpha_expansion(unlikely, *contrast(colours, here), unlikely.argmin(1))
+            found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
             whole[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
             astray = _astray(whole == arm, (own & ~here) | grown(labels < 0, 1))
@@ -65,9 +65,10 @@ def _astray(arm: NDArray[np.bool_], seen: NDArray[np.bool_]) -> NDArray[np.bool_
     return arm & ~np.isin(pieces, np.unique(pieces[arm & seen]))
 
 
-def _hair(head: NDArray[np.float64], arm: Colours) -> list[Colours]:
+def _hair(head: NDArray[np.float64], arm: ColourMixture) -> list[ColourMixture]:
     """The colours of a head (N, 3) that are none of the `arm`'s: hair, where skin is bare. None where it has hardly any."""
-    if len(head) < 10 * COLOURS:
+    if len(head) < MIN_SAMPLES:
         return []
-    hair = head[arm.unlikely(head) - Colours.of(head).unlikely(head) > SURE]
-    return [Colours.of(hair)] if len(hair) >= 10 * COLOURS else []
+    likelier = arm.negative_log_likelihood(head) - ColourMixture.fit(head).negative_log_likelihood(head)
+    hair = head[likelier > SURE]
+    return [ColourMixture.fit(hair)] if len(hair) >= MIN_SAMPLES else []

@@ -24,6 +24,7 @@ from engine.face_animation.driver import DriverTrack
 from engine.face_animation.film_strip import FilmStrip, FilmStripWriter
 from engine.face_animation.head_motion import turns
 from engine.face_animation.outliers import Outliers, find_outliers
+from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
@@ -99,7 +100,7 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     x0, y0 = np.maximum(np.floor(mesh[:, :2].min(axis=0) - unit), 0).astype(int)
     x1, y1 = np.minimum(np.ceil(mesh[:, :2].max(axis=0) + unit), rgb.shape[1::-1]).astype(int)
     scale = min(1.0, GRABBED / unit)
-    patch = cv2.resize(rgb[y0:y1, x0:x1], None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    patch = np.asarray(cv2.resize(rgb[y0:y1, x0:x1], None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8)
     centre = ((ellipse[0][0] - x0) * scale, (ellipse[0][1] - y0) * scale)
     axes = (ellipse[1][0] * scale, ellipse[1][1] * scale)
     probable, sure = np.zeros(patch.shape[:2], np.uint8), np.zeros(patch.shape[:2], np.uint8)
@@ -107,13 +108,9 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     oval = ((mesh[list(FACE_OVAL), :2] - (x0, y0)) * scale).round().astype(np.int32)
     cv2.fillPoly(sure, [oval], 1)
     middle = cv2.erode(sure, np.ones((7, 7), np.uint8))
-    labels = np.where(probable | sure, cv2.GC_PR_FGD, cv2.GC_BGD).astype(np.uint8)
-    labels[middle > 0] = cv2.GC_FGD
-    models = np.zeros((1, 65)), np.zeros((1, 65))
-    cv2.setRNGSeed(1)
-    cv2.grabCut(patch, labels, (0, 0, 1, 1), *models, 3, cv2.GC_INIT_WITH_MASK)
-    inside = ((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD)).astype(np.float32)
-    inside = cv2.GaussianBlur(cv2.erode(inside, np.ones((3, 3))), (0, 0), 2)
+    likely = (probable | sure) > 0
+    cut = grab_cut(patch, middle > 0, ~likely, likely, rounds=3).astype(np.float32)
+    inside = cv2.GaussianBlur(cv2.erode(cut, np.ones((3, 3))), (0, 0), 2)
     region = np.zeros(rgb.shape[:2], np.float32)
     region[y0:y1, x0:x1] = cv2.resize(inside, (x1 - x0, y1 - y0), interpolation=cv2.INTER_LINEAR)
     return region

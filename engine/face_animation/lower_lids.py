@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes import SIDES
+from engine.imaging.colour_segmentation import grab_cut
 
 WIDTH = 48
 """Pixels of an eye's width at which it is cut out."""
@@ -57,14 +58,12 @@ class _Eye:
         opening = np.zeros(size[::-1], np.uint8)
         cv2.fillPoly(opening, [points.round().astype(np.int32)], 1)
         disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * round(DOUBT * WIDTH) + 1,) * 2)
-        labels = np.where(cv2.dilate(opening, disk) > 0, cv2.GC_PR_BGD, cv2.GC_BGD).astype(np.uint8)
-        labels[cv2.erode(opening, np.ones((3, 3))) > 0] = cv2.GC_FGD
-        if not (labels == cv2.GC_FGD).any():
+        inner, skin = cv2.erode(opening, np.ones((3, 3))) > 0, cv2.dilate(opening, disk) == 0
+        if not inner.any():
             return np.zeros(7)
-        cv2.setRNGSeed(1)
-        models = np.zeros((1, 65)), np.zeros((1, 65))
-        cv2.grabCut(cv2.GaussianBlur(patch, (0, 0), 1), labels, (0, 0, 1, 1), *models, 2, cv2.GC_INIT_WITH_MASK)
-        eye = np.pad((labels == cv2.GC_FGD) | (labels == cv2.GC_PR_FGD), ((0, 1), (0, 0)))
+        smooth = np.asarray(cv2.GaussianBlur(patch, (0, 0), 1), np.uint8)
+        eye = grab_cut(smooth, inner, skin, probable=np.zeros_like(inner), rounds=2)
+        eye = np.pad(eye, ((0, 1), (0, 0)))
         columns, rows = points[9:].round().astype(int).T
         ends = [row + int(eye[row:, column].argmin()) for column, row in zip(columns, rows, strict=True)]
         reach = (np.array(ends) - points[9:, 1]) / WIDTH

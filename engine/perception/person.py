@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.alpha_matte import alpha_matte
+from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.guided_upsample import upsample_guided
 from engine.imaging.resample import resized, size_within
 from engine.imaging.trimap import SURE, like_plain_background, outline_trimap
@@ -118,15 +119,10 @@ def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
     rather believe than not (grey hair before a pale wall), colours do not take away."""
     size = size_within(belief.shape, CUT_SIZE)
     small, rough = resized(rgb, size), resized(belief, size)
-    labels = np.where(rough > 0.5, cv2.GC_PR_FGD, cv2.GC_PR_BGD).astype(np.uint8)
-    labels[rough > SURE] = cv2.GC_FGD
-    labels[rough < 1 - SURE] = cv2.GC_BGD
-    if not ((labels == cv2.GC_FGD).any() and (labels == cv2.GC_BGD).any()):
+    foreground, background = rough > SURE, rough < 1 - SURE
+    if not (foreground.any() and background.any()):
         return belief
-    cv2.setRNGSeed(1)
-    no_box = (0, 0, 0, 0)
-    cv2.grabCut(small.copy(), labels, no_box, np.zeros((1, 65)), np.zeros((1, 65)), 2, cv2.GC_INIT_WITH_MASK)
-    person = np.isin(labels, (cv2.GC_FGD, cv2.GC_PR_FGD)).astype(np.float32)
+    person = grab_cut(small, foreground, background, rough > 0.5, rounds=2).astype(np.float32)
     settled = (belief + resized(person, (belief.shape[1], belief.shape[0]))) / 2
     kept = np.where(belief > KEPT, belief - KEPT + 0.5, 0)
     return np.maximum(settled, kept).astype(np.float32)
