@@ -31,7 +31,7 @@ from benchmarks.known_person import SIZE, KnownPicture, Person, draw_into
 from benchmarks.known_places import places
 from benchmarks.scanned_bodies import read_scan
 from benchmarks.shared_media import media
-from benchmarks.surface_distance import Distances, align, compare, sample_outside, umeyama
+from benchmarks.surface_distance import Distances, align, compare, sample_outside
 from benchmarks.tables import machine, table
 from benchmarks.truth_sheet import write_sheet
 from engine.character import layers
@@ -44,6 +44,7 @@ from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import SideMaps
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
+from engine.geometry.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms
 from engine.media.limits import Limits
 
@@ -180,7 +181,7 @@ def joint_errors(fitted: FittedBody, truth: NDArray[np.float64]) -> tuple[float,
     transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.place - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     body = [k for k, name in enumerate(human.rig.names) if not any(finger in name for finger in FINGERS)]
-    off = 100 * np.linalg.norm(umeyama(joints[body], truth[body])(joints[body]) - truth[body], axis=1)
+    off = 100 * np.linalg.norm(fit_similarity(joints[body], truth[body])(joints[body]) - truth[body], axis=1)
     return float(off.mean()), float(off.max())
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from trimesh.triangles import closest_point
 
+from engine.geometry.rigid import Similarity, fit_similarity
 from engine.render.rasteriser import depth_map
 
 POINTS = 40_000
@@ -29,20 +30,8 @@ class Sampled:
 
     def moved(self, move: Similarity) -> Sampled:
         """Moved by a similarity."""
-        normals = self.normals @ move.turn.T
+        normals = self.normals @ move.rotation.T
         return Sampled(move(self.points), normals, move(self.triangles))
-
-
-@dataclass(frozen=True)
-class Similarity:
-    """x becomes `scale` `turn` x + `shift`."""
-
-    scale: float
-    turn: NDArray[np.float64]
-    shift: NDArray[np.float64]
-
-    def __call__(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
-        return np.asarray(self.scale * points @ self.turn.T + self.shift, np.float64)
 
 
 @dataclass(frozen=True)
@@ -101,33 +90,20 @@ def _towards_views(
     return towards
 
 
-def umeyama(source: NDArray[np.floating], target: NDArray[np.floating]) -> Similarity:
-    """The similarity that brings points (N, 3) closest to their partners.
-
-    Source: S. Umeyama, Least-squares estimation of transformation parameters between two point patterns, PAMI 1991.
-    """
-    a, b = source - source.mean(0), target - target.mean(0)
-    u, values, v = np.linalg.svd(b.T @ a)
-    proper = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
-    turn = u @ proper @ v
-    scale = float((values * np.diag(proper)).sum() / (a**2).sum())
-    return Similarity(scale, turn, target.mean(0) - scale * turn @ source.mean(0))
-
-
 def align(made: Sampled, truth: Sampled) -> Similarity:
     """The similarity that brings what was made to the truth: from equal heights and middles, by closest points of both
     (P. Besl, N. McKay, A method for registration of 3-D shapes, PAMI 1992, with Umeyama's step)."""
     low, high = made.points.min(0), made.points.max(0)
     true_low, true_high = truth.points.min(0), truth.points.max(0)
     scale = float((true_high[1] - true_low[1]) / (high[1] - low[1]))
-    move = Similarity(scale, np.eye(3), (true_low + true_high) / 2 - scale * (low + high) / 2)
+    move = Similarity(scale * np.eye(3), (true_low + true_high) / 2 - scale * (low + high) / 2)
     mine, theirs = made.points[:: max(1, len(made.points) // ALIGNED_BY)], truth.points[:: max(1, len(truth.points) // ALIGNED_BY)]  # fmt: skip
     fixed = cKDTree(theirs)
     for _ in range(ROUNDS):
         moved = move(mine)
         _, there = fixed.query(moved)
         _, here = cKDTree(moved).query(theirs)
-        move = umeyama(np.concatenate([mine, mine[here]]), np.concatenate([theirs[there], theirs]))
+        move = fit_similarity(np.concatenate([mine, mine[here]]), np.concatenate([theirs[there], theirs]))
     return move
 
 

@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.alignment import fit_similarity
 from engine.face_animation.appearance import CROP, CROP_EYES
 from engine.face_animation.driver import DriverTrack
 from engine.face_animation.film_strip import FilmStripWriter
+from engine.geometry.rigid import fit_similarity
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.head_motion import fit_rigid
+from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID, eye_distance, eye_opening, mouth_opening
 
@@ -57,6 +57,8 @@ def lopsided(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
 def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """Meshes (N, 478, 3) turned to the front, the eye distance 1."""
     chosen = list(RIGID)
-    scale, rotation, shift = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
+    scale, rotation, shift = fit_similarities(
+        canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen))
+    )
     front = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
     return np.asarray(front / eye_distance(front)[:, None, None], float)

@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.face_animation.alignment import fit_similarity
 from engine.face_animation.appearance import CROP, CROP_EYES
 from engine.face_animation.driver import DriverTrack
 from engine.face_animation.film_strip import FilmStrip, FilmStripWriter
 from engine.face_animation.head_motion import turns
 from engine.face_animation.outliers import Outliers, find_outliers
+from engine.geometry.rigid import fit_similarity
 from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.rigid import fit_similarities
 from engine.perception.landmarks import RIGID
 
 SOFT_WEIGHT = 0.01
@@ -28,35 +29,10 @@ class HeadMotion:
     expression: NDArray[np.float32]
 
 
-def fit_rigid(
-    source: NDArray[np.floating], destination: NDArray[np.floating], weights: NDArray[np.floating]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Weighted similarity in 3D for many destinations at once (Umeyama 1991).
-
-    Parameters
-    ----------
-    source : (V, 3). destination : (N, V, 3). weights : (V,).
-
-    Returns
-    -------
-    scale (N,), rotation (N, 3, 3), shift (N, 3): destination = scale * rotation @ source + shift.
-    """
-    w = weights / weights.sum()
-    source_mean, destination_mean = w @ source, np.einsum("v,nvi->ni", w, destination)
-    a, b = source - source_mean, destination - destination_mean[:, None]
-    covariance = np.einsum("v,nvi,vj->nij", w, b, a)
-    u, s, vt = np.linalg.svd(covariance)
-    sign = np.ones((len(destination), 3))
-    sign[:, 2] = np.sign(np.linalg.det(u @ vt))
-    rotation = (u * sign[:, None]) @ vt
-    scale = (s * sign).sum(axis=1) / float(w @ (a**2).sum(axis=1))
-    return scale, rotation, destination_mean - scale[:, None] * (rotation @ source_mean)
-
-
 def turns(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) angle in radians between each mesh's line of sight and the neutral's: turns out of the picture plane."""
     chosen = list(RIGID)
-    rotation = fit_rigid(neutral[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))[1]
+    rotation = fit_similarities(neutral[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))[1]
     return np.asarray(np.arccos(np.clip(rotation[:, 2, 2], -1, 1)), float)
 
 
@@ -69,6 +45,6 @@ def split_motion(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
     """
     weights = np.full(len(neutral), SOFT_WEIGHT)
     weights[list(RIGID)] = 1.0
-    scale, rotation, shift = fit_rigid(neutral, meshes, weights)
+    scale, rotation, shift = fit_similarities(neutral, meshes, weights)
     at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
     return HeadMotion(neutral.astype(float), scale, rotation, shift, (at_rest - neutral).astype(np.float32))

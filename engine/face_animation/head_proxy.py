@@ -15,7 +15,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.head_motion import SOFT_WEIGHT, HeadMotion, fit_rigid, turns
+from engine.face_animation.head_motion import SOFT_WEIGHT, HeadMotion, turns
+from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID, eye_distance
 
@@ -119,7 +120,7 @@ def move_head(
     """
     weights = np.full(MESH_SIZE, SOFT_WEIGHT)
     weights[list(RIGID)] = 1.0
-    size, between, _ = fit_rigid(motion.neutral, target[None].astype(float), weights)
+    size, between, _ = fit_similarities(motion.neutral, target[None].astype(float), weights)
     rotation = limit_rotation(between[0] @ motion.rotation @ between[0].T)
     pivot_driver = motion.neutral[list(RIGID)].mean(axis=0)
     pivot = target[list(RIGID)].astype(float).mean(axis=0)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.expression import frontal
-from engine.face_animation.head_motion import fit_rigid
+from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID, eye_opening
 
@@ -76,7 +76,7 @@ def lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArra
 def _angles(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Yaw, pitch and roll, (N,) each, of the rigid vertices against the canonical face."""
     chosen = list(RIGID)
-    _, turn, _ = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
+    _, turn, _ = fit_similarities(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
     yaw = np.arctan2(-turn[:, 0, 2], turn[:, 2, 2])
     pitch = np.arctan2(turn[:, 1, 2], turn[:, 2, 2])
     return yaw, pitch, np.arctan2(turn[:, 1, 0], turn[:, 0, 0])

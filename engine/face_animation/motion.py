@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions, Part
-from engine.face_animation.alignment import Similarity, align
+from engine.face_animation.alignment import align
 from engine.face_animation.contour import keep_inside, rim_distance
 from engine.face_animation.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.face_animation.driver import DriverTrack
@@ -21,6 +21,7 @@ from engine.face_animation.head_proxy import HeadProxy, build_head_proxy, move_h
 from engine.face_animation.lids_and_lips import lid_ratio, meet
 from engine.face_animation.lips_and_skin import keep_lips_off_skin, lips_room
 from engine.face_animation.misfit import Misfit
+from engine.geometry.rigid import Similarity
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance
 

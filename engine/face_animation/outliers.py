@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.face_animation.alignment import Similarity, fit_similarity
 from engine.face_animation.driver import DriverTrack
+from engine.geometry.rigid import Similarity, fit_similarity
 from engine.perception.landmarks import fiducials
 
 SIGNIFICANT = 1.1

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.face_animation.expression import expression, frontal
-from engine.face_animation.head_motion import fit_rigid
+from engine.geometry.rigid import fit_similarities
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.head_pose import canonical_face, head_pose
@@ -122,7 +122,7 @@ def _shading(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[NDArra
 
 def _turn(meshes: NDArray[np.floating]) -> float:
     chosen = list(RIGID)
-    _, rotation, _ = fit_rigid(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
+    _, rotation, _ = fit_similarities(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
     ahead = rotation[:, :, 2]
     usual = np.median(ahead, axis=0)
     usual /= np.linalg.norm(usual)

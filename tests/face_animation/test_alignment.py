@@ -6,51 +6,10 @@ import numpy as np
 import pytest
 from made_face import placed
 
-from engine.face_animation.alignment import Similarity, align, fit_similarity
+from engine.face_animation.alignment import align
 from engine.face_animation.control_points import carry_fiducials
+from engine.geometry.rigid import Similarity
 from engine.perception.landmarks import EYES_AND_NOSE_TIP
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_a_known_similarity_is_recovered(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    angle, scale, shift = rng.uniform(-3, 3), rng.uniform(0.2, 5), rng.uniform(-100, 100, 2)
-    linear = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    points = rng.uniform(0, 200, (12, 2))
-    found = fit_similarity(points, points @ linear.T + shift)
-    np.testing.assert_allclose(found.linear, linear, atol=1e-9)
-    np.testing.assert_allclose(found.shift, shift, atol=1e-7)
-    assert found.scale == pytest.approx(scale)
-
-
-def test_it_is_the_least_squares_one() -> None:
-    """No similarity near it does better on points that no similarity maps exactly."""
-    rng = np.random.default_rng(0)
-    a, b = rng.uniform(0, 100, (20, 2)), rng.uniform(0, 100, (20, 2))
-    found = fit_similarity(a, b)
-    least = ((found(a) - b) ** 2).sum()
-    for _ in range(50):
-        d = rng.normal(0, 0.01, 4)
-        linear = found.linear + np.array([[d[0], -d[1]], [d[1], d[0]]])
-        assert ((Similarity(linear, found.shift + 10 * d[2:])(a) - b) ** 2).sum() >= least
-
-
-def test_mirrored_points_are_not_mirrored_back() -> None:
-    points = np.random.default_rng(0).uniform(0, 10, (9, 2))
-    assert np.linalg.det(fit_similarity(points, points * [-1, 1]).linear) >= 0
-
-
-def test_offsets_feel_the_linear_part_alone() -> None:
-    phi = Similarity(np.array([[0.0, -2.0], [2.0, 0.0]]), np.array([1000.0, -1000.0]))
-    np.testing.assert_allclose(phi.offsets(np.array([[3.0, 1.0]])), [[-2.0, 6.0]])
-    np.testing.assert_allclose(phi(np.array([[3.0, 1.0]])), [[998.0, -994.0]])
-
-
-def test_inverse_and_matrix() -> None:
-    phi = fit_similarity(np.array([[0.0, 0], [1, 0], [0, 1]]), np.array([[5.0, 5], [5, 8], [2, 5]]))
-    points = np.random.default_rng(0).normal(size=(7, 2))
-    np.testing.assert_allclose(phi.inverse()(phi(points)), points, atol=1e-12)
-    np.testing.assert_allclose(points @ phi.matrix()[:, :2].T + phi.matrix()[:, 2], phi(points))
 
 
 def test_phi_looks_at_eyes_and_nose_tip_alone() -> None:

@@ -8,9 +8,9 @@ import pytest
 from made_face import placed
 from numpy.typing import NDArray
 
-from engine.face_animation.alignment import Similarity
 from engine.face_animation.control_points import ControlPoints, carry_periphery, place_control_points
 from engine.face_animation.periphery import fading
+from engine.geometry.rigid import Similarity
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (240, 200)

@@ -7,7 +7,7 @@ import pytest
 from made_face import opened, placed, smiling, turn
 from numpy.typing import NDArray
 
-from engine.face_animation.head_motion import fit_rigid, split_motion
+from engine.face_animation.head_motion import split_motion
 from engine.face_animation.motion import scale_motion
 from engine.perception.landmarks import MESH_SIZE
 
@@ -26,34 +26,6 @@ def angle(a: NDArray, b: NDArray) -> float:
 
 def moved(mesh: NDArray, scale: float, rotation: NDArray, shift: tuple[float, ...]) -> NDArray:
     return scale * mesh @ rotation.T + shift
-
-
-def test_rigid_fits_are_exact_for_many_at_once() -> None:
-    rng = np.random.default_rng(0)
-    source = rng.normal(0, 30, (50, 3))
-    destination = np.stack([moved(source, *m) for m in MOTIONS])
-    scale, rotation, shift = fit_rigid(source, destination, np.ones(50))
-    for k, (s, r, t) in enumerate(MOTIONS):
-        assert scale[k] == pytest.approx(s)
-        np.testing.assert_allclose(rotation[k], r, atol=1e-9)
-        np.testing.assert_allclose(shift[k], t, atol=1e-7)
-
-
-def test_a_point_of_no_weight_does_not_count() -> None:
-    source = np.random.default_rng(0).normal(0, 30, (20, 3))
-    destination = moved(source, *MOTIONS[2])
-    destination[3] += 500
-    weights = np.ones(20)
-    weights[3] = 0
-    np.testing.assert_allclose(fit_rigid(source, destination[None], weights)[1][0], MOTIONS[2][1], atol=1e-9)
-
-
-def test_rotations_are_never_reflections() -> None:
-    source = np.random.default_rng(0).normal(0, 30, (20, 3))
-    rotation = fit_rigid(source, (source * [1, 1, -1])[None], np.ones(20))[1][0]
-    assert np.linalg.det(rotation) == pytest.approx(1)
-    flat = source * [1, 1, 0]
-    assert np.linalg.det(fit_rigid(flat, flat[None], np.ones(20))[1][0]) == pytest.approx(1)
 
 
 @pytest.mark.parametrize("motion", MOTIONS, ids=["still", "yaw", "nod", "all"])
