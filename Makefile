@@ -59,7 +59,7 @@ client:  ## the page's types anew from the service's OpenAPI document
 lock:  ## resolve the dependencies anew into requirements.lock, requirements-dev.lock and web/package-lock.json
 	@scripts/lock.sh
 
-bench: tools  ## the figures of the README
+bench: tools  ## the figures of docs/figures.md
 	@$(BIN)/python -m benchmarks.portrait
 
 picture: setup  ## the README's picture

@@ -1,4 +1,4 @@
-"""The figures of the portrait system, printed as tables for the README.
+"""The figures of the portrait system, printed as the tables of `docs/figures.md`.
 
 python benchmarks/portrait.py speed|fidelity|ablations|stillness|lag|turn|pair|memory|all
 """

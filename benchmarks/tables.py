@@ -1,4 +1,4 @@
-"""Tables for people and for the README: aligned columns, in Markdown."""
+"""Tables for people and for the documentation: aligned columns, in Markdown."""
 
 from __future__ import annotations
 
