@@ -8,7 +8,6 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 
-import service.tables  # noqa: F401  (the tables must know of each other before the first query)
 from engine.kind import Kind
 from service.bucket import Bucket
 from service.database import Database

@@ -12,12 +12,12 @@ from rich.table import Table
 from sqlalchemy.orm import Session
 
 from service.auth import repository, service
-from service.auth.models import Key
 from service.auth.schemas import KeyIn
 from service.auth.tokens import HINT_CHARACTERS
 from service.database import Database
 from service.links import repository as links
 from service.problems import Problem
+from service.tables.keys import Key
 from service.vault import new_key
 from shell.complaint import Complaint
 from shell.settings import read_settings

@@ -14,7 +14,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
 from service.jobs import leases, repository
-from service.jobs.models import Job, Status
+from service.tables.jobs import Job, Status
 
 STAGE = "prepare_engine"
 MESSAGE = "The engine is getting ready: this happens once and takes a minute or two."

@@ -20,10 +20,10 @@ from service.context import Context
 from service.database import database_unavailable
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
-from service.jobs.models import Job
 from service.pulse import BEAT_SECONDS, Pulse, owner
 from service.queue import TASK, queue_name
 from service.storage import StorageUnavailable
+from service.tables.jobs import Job
 from service.traces.current import origin_logged
 from worker.announcement import announced
 from worker.attempt import Attempt

@@ -23,8 +23,8 @@ from service.context import Context
 from service.disk import free_mb
 from service.jobs import leases
 from service.jobs.leases import Lease
-from service.jobs.models import Job
 from service.kinds.allowance import Allowance
+from service.tables.jobs import Job
 from service.traces.tracer import fail
 from worker import inputs
 from worker.children import Child, ChildLost

@@ -18,9 +18,9 @@ from sqlalchemy.exc import SQLAlchemyError
 from service.context import Context
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
-from service.jobs.models import Job, Status
 from service.jobs.stages import erase
 from service.storage import StorageUnavailable
+from service.tables.jobs import Job, Status
 from worker.heartbeat import beating
 from worker.insist import insist
 from worker.plain_files import Refused

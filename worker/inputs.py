@@ -11,15 +11,15 @@ from urllib.parse import urlsplit
 from service.auth.quotas import require_room
 from service.clock import now
 from service.context import Context
-from service.files.models import File
 from service.files.service import record
 from service.ids import new_id
 from service.jobs import leases
 from service.jobs.inputs import Refused, require_media
 from service.jobs.leases import Lease
-from service.jobs.models import Job, JobFile
 from service.problems import Problem
 from service.settings import MEGABYTE
+from service.tables.files import File
+from service.tables.jobs import Job, JobFile
 from worker.fetch import Fetched, FetchFailed, FetchStopped, fetch
 
 

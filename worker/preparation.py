@@ -14,9 +14,9 @@ from service.context import Context
 from service.files import analyses
 from service.files import repository as files
 from service.jobs.leases import Lease
-from service.jobs.models import Job
 from service.kinds.allowance import Allowance
 from service.settings import MEGABYTE
+from service.tables.jobs import Job
 from worker.mirror import Mirror
 
 

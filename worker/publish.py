@@ -12,7 +12,6 @@ from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.orm import Session
 
 from service.artifacts import repository
-from service.artifacts.models import Artifact
 from service.artifacts.schemas import ArtifactOut
 from service.clock import now
 from service.context import Context
@@ -20,6 +19,7 @@ from service.events import repository as events
 from service.ids import new_id
 from service.jobs import leases
 from service.jobs.leases import Lease
+from service.tables.artifacts import Artifact
 from worker.content_types import content_type
 from worker.insist import insist
 from worker.plain_files import Refused, opened

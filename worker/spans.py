@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 from opentelemetry.trace import Span, SpanKind, Tracer
 
 from service.jobs.leases import Lease
-from service.jobs.models import Job
+from service.tables.jobs import Job
 from service.traces.tracer import below, fail, parent_of, trace_id
 
 MOST_STAGES = 200

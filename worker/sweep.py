@@ -10,7 +10,7 @@ import structlog
 
 from service.context import Context
 from service.jobs import leases, repository
-from service.jobs.models import Status
+from service.tables.jobs import Status
 
 PATIENCE = 10.0
 """Seconds: how long a message may be on its way before it can count as lost."""

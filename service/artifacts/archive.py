@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Sequence
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
-from service.artifacts.models import Artifact
 from service.storage import Storage
+from service.tables.artifacts import Artifact
 
 ZIP64_FROM = 1 << 31
 

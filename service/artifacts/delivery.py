@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import AsyncIterator, Mapping
-from dataclasses import dataclass
-from datetime import datetime
 from email.utils import format_datetime
 from typing import Any
 from urllib.parse import quote
@@ -17,24 +15,13 @@ from service import browser
 from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem, responses, unavailable
 from service.storage import Storage, StorageUnavailable
+from service.tables.stored import Stored
 
 DELIVERED: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}
 """What `deliver` may answer beside the whole, for the OpenAPI document."""
 
 DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The asked parts"}, **DELIVERED}
 """Likewise, of what is often asked for in ranges."""
-
-
-@dataclass(frozen=True)
-class Stored:
-    """Something that can be sent."""
-
-    key: str
-    name: str
-    content_type: str
-    size: int
-    sha256: str
-    modified: datetime
 
 
 def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: bool) -> Response:

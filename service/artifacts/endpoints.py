@@ -18,9 +18,9 @@ from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
 from service.context import InContext
 from service.jobs import repository as jobs
-from service.jobs.models import Status
 from service.jobs.service import found
 from service.problems import Problem, responses
+from service.tables.jobs import Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 

@@ -11,9 +11,9 @@ import time
 from dataclasses import dataclass
 from urllib.parse import quote
 
-from service.auth.models import Key
 from service.auth.tokens import signature, signed_by
 from service.settings import Settings
+from service.tables.keys import Key
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
-from service.artifacts.models import Artifact
+from service.tables.artifacts import Artifact
 
 
 def of_jobs(session: Session, job_ids: Sequence[str]) -> dict[str, list[Artifact]]:

@@ -7,7 +7,7 @@ from urllib.parse import quote
 from pydantic import BaseModel
 
 from service.artifacts.links import Signer
-from service.artifacts.models import Artifact
+from service.tables.artifacts import Artifact
 
 
 class ArtifactOut(BaseModel):

@@ -14,7 +14,6 @@ from fastapi import Depends, Request
 from sqlalchemy.exc import DBAPIError
 
 from service.auth import repository
-from service.auth.models import LOCAL, Key
 from service.auth.rate import take_one
 from service.auth.sessions import COOKIE, key_of_session
 from service.auth.wrong_keys import count_wrong_key
@@ -23,6 +22,7 @@ from service.context import Context, InContext
 from service.database import database_full
 from service.disk import make_room
 from service.problems import Problem
+from service.tables.keys import LOCAL, Key
 
 Scope = Literal["read", "submit", "admin"]
 SCOPES: dict[Scope, str] = {

@@ -8,13 +8,13 @@ from starlette.responses import Response
 from service.asked import AskedRoute
 from service.auth import repository, service
 from service.auth.caller import Admin, Reader, not_known
-from service.auth.models import Key
 from service.auth.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.auth.sessions import COOKIE, SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import InContext
 from service.problems import Problem, responses
+from service.tables.keys import Key
 
 router = APIRouter(tags=["keys"], route_class=AskedRoute)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.models import LOCAL, Key
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
+from service.tables.keys import LOCAL, Key
 
 RETRY_SECONDS = 5
 

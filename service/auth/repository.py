@@ -8,13 +8,13 @@ from datetime import datetime, timedelta
 from sqlalchemy import bindparam, func, or_, select, update
 from sqlalchemy.orm import Session
 
-from service.artifacts.models import Artifact
-from service.auth.models import LOCAL, Key
 from service.auth.tokens import digest
 from service.clock import now
-from service.files.models import File
-from service.jobs.models import Job, Status
-from service.uploads.models import Upload
+from service.tables.artifacts import Artifact
+from service.tables.files import File
+from service.tables.jobs import Job, Status
+from service.tables.keys import LOCAL, Key
+from service.tables.uploads import Upload
 
 NOTED_EVERY = timedelta(minutes=1)
 """The use of a key is noted no more often than this."""

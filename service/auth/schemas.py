@@ -9,9 +9,9 @@ from pydantic import AfterValidator, BaseModel, Field
 
 from service.asked import ASKED, WHOLE
 from service.auth.caller import SCOPES, Scope
-from service.auth.models import Key
 from service.auth.quotas import Limits
 from service.settings import Settings
+from service.tables.keys import Key
 
 
 def _each_once(scopes: list[Scope]) -> list[Scope]:

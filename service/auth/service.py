@@ -8,7 +8,6 @@ from datetime import timedelta
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.models import LOCAL, Key
 from service.auth.schemas import KeyIn
 from service.auth.tokens import HINT_CHARACTERS, digest, new_link_secret, new_signing_secret, new_token
 from service.clock import now
@@ -22,6 +21,7 @@ from service.kept import repository as kept
 from service.kept.shelves import SHELVES
 from service.links import repository as links
 from service.problems import Problem
+from service.tables.keys import LOCAL, Key
 from service.uploads import repository as uploads
 from service.uploads import spool
 from service.webhooks import repository as webhooks

@@ -11,8 +11,8 @@ import time
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.models import Key
 from service.auth.tokens import signature, signed_by
+from service.tables.keys import Key
 
 COOKIE = "galatea_session"
 SECONDS = 12 * 3600

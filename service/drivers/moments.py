@@ -12,9 +12,9 @@ from engine.performances.catalogue import Strength
 from service.context import Context
 from service.kept import repository
 from service.kept.looks import Look, looks_into
-from service.kept.models import Kept
 from service.kept.shelves import DRIVERS
 from service.problems import Problem
+from service.tables.kept import Kept
 
 POSTER = "poster.jpg"
 """The picture of the face at rest that a search leaves."""

@@ -10,9 +10,9 @@ from pydantic import BaseModel
 from engine.performances import Performance, State
 from engine.performances.catalogue import Strength
 from service.drivers.moments import Moments, Portion, portions
-from service.files.models import File
 from service.kept.looks import Look, LookStatus
-from service.kept.models import Kept
+from service.tables.files import File
+from service.tables.kept import Kept
 
 
 class MomentOut(BaseModel):

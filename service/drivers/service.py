@@ -7,17 +7,17 @@ from pathlib import Path
 
 from engine.run import content_hash
 from service.artifacts import repository as artifacts
-from service.artifacts.delivery import Stored
 from service.context import Context
 from service.drivers import moments
 from service.drivers.schemas import DriverOut
 from service.kept import repository
-from service.kept.models import Kept
 from service.kept.service import file_of, missing
 from service.kept.shelves import DRIVERS
 from service.kinds import library
 from service.problems import Problem
 from service.storage import Storage
+from service.tables.kept import Kept
+from service.tables.stored import Stored
 
 
 def all_drivers(context: Context, owner: str) -> list[DriverOut]:

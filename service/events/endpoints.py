@@ -13,9 +13,9 @@ from service.context import InContext
 from service.events import repository
 from service.events.stream import follow
 from service.events.watch import InWatch
-from service.jobs.models import Status
 from service.jobs.service import found
 from service.problems import Problem, responses
+from service.tables.jobs import Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 

@@ -9,8 +9,8 @@ from sqlalchemy import Integer, bindparam, func, select
 from sqlalchemy.orm import Session
 
 from service.clock import now
-from service.events.models import Event
-from service.jobs.models import Job
+from service.tables.events import Event
+from service.tables.jobs import Job
 from service.webhooks import outbox
 
 AFTER = (

@@ -10,10 +10,10 @@ from anyio.to_thread import run_sync
 
 from service.context import Context
 from service.events import repository
-from service.events.models import Event
 from service.events.watch import Watch
 from service.jobs import repository as jobs
-from service.jobs.models import Status
+from service.tables.events import Event
+from service.tables.jobs import Status
 
 
 async def follow(

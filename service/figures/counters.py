@@ -9,7 +9,7 @@ from sqlalchemy import bindparam, select, update
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from service.figures.models import Counter
+from service.tables.counters import Counter
 
 COUNTERS = {
     "galatea_uploaded_bytes": ("Bytes of the files that were uploaded.", ("media",)),

@@ -14,8 +14,8 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from service.context import Context
-from service.files.models import File
 from service.settings import Settings
+from service.tables.files import File
 
 LIBRARY = "library"
 """Stands where an owner would, for the built-in libraries."""

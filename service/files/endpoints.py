@@ -13,9 +13,9 @@ from service.auth.caller import Caller, Reader, Submitter
 from service.context import Context, InContext
 from service.files import repository, service
 from service.files.intake import Form
-from service.files.models import File
 from service.files.schemas import FileOut
 from service.problems import Problem, responses
+from service.tables.files import File
 
 router = APIRouter(prefix="/files", tags=["files"])
 

@@ -8,9 +8,9 @@ from datetime import datetime
 from sqlalchemy import delete, exists, or_, select
 from sqlalchemy.orm import Session
 
-from service.files.models import File
-from service.jobs.models import JobFile
-from service.kept.shelves import SHELVES
+from service.tables.files import File
+from service.tables.jobs import JobFile
+from service.tables.kept import KEPT
 
 
 def get(session: Session, owner: str, file_id: str) -> File | None:
@@ -32,7 +32,7 @@ def erase_unused(
 
     Returns them; what they have in the storage is free once the session has been committed.
     """
-    kept = [exists().where(shelf.table.file_id == File.id) for shelf in SHELVES.values()]
+    kept = [exists().where(table.file_id == File.id) for table in KEPT]
     used = or_(exists().where(JobFile.file_id == File.id), *kept)
     query = select(File.id).where(~used).with_for_update(skip_locked=True)
     if ids is not None:

@@ -6,7 +6,7 @@ from datetime import datetime
 
 from pydantic import BaseModel
 
-from service.files.models import File
+from service.tables.files import File
 
 
 class FileOut(BaseModel):

@@ -11,10 +11,10 @@ from service.clock import now
 from service.context import Context
 from service.figures import counters
 from service.files import analyses, repository
-from service.files.models import File
 from service.files.received import Received
 from service.ids import new_id
 from service.problems import Problem
+from service.tables.files import File
 
 
 def keep(context: Context, owner: str, received: Received) -> File:

@@ -16,8 +16,8 @@ from service.context import Context
 from service.disk import free_mb
 from service.figures.counters import COUNTERS, counted
 from service.jobs import repository
-from service.jobs.models import Status
 from service.settings import MEGABYTE
+from service.tables.jobs import Status
 from service.webhooks import repository as webhooks
 
 

@@ -19,11 +19,11 @@ from service.context import Context, InContext
 from service.disk import require_space
 from service.ids import LIKE_AN_ID, is_id
 from service.jobs import repository, service
-from service.jobs.models import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
 from service.jobs.schemas import JobChange, JobOut, JobPage, JobTree
 from service.jobs.search import words
 from service.problems import Problem, responses
+from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=AskedRoute)
 

@@ -13,12 +13,12 @@ from sqlalchemy.orm import Session
 from engine.kind import AUTO, Input, Kind
 from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
-from service.files.models import File
 from service.ids import is_id
 from service.kept import repository as kept
 from service.kept.shelves import SHELVES, Shelf
 from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
+from service.tables.files import File
 from service.uploads import repository as uploads
 
 MOST_OWN = 6

@@ -16,10 +16,10 @@ from typing import Any
 from sqlalchemy import ColumnElement, Select, case, func, or_, select, update
 from sqlalchemy.orm import Session, aliased
 
-from service.database import SET_BACK_SECONDS, moment_in
 from service.events import repository as events
 from service.figures import counters
-from service.jobs.models import Job, Status
+from service.tables.base import SET_BACK_SECONDS, moment_in
+from service.tables.jobs import Job, Status
 
 MOST_FRUITLESS_ATTEMPTS = 3
 

@@ -10,9 +10,9 @@ from sqlalchemy import ColumnElement, delete, exists, func, or_, select, update
 from sqlalchemy.orm import Session, aliased
 
 from service.clock import now
-from service.database import SET_BACK_SECONDS, moment_in
-from service.jobs.models import IdempotencyKey, Job, JobFile, Status
-from service.kept.shelves import SHELVES
+from service.tables.base import SET_BACK_SECONDS, moment_in
+from service.tables.jobs import IdempotencyKey, Job, JobFile, Status
+from service.tables.kept import KEPT
 
 
 def get(session: Session, job_id: str) -> Job | None:
@@ -159,9 +159,8 @@ def ended_before(session: Session, moment: datetime, most: int) -> Sequence[Job]
     """Some jobs that ended before a moment, oldest first. What was found in something that a user keeps is kept
     as long as that."""
     query = select(Job).where(Job.finished_at < moment)
-    for shelf in SHELVES.values():
-        look_job = shelf.table.look_job
-        query = query.where(Job.id.not_in(select(look_job).where(look_job.is_not(None))))
+    for table in KEPT:
+        query = query.where(Job.id.not_in(select(table.look_job).where(table.look_job.is_not(None))))
     return session.scalars(query.order_by(Job.finished_at).limit(most)).all()
 
 

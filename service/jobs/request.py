@@ -15,11 +15,11 @@ from service.context import Context
 from service.documents import parse_json
 from service.files import service as files
 from service.files.intake import Form
-from service.files.models import File
-from service.jobs.models import Job
 from service.jobs.schemas import JobIn, RevisionIn
 from service.jobs.service import revise, submit
 from service.problems import Problem, invalid
+from service.tables.files import File
+from service.tables.jobs import Job
 
 JSON_PARTS = ("options", "metadata", "webhook_events")
 TEXT_PARTS = ("kind", "webhook_url", "priority", "title")

@@ -9,11 +9,11 @@ from typing import Annotated, Any, Literal, cast
 from pydantic import BaseModel, Field, JsonValue
 
 from service.artifacts.links import Signer
-from service.artifacts.models import Artifact
 from service.artifacts.schemas import ArtifactOut
 from service.asked import ASKED
 from service.clock import now
-from service.jobs.models import TITLE_CHARACTERS, TITLE_PATTERN, Job, Priority, Status
+from service.tables.artifacts import Artifact
+from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Priority, Status
 from service.webhooks.schemas import Events, Url
 
 Given = str | Annotated[list[str], Field(fail_fast=True, max_length=200)]

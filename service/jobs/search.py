@@ -13,9 +13,9 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from engine.kind import Kind
-from service.files.models import File
 from service.ids import is_id
-from service.jobs.models import Job
+from service.tables.files import File
+from service.tables.jobs import Job
 
 
 def folded(text: str) -> str:

@@ -21,15 +21,15 @@ from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.files import repository as files
-from service.files.models import File
 from service.files.service import forget
 from service.ids import new_id
 from service.jobs import leases, repository, search, stages
 from service.jobs.inputs import Value, named, resolve, split_corrections
-from service.jobs.models import IdempotencyKey, Job, JobFile, Priority, Status
 from service.jobs.portions import choose_portions
 from service.jobs.schemas import JobIn, JobOut, JobTree, RevisionIn
 from service.problems import Problem, invalid
+from service.tables.files import File
+from service.tables.jobs import IdempotencyKey, Job, JobFile, Priority, Status
 from service.traces.current import current_request
 from service.webhooks.service import require_address
 

@@ -16,17 +16,17 @@ import structlog
 from pydantic import BaseModel, ValidationError
 
 from service.artifacts import repository as artifacts
-from service.artifacts.models import Artifact
 from service.context import Context
 from service.jobs import repository as jobs
 from service.jobs import service
-from service.jobs.models import Status
 from service.jobs.schemas import JobIn
 from service.kept import repository
-from service.kept.models import Kept
 from service.kept.shelves import Shelf
 from service.problems import Problem
 from service.storage import Storage
+from service.tables.artifacts import Artifact
+from service.tables.jobs import Status
+from service.tables.kept import Kept
 
 DOCUMENT_BYTES = 1_000_000
 """What is read of a document at most: the process that wrote it may be in a stranger's hands."""

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from sqlalchemy import delete, select, update
 from sqlalchemy.orm import Session
 
-from service.files.models import File
-from service.kept.models import Kept
 from service.kept.shelves import Shelf
+from service.tables.files import File
+from service.tables.kept import Kept
 
 
 def get(session: Session, shelf: Shelf, owner: str, name: str) -> Kept | None:

@@ -10,14 +10,14 @@ from engine.kind import AUTO
 from service.clock import now
 from service.context import Context
 from service.files import repository as files
-from service.files.models import File
 from service.files.service import erase_unused
 from service.ids import is_id
 from service.jobs.inputs import Refused, held_file
 from service.kept import looks, repository
-from service.kept.models import Kept
 from service.kept.shelves import Shelf
 from service.problems import FieldError, Problem
+from service.tables.files import File
+from service.tables.kept import Kept
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
 

@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from engine.media.sniff import MOTION_TYPES, VIDEO_TYPES
-from service.drivers.models import Driver
-from service.kept.models import Kept
 from service.kinds import library
-from service.motions.models import Motion
+from service.tables.kept import Driver, Kept, Motion
 
 
 @dataclass(frozen=True)

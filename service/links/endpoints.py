@@ -21,9 +21,9 @@ from service.ids import LIKE_AN_ID, is_id, new_id
 from service.jobs import repository as jobs
 from service.jobs.service import found
 from service.links import repository
-from service.links.models import PublicLink
 from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens
 from service.problems import Problem, responses
+from service.tables.links import PublicLink
 
 router = APIRouter(tags=["links"], route_class=AskedRoute)
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from sqlalchemy import delete, or_, select
 from sqlalchemy.orm import Session
 
-from service.auth.models import Key
 from service.auth.tokens import digest
 from service.clock import now
-from service.links.models import PublicLink
+from service.tables.keys import Key
+from service.tables.links import PublicLink
 
 
 def of_job(session: Session, job_id: str) -> Sequence[PublicLink]:

@@ -9,10 +9,10 @@ from urllib.parse import quote
 
 from pydantic import BaseModel, Field
 
-from service.artifacts.models import Artifact
 from service.asked import ASKED
-from service.jobs.models import Job
-from service.links.models import PublicLink
+from service.tables.artifacts import Artifact
+from service.tables.jobs import Job
+from service.tables.links import PublicLink
 
 
 class LinkIn(BaseModel):

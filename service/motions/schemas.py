@@ -8,10 +8,10 @@ from typing import Literal
 from pydantic import BaseModel
 
 from engine.motion.catalogue import BuiltInMotion
-from service.files.models import File
 from service.kept.looks import Look, LookStatus
-from service.kept.models import Kept
 from service.motions.checks import Check, MotionError, MotionJoint
+from service.tables.files import File
+from service.tables.kept import Kept
 
 
 class MotionOut(BaseModel):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from engine.motion.catalogue import CATALOGUE
-from service.artifacts.delivery import Stored
 from service.context import Context
 from service.kept import repository
 from service.kept.looks import looks_into
@@ -12,6 +11,7 @@ from service.kept.shelves import MOTIONS
 from service.motions.checks import Check
 from service.motions.schemas import MotionOut
 from service.problems import Problem
+from service.tables.stored import Stored
 
 
 def all_motions(context: Context, owner: str) -> list[MotionOut]:

@@ -10,8 +10,6 @@ from opentelemetry.context import Context
 from opentelemetry.trace import NoOpTracer, Span, StatusCode, Tracer, set_span_in_context
 from opentelemetry.trace.propagation.tracecontext import TraceContextTextMapPropagator
 
-TRACEPARENT_CHARACTERS = 55
-
 
 class Traces:
     """What makes spans in this process, and sends them."""

@@ -11,9 +11,9 @@ from service.bodies import announced
 from service.context import Context, InContext
 from service.disk import require_space
 from service.problems import Problem, responses
+from service.tables.uploads import Upload
 from service.uploads import protocol, service
 from service.uploads.checksum import Checksum
-from service.uploads.models import Upload
 from service.uploads.protocol import (
     PIECE,
     ContentType,

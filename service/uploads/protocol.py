@@ -19,8 +19,8 @@ from service.auth.caller import InCaller
 from service.files.door import largest_mb
 from service.problems import Problem, invalid_request, phrase
 from service.settings import MEGABYTE, Settings
+from service.tables.uploads import Upload
 from service.uploads.checksum import ALGORITHMS
-from service.uploads.models import Upload
 
 VERSION = "1.0.0"
 EXTENSIONS = ("creation", "creation-with-upload", "creation-defer-length", "checksum", "expiration", "termination")

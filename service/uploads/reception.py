@@ -16,14 +16,14 @@ from service.clock import now
 from service.context import Context
 from service.disk import require_space
 from service.files.door import HEAD_BYTES, largest_mb, recognise, too_large
-from service.files.models import File
 from service.files.service import record
 from service.problems import Problem
 from service.settings import MEGABYTE
+from service.tables.files import File
+from service.tables.uploads import Upload
 from service.uploads import repository, spool
 from service.uploads.checksum import Checksum
 from service.uploads.digest import RunningDigest
-from service.uploads.models import Upload
 
 RECORD_BYTES = 32 * MEGABYTE
 RECORD_SECONDS = 2.0

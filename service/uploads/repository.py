@@ -9,7 +9,7 @@ from typing import Any
 from sqlalchemy import ColumnElement, delete, select, update
 from sqlalchemy.orm import Session
 
-from service.uploads.models import Upload
+from service.tables.uploads import Upload
 
 
 def get(session: Session, owner: str, upload_id: str) -> Upload | None:

@@ -7,9 +7,9 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from service.files.models import File
 from service.files.schemas import FileOut
-from service.uploads.models import Upload
+from service.tables.files import File
+from service.tables.uploads import Upload
 
 
 class UploadOut(BaseModel):

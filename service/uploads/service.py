@@ -13,13 +13,13 @@ from service.connections.patience import Stalled, Stopped
 from service.context import Context
 from service.disk import require_space
 from service.files.door import largest_mb, shown_name, too_large
-from service.files.models import File
 from service.files.service import erase_unused
 from service.ids import is_id, new_id
 from service.problems import Problem
 from service.settings import MEGABYTE
+from service.tables.files import File
+from service.tables.uploads import Upload
 from service.uploads import metadata, repository, spool
-from service.uploads.models import Upload
 from service.uploads.reception import Reception
 from service.uploads.under_way import Hold
 

@@ -16,15 +16,15 @@ from sqlalchemy import ColumnElement, Select, func, literal, or_, select, update
 from sqlalchemy.orm import Session
 
 from service.artifacts.links import Signer
-from service.auth.models import Key
-from service.database import UTCDateTime, moment_in
 from service.figures import counters
-from service.jobs.models import Job
 from service.settings import Settings
+from service.tables.base import UTCDateTime, moment_in
+from service.tables.jobs import Job
+from service.tables.keys import Key
+from service.tables.webhooks import Delivery, DeliveryAttempt, DeliveryStatus, Webhook
 from service.vault import SecretUnreadable
 from service.webhooks import schedule
 from service.webhooks.message import body
-from service.webhooks.models import Delivery, DeliveryAttempt, DeliveryStatus, Webhook
 from service.webhooks.signing import live_secrets
 
 UNREADABLE = "secret_unreadable"

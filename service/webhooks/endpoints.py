@@ -14,8 +14,8 @@ from service.clock import now
 from service.context import InContext
 from service.ids import LIKE_AN_ID, is_id
 from service.problems import Problem, responses
+from service.tables.webhooks import Delivery, DeliveryStatus
 from service.webhooks import repository, service
-from service.webhooks.models import Delivery, DeliveryStatus
 from service.webhooks.repository import Wanted
 from service.webhooks.schemas import (
     DeliveryDetail,

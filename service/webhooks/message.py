@@ -7,7 +7,7 @@ from datetime import UTC
 from typing import Any
 
 from service.artifacts.links import Signer
-from service.webhooks.models import Delivery
+from service.tables.webhooks import Delivery
 
 
 def body(delivery: Delivery, signer: Signer, public_url: str | None) -> str:

@@ -11,12 +11,12 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from service.artifacts import repository as artifacts
-from service.events.models import Event
 from service.ids import new_id
-from service.jobs.models import Job, Status
 from service.jobs.schemas import JobOut
+from service.tables.events import Event
+from service.tables.jobs import Job, Status
+from service.tables.webhooks import FINAL, Delivery, DeliveryStatus, EventType
 from service.webhooks import repository
-from service.webhooks.models import FINAL, Delivery, DeliveryStatus, EventType
 
 PROGRESS_EVERY = timedelta(seconds=5)
 """An address is told of a job's progress no more often than this, and not while the last word is still on its way."""

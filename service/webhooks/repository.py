@@ -10,7 +10,7 @@ from datetime import datetime
 from sqlalchemy import delete, func, or_, select
 from sqlalchemy.orm import Session
 
-from service.webhooks.models import Delivery, DeliveryAttempt, DeliveryStatus, Webhook
+from service.tables.webhooks import Delivery, DeliveryAttempt, DeliveryStatus, Webhook
 
 
 @dataclass(frozen=True)

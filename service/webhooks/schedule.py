@@ -9,7 +9,7 @@ from __future__ import annotations
 from datetime import datetime, timedelta
 from random import Random
 
-from service.webhooks.models import EventType, Webhook
+from service.tables.webhooks import EventType, Webhook
 
 RETRIES = (
     timedelta(seconds=5),

@@ -9,15 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, Field, Strict
 
 from service.asked import ASKED
-from service.webhooks.models import (
-    FINAL,
-    URL_CHARACTERS,
-    Delivery,
-    DeliveryAttempt,
-    DeliveryStatus,
-    EventType,
-    Webhook,
-)
+from service.tables.webhooks import FINAL, URL_CHARACTERS, Delivery, DeliveryAttempt, DeliveryStatus, EventType, Webhook
 
 
 def _once(events: list[EventType]) -> list[EventType]:

@@ -13,8 +13,8 @@ from service.clock import now
 from service.ids import is_id, new_id
 from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
+from service.tables.webhooks import TEST, Delivery, DeliveryStatus, Webhook
 from service.webhooks import repository
-from service.webhooks.models import TEST, Delivery, DeliveryStatus, Webhook
 from service.webhooks.outbox import Destination, new_delivery
 from service.webhooks.schemas import WebhookChange, WebhookIn
 

@@ -7,7 +7,7 @@ from datetime import datetime
 
 import standardwebhooks
 
-from service.webhooks.models import Webhook
+from service.tables.webhooks import Webhook
 
 
 def live_secrets(webhook: Webhook, moment: datetime) -> tuple[str, ...]:

@@ -20,10 +20,10 @@ from hypothesis import strategies as st
 from running import Running
 
 from service.artifacts.archive import zipped
-from service.artifacts.models import Artifact
 from service.artifacts.ranges import Unsatisfiable, parse_ranges
 from service.ids import new_id
 from service.storage import Storage
+from service.tables.artifacts import Artifact
 
 WHOLE = bytes(range(256)) * 400
 SIZE = len(WHOLE)

@@ -12,11 +12,11 @@ import pytest
 from service.clock import now
 from service.database import Database
 from service.events import repository as events
-from service.events.models import Event
 from service.files import repository as files
-from service.files.models import File
 from service.ids import new_id
-from service.jobs.models import Job, JobFile
+from service.tables.events import Event
+from service.tables.files import File
+from service.tables.jobs import Job, JobFile
 
 
 @pytest.fixture

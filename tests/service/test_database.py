@@ -10,10 +10,11 @@ import pytest
 from sqlalchemy import select, text
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
-from service.database import Database, moment_in
-from service.drivers.models import Driver
-from service.files.models import File
+from service.database import Database
 from service.ids import is_id, new_id
+from service.tables.base import moment_in
+from service.tables.files import File
+from service.tables.kept import Driver
 
 
 @pytest.fixture

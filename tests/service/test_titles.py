@@ -9,13 +9,13 @@ import pytest
 from running import Running
 
 from engine.kind import Input, Kind
-from service.auth.models import LOCAL
 from service.clock import now
 from service.database import Database
-from service.files.models import File
 from service.ids import new_id
 from service.jobs import repository, search
-from service.jobs.models import Job
+from service.tables.files import File
+from service.tables.jobs import Job
+from service.tables.keys import LOCAL
 
 
 def rename(running: Running, job_id: str, title: Any) -> Any:

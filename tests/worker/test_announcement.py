@@ -12,7 +12,7 @@ from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
 from service.jobs import leases, repository
-from service.jobs.models import Job
+from service.tables.jobs import Job
 from worker.announcement import MESSAGE, STAGE, announce, take_back
 
 

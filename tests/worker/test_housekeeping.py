@@ -12,12 +12,12 @@ from sqlalchemy import select, update
 
 from service.clock import now
 from service.context import Context
-from service.drivers.models import Driver
-from service.files.models import File
 from service.ids import new_id
-from service.jobs.models import Job, JobFile
+from service.tables.files import File
+from service.tables.jobs import Job, JobFile
+from service.tables.kept import Driver
+from service.tables.uploads import Upload
 from service.uploads import spool
-from service.uploads.models import Upload
 from service.uploads.service import create
 from worker.housekeeping import keep_house
 

@@ -7,14 +7,14 @@ from datetime import timedelta
 
 import pytest
 
-from service.auth.models import Key
 from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
-from service.jobs.models import Job, Priority, Status
+from service.tables.jobs import Job, Priority, Status
+from service.tables.keys import Key
 from service.vault import Secret
 from worker.sweep import take_back_expired
 

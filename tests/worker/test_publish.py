@@ -14,7 +14,7 @@ from service.context import Context
 from service.ids import new_id
 from service.jobs import leases
 from service.jobs.leases import Lease
-from service.jobs.models import Job
+from service.tables.jobs import Job
 from worker.plain_files import Refused
 from worker.publish import publish, publish_all
 

@@ -18,12 +18,12 @@ from receiver import Receiver
 from sqlalchemy import create_engine, select, text
 
 from service import postgresql
-from service.auth.models import LOCAL, Key
 from service.context import Context
 from service.settings import Settings
+from service.tables.keys import LOCAL, Key
+from service.tables.webhooks import Delivery, Webhook
 from service.vault import PREFIX, SecretUnreadable, new_key
 from service.webhooks import repository, service
-from service.webhooks.models import Delivery, Webhook
 from service.webhooks.schemas import WebhookIn
 from worker.webhooks import Courier
 

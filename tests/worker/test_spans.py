@@ -10,7 +10,7 @@ from opentelemetry.sdk.trace.export import SimpleSpanProcessor
 from opentelemetry.sdk.trace.export.in_memory_span_exporter import InMemorySpanExporter
 
 from service.jobs.leases import Lease
-from service.jobs.models import Job
+from service.tables.jobs import Job
 from worker.spans import MOST_STAGES, AttemptSpans
 
 

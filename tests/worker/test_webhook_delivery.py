@@ -20,20 +20,20 @@ from receiver import OK, Receiver, status
 from servers import PostgresServer
 from sqlalchemy import func, select
 
-from service.artifacts.models import Artifact
-from service.auth.models import LOCAL, Key
 from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
 from service.jobs import leases, repository
 from service.jobs.leases import Lease
-from service.jobs.models import Job
 from service.problems import Problem
 from service.settings import Settings
+from service.tables.artifacts import Artifact
+from service.tables.jobs import Job
+from service.tables.keys import LOCAL, Key
+from service.tables.webhooks import Delivery, DeliveryAttempt, EventType, Webhook
 from service.webhooks import course, outbox, service
 from service.webhooks import repository as webhooks
-from service.webhooks.models import Delivery, DeliveryAttempt, EventType, Webhook
 from service.webhooks.schedule import RETRIES, pause
 from service.webhooks.schemas import WebhookIn
 from worker.housekeeping import forget_old_deliveries

@@ -7,8 +7,8 @@ from datetime import datetime
 from sqlalchemy import BigInteger, ForeignKey, String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.artifacts.delivery import Stored
-from service.database import Base, UTCDateTime
+from service.tables.base import Base, UTCDateTime
+from service.tables.stored import Stored
 
 
 class File(Base):

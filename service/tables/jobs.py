@@ -9,10 +9,10 @@ from typing import Any
 from sqlalchemy import JSON, ForeignKey, Index, SmallInteger, String, Text
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, UTCDateTime
-from service.traces.tracer import TRACEPARENT_CHARACTERS
+from service.tables.base import Base, UTCDateTime
 
 TITLE_CHARACTERS = 200
+TRACEPARENT_CHARACTERS = 55
 TITLE_PATTERN = r"^[^\x00-\x1f\x7f]*$"
 
 

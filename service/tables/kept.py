@@ -1,4 +1,4 @@
-"""What the tables of kept files have in common."""
+"""The tables of what users keep under names, each beside a built-in library of the same things."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from datetime import datetime
 from sqlalchemy import ForeignKey, String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, UTCDateTime
+from service.tables.base import Base, UTCDateTime
 
 
 class Kept(Base):
@@ -21,3 +21,23 @@ class Kept(Base):
     look_job: Mapped[str | None] = mapped_column(String(36), index=True)
     """The job that looks into it; it may have been erased since."""
     created_at: Mapped[datetime] = mapped_column(UTCDateTime)
+
+
+class Driver(Kept):
+    """A driving video that a user keeps under a name."""
+
+    __tablename__ = "drivers"
+
+    look_job: Mapped[str | None] = mapped_column("moments_job", String(36), index=True)
+
+
+class Motion(Kept):
+    """A motion file that a user keeps under a name."""
+
+    __tablename__ = "motions"
+
+    look_job: Mapped[str | None] = mapped_column("check_job", String(36), index=True)
+
+
+KEPT: tuple[type[Kept], ...] = (Driver, Motion)
+"""All of them."""

@@ -9,7 +9,7 @@ from typing import Any
 from sqlalchemy import JSON, BigInteger, Float, ForeignKey, Index, Integer, String, Text
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, Sealed, UTCDateTime
+from service.tables.base import Base, Sealed, UTCDateTime
 from service.vault import Secret
 
 URL_CHARACTERS = 2000

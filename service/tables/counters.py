@@ -5,7 +5,7 @@ from __future__ import annotations
 from sqlalchemy import Float, String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base
+from service.tables.base import Base
 
 
 class Counter(Base):

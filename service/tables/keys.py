@@ -7,7 +7,7 @@ from datetime import datetime
 from sqlalchemy import JSON, String
 from sqlalchemy.orm import Mapped, mapped_column
 
-from service.database import Base, Sealed, UTCDateTime
+from service.tables.base import Base, Sealed, UTCDateTime
 from service.vault import Secret
 
 LOCAL = "local"
