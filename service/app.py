@@ -8,22 +8,22 @@ from fastapi.middleware.cors import CORSMiddleware
 import engine
 from service import openapi, problems
 from service.artifacts.endpoints import router as artifacts
-from service.auth.endpoints import router as keys
 from service.connections.patience import Patience
 from service.connections.stopping import Stopping
 from service.context import Context
 from service.drivers.endpoints import router as drivers
-from service.encodings import Compressed
 from service.events.endpoints import router as events
 from service.events.watch import Watch
 from service.files.endpoints import router as files
-from service.guard import Guard
 from service.health.endpoints import router as health
+from service.http.encodings import Compressed
+from service.http.guard import Guard
+from service.http.page import Page
 from service.jobs.endpoints import router as jobs
+from service.keys.endpoints import router as keys
 from service.kinds.endpoints import router as kinds
 from service.links.endpoints import router as links
 from service.motions.endpoints import router as motions
-from service.page import Page
 from service.traces.requests import Requests
 from service.uploads.endpoints import router as uploads
 from service.uploads.under_way import UnderWay

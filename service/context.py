@@ -10,9 +10,9 @@ from fastapi import Depends, Request
 
 from engine.kind import Kind
 from service.bucket import Bucket
+from service.catalogue.registry import load_kinds, require_known
 from service.database import Database
 from service.disk import keep_ballast
-from service.kinds.registry import load_kinds, require_known
 from service.queue import Queue
 from service.settings import Settings
 from service.storage import Storage

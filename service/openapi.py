@@ -13,7 +13,7 @@ from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
 
 from service.auth.sessions import COOKIE
-from service.guard import PUBLIC
+from service.http.guard import PUBLIC
 from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import ProblemDocument, responses
 from service.traces.requests import HEADER, ID_PATTERN
@@ -90,7 +90,7 @@ def _tell_of_problems(operation: dict[str, Any]) -> None:
 
 
 def _tell_of_bodies(operation: dict[str, Any]) -> None:
-    """No body may be of any length (`service.bodies`)."""
+    """No body may be of any length (`service.http.bodies`)."""
     if "requestBody" in operation:
         for status, answer in responses(413).items():
             operation["responses"].setdefault(str(status), answer)

@@ -25,6 +25,7 @@ from service.database import database_unavailable
 from service.postgresql import UNTRANSLATABLE, error_code
 from service.storage import StorageUnavailable
 from service.traces.current import current_request
+from service.traces.requests import METHODS
 from service.vault import SecretUnreadable
 
 MEDIA_TYPE = "application/problem+json"
@@ -34,7 +35,6 @@ MOST_ERRORS = 10
 """As many wrong fields are told of in one answer: a stranger may send many thousands."""
 LONGEST_POINTER, LONGEST_DETAIL = 300, 2000
 """Characters of what an answer repeats of a request."""
-METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 
 HEADERS = {
     401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},
@@ -171,7 +171,9 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:
-        if isinstance(error.__cause__, Problem):  # what `service.asked` says of a body, as FastAPI passes it on
+        if isinstance(
+            error.__cause__, Problem
+        ):  # what `service.http.request_models` says of a body, as FastAPI passes it on
             return error.__cause__.response()
         if error.status_code == 405:
             error.headers = {"Allow": ", ".join(_methods(app, request.scope))}

@@ -143,7 +143,7 @@ def _encoders(settings: Settings) -> Iterator[Finding]:
 
 
 def _kinds(settings: Settings) -> Iterator[Finding]:
-    from service.kinds.registry import load_kinds, require_known
+    from service.catalogue.registry import load_kinds, require_known
 
     kinds = load_kinds(settings.kinds)
     yield Finding("ok", f"job kinds: {', '.join(kinds)}")
@@ -162,7 +162,7 @@ def _files(settings: Settings) -> Iterator[Finding]:
 
 
 def _performances(settings: Settings) -> Iterator[Finding]:
-    from service.kinds import library
+    from service.catalogue import built_in as library
 
     yield Finding("ok", f"built-in performances: {', '.join(library.names('performances'))}")
 

@@ -11,10 +11,11 @@ from rich.console import Console
 from rich.table import Table
 from sqlalchemy.orm import Session
 
-from service.auth import repository, service
-from service.auth.schemas import KeyIn
+from service.auth import repository
 from service.auth.tokens import HINT_CHARACTERS
 from service.database import Database
+from service.keys import service
+from service.keys.schemas import KeyIn
 from service.links import repository as links
 from service.problems import Problem
 from service.tables.keys import Key

@@ -23,7 +23,7 @@ from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from engine.unknown_options import explained
-from service.kinds import library
+from service.catalogue import built_in as library
 from service.settings import MEGABYTE, Settings
 from shell.complaint import Complaint
 from shell.noise import libraries_silenced

@@ -44,7 +44,7 @@ class Kinds(Group):
     """The fixed commands, and one made from each job kind; the kinds are loaded only where they are asked for."""
 
     def list_commands(self, context: click.Context) -> list[str]:
-        from service.kinds.registry import load_kinds
+        from service.catalogue.registry import load_kinds
         from service.settings import Settings
 
         return [*super().list_commands(context), *sorted(load_kinds(Settings().kinds))]
@@ -55,7 +55,7 @@ class Kinds(Group):
             return fixed
         gc.set_threshold(20_000, 20, 20)  # not after 700 new objects: the numeric libraries make many that stay
         from engine.allocation import keep_memory
-        from service.kinds.registry import load_kinds
+        from service.catalogue.registry import load_kinds
         from service.settings import Settings
         from shell.kind_command import kind_command
 

@@ -7,8 +7,8 @@ from alembic.util import CommandError
 from sqlalchemy.exc import DBAPIError
 
 from service import postgresql
+from service.catalogue.registry import load_kinds, require_known
 from service.context import Context
-from service.kinds.registry import load_kinds, require_known
 from service.settings import Settings
 from shell.complaint import Complaint
 

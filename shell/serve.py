@@ -25,8 +25,8 @@ from service.connections.census import Census, most_connections, raise_file_limi
 from service.connections.protocol import Config
 from service.connections.stopping import Stopping
 from service.context import Context
+from service.http.page import NOT_BUILT, built
 from service.logs import configure
-from service.page import NOT_BUILT, built
 from service.pulse import BEAT_SECONDS, owner, silence
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings

@@ -13,7 +13,8 @@ import structlog
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.tables.jobs import Job, Status
 
 STAGE = "prepare_engine"

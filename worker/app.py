@@ -18,7 +18,8 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
 from service.database import database_unavailable
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.jobs.leases import Lease
 from service.pulse import BEAT_SECONDS, Pulse, owner
 from service.queue import TASK, queue_name

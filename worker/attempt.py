@@ -19,11 +19,11 @@ from opentelemetry.trace import Span
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.orm import Session
 
+from service.catalogue.allowance import Allowance
 from service.context import Context
 from service.disk import free_mb
 from service.jobs import leases
 from service.jobs.leases import Lease
-from service.kinds.allowance import Allowance
 from service.tables.jobs import Job
 from service.traces.tracer import fail
 from worker import inputs

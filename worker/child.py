@@ -21,7 +21,7 @@ from typing import Any, NoReturn
 
 from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
-from service.kinds.registry import load_kinds
+from service.catalogue.registry import load_kinds
 from worker import death
 from worker.confinement import Limits, confine, keep_to_cores, limit, of_the_program
 from worker.rehearsal import kept_in, load_compiled

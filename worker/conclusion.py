@@ -16,7 +16,8 @@ from typing import Any
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.jobs.leases import Lease
 from service.jobs.stages import erase
 from service.storage import StorageUnavailable

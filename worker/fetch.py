@@ -18,7 +18,7 @@ from urllib.parse import unquote, urlsplit
 import httpx
 
 from service.disk import require_space
-from service.files.door import HEAD_BYTES, largest_mb, recognise, shown_name
+from service.files.admission import HEAD_BYTES, largest_mb, recognise, shown_name
 from service.outbound.address import AddressRefused, require_callable
 from service.outbound.client import client
 from service.problems import Problem

@@ -13,13 +13,12 @@ from pathlib import Path
 from sqlalchemy.orm import Session
 
 from engine.store import trim
-from service.artifacts import repository as artifacts
 from service.clock import now
 from service.context import Context
 from service.files import analyses
 from service.files import repository as files
 from service.files.service import forget
-from service.jobs import repository as jobs
+from service.job_records import artifacts, jobs
 from service.jobs.service import delete
 from service.jobs.stages import STAGES
 from service.links import repository as links

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from engine.store import StageStore
+from service.catalogue.allowance import Allowance
 from service.context import Context
 from service.files import analyses
 from service.files import repository as files
 from service.jobs.leases import Lease
-from service.kinds.allowance import Allowance
 from service.settings import MEGABYTE
 from service.tables.jobs import Job
 from worker.mirror import Mirror

@@ -11,12 +11,12 @@ from pathlib import Path
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.orm import Session
 
-from service.artifacts import repository
-from service.artifacts.schemas import ArtifactOut
 from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
+from service.job_records import artifacts as repository
+from service.job_records.schemas import ArtifactOut
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.artifacts import Artifact

@@ -27,7 +27,7 @@ from typing import Any
 import structlog
 
 import engine
-from service.kinds.registry import load_kinds
+from service.catalogue.registry import load_kinds
 from service.settings import Settings
 from worker.interpreter import module_command, module_environment
 from worker.tether import tethered

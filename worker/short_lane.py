@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 
 from service.context import Context
-from service.jobs import repository
+from service.job_records import jobs as repository
 from worker.children import ChildLost, WarmChildren
 
 LOOK_SECONDS = 0.5

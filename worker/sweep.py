@@ -9,7 +9,8 @@ import redis
 import structlog
 
 from service.context import Context
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.tables.jobs import Status
 
 PATIENCE = 10.0

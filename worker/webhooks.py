@@ -23,8 +23,8 @@ from service.outbound.address import AddressRefused
 from service.outbound.client import client
 from service.traces.current import origin_logged
 from service.traces.tracer import fail, parent_of, trace_id
-from service.webhooks import course
-from service.webhooks.course import UNREADABLE, Claim, Outcome
+from service.webhooks import delivery_lease as course
+from service.webhooks.delivery_lease import UNREADABLE, Claim, Outcome
 from service.webhooks.signing import signed_headers
 from worker.insist import insist
 

@@ -21,7 +21,7 @@ from engine.media.limits import Limits
 from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run, Turn
 from engine.store import StageStore
-from service.kinds import library
+from service.catalogue import built_in as library
 
 
 class Wire:

@@ -9,16 +9,16 @@ from fastapi import APIRouter, Query, Request
 from sqlalchemy.orm import Session
 from starlette.responses import Response, StreamingResponse
 
-from service.artifacts import repository
 from service.artifacts.archive import zipped
-from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
-from service.artifacts.links import good
 from service.artifacts.naming import download_name
 from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
 from service.context import InContext
-from service.jobs import repository as jobs
-from service.jobs.service import found
+from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.job_records import artifacts as repository
+from service.job_records import jobs
+from service.job_records.owned import found
+from service.job_records.signed_links import good
 from service.problems import Problem, responses
 from service.tables.jobs import Status
 

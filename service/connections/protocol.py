@@ -13,12 +13,12 @@ from typing import Any, cast
 import h11
 import uvicorn
 
-from service import browser
 from service.connections.census import MOST_PARTING, Census
 from service.connections.patience import Stopped
 from service.connections.strict import StrictConnection
 from service.connections.transport import Transport
 from service.connections.turns import InTurns
+from service.http import browser
 from service.problems import Problem, phrase
 
 HEAD_BYTES = 64 * 1024

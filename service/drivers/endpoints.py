@@ -1,70 +1,31 @@
-"""GET, POST, PATCH and DELETE /drivers: the built-in performances and the user's own driving videos."""
+"""/drivers: the built-in performances and the user's own driving videos; and their videos and pictures."""
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request
+from fastapi import Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import DELIVERED, DELIVERED_IN_PARTS, deliver
-from service.asked import AskedRoute
-from service.auth.caller import Reader, Submitter
+from service.auth.caller import Reader
 from service.context import InContext
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
-from service.kept import endpoints as kept
-from service.kept import service as keeping
-from service.kept.request import KeptChange, body
-from service.kept.shelves import DRIVERS
-from service.problems import responses
+from service.http.delivery import DELIVERED, DELIVERED_IN_PARTS, deliver
+from service.keeping.endpoints import Endpoints, library_router
 
-router = APIRouter(prefix="/drivers", tags=["drivers"], route_class=AskedRoute)
-
-
-@router.get("", operation_id="list_drivers")
-def list_drivers(caller: Reader, context: InContext) -> DriverList:
-    """The drivers that a job can name: the built-in performances, then the user's own."""
-    return DriverList(items=service.all_drivers(context, caller.owner))
-
-
-@router.post(
-    "",
-    status_code=201,
-    operation_id="create_driver",
-    openapi_extra=body("video/*"),
-    responses=responses(409, 413, 415, 422, 507),
+router = library_router(
+    service.PRESENTED,
+    Endpoints(
+        item=DriverOut,
+        listed=DriverList,
+        media_types="video/*",
+        inspection="moments",
+        inspect="search",
+        list_says="The drivers that a job can name: the built-in performances, then the user's own.",
+        keep_says="Keep a driving video under a name.",
+        inspect_says="Search one of the user's own drivers for moments again. A new driver is searched by itself.",
+        file_is="video",
+    ),
 )
-async def create_driver(request: Request, response: Response, caller: Submitter, context: InContext) -> DriverOut:
-    """Keep a driving video under a name."""
-    return await kept.create(DRIVERS, service.one_driver, request, response, caller, context)
-
-
-@router.get("/{name}", operation_id="get_driver", responses=responses(404))
-def get_driver(name: str, caller: Reader, context: InContext) -> DriverOut:
-    """What is known of a driver."""
-    return service.one_driver(context, caller.owner, name)
-
-
-@router.post(
-    "/{name}/moments",
-    status_code=202,
-    operation_id="search_driver",
-    responses=responses(404, 409, 422, 507),
-)
-def search_driver(name: str, caller: Submitter, context: InContext) -> DriverOut:
-    """Search one of the user's own drivers for moments again. A new driver is searched by itself."""
-    return kept.look_again(DRIVERS, service.one_driver, name, caller, context)
-
-
-@router.patch("/{name}", operation_id="rename_driver", responses=responses(404, 409, 422))
-def rename_driver(name: str, asked: KeptChange, caller: Submitter, context: InContext) -> DriverOut:
-    """Give one of the user's own drivers another name. Jobs that use it stay as they are."""
-    return kept.rename(DRIVERS, service.one_driver, name, asked.name, caller, context)
-
-
-@router.delete("/{name}", status_code=204, operation_id="delete_driver", responses=responses(404, 409))
-def delete_driver(name: str, caller: Submitter, context: InContext) -> None:
-    """Erase one of the user's own drivers. Jobs that use it keep its video until they are deleted."""
-    keeping.delete(context, DRIVERS, caller.owner, name)
 
 
 @router.head("/{name}/video", include_in_schema=False)

@@ -9,8 +9,8 @@ from pydantic import BaseModel
 
 from engine.performances import Performance, State
 from engine.performances.catalogue import Strength
-from service.drivers.moments import Moments, Portion, portions
-from service.kept.looks import Look, LookStatus
+from service.libraries.driver_segments import Segment, Segments, segments
+from service.libraries.inspections import Inspection, InspectionStatus
 from service.tables.files import File
 from service.tables.kept import Kept
 
@@ -57,7 +57,7 @@ class DriverOut(BaseModel):
     created_at: datetime | None = None
     moments: list[MomentOut] = []
     """The portions of one's own driver that hold emotions and gestures, in the order of the states, the best first."""
-    moments_status: LookStatus = "none"
+    moments_status: InspectionStatus = "none"
     """How far the search for them is; `none`: there was no search."""
     moments_job: str | None = None
     """The job that searches: its events tell how far it is, its error why it failed."""
@@ -79,7 +79,7 @@ class DriverOut(BaseModel):
         )
 
     @classmethod
-    def own(cls, driver: Kept, file: File, look: Look[Moments]) -> DriverOut:
+    def own(cls, driver: Kept, file: File, inspection: Inspection[Segments]) -> DriverOut:
         return cls(
             name=driver.name,
             source="own",
@@ -87,20 +87,20 @@ class DriverOut(BaseModel):
             size=file.size,
             content_type=file.content_type,
             created_at=driver.created_at,
-            poster=f"/v1/drivers/{driver.name}/poster" if look.status == "ready" else None,
-            seconds=look.document.seconds if look.document is not None else None,
-            moments=[_shown(driver, portion) for portion in portions(look)],
-            moments_status=look.status,
-            moments_job=driver.look_job if look.status != "none" else None,
+            poster=f"/v1/drivers/{driver.name}/poster" if inspection.status == "ready" else None,
+            seconds=inspection.document.seconds if inspection.document is not None else None,
+            moments=[_shown(driver, segment) for segment in segments(inspection)],
+            moments_status=inspection.status,
+            moments_job=driver.inspection_job if inspection.status != "none" else None,
         )
 
 
-def _shown(driver: Kept, portion: Portion) -> MomentOut:
+def _shown(driver: Kept, segment: Segment) -> MomentOut:
     address = f"/v1/drivers/{driver.name}"
     return MomentOut(
-        **portion.model_dump(),
-        url=f"{address}/video#t={portion.start:g},{portion.end:g}",
-        poster=f"{address}/moments/{portion.name}/poster",
+        **segment.model_dump(),
+        url=f"{address}/video#t={segment.start:g},{segment.end:g}",
+        poster=f"{address}/moments/{segment.name}/poster",
     )
 
 

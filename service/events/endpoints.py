@@ -13,7 +13,7 @@ from service.context import InContext
 from service.events import repository
 from service.events.stream import follow
 from service.events.watch import InWatch
-from service.jobs.service import found
+from service.job_records.owned import found
 from service.problems import Problem, responses
 from service.tables.jobs import Status
 

@@ -11,7 +11,7 @@ from anyio.to_thread import run_sync
 from service.context import Context
 from service.events import repository
 from service.events.watch import Watch
-from service.jobs import repository as jobs
+from service.job_records import jobs
 from service.tables.events import Event
 from service.tables.jobs import Status
 

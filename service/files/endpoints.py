@@ -8,12 +8,12 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
 from service.auth.caller import Caller, Reader, Submitter
 from service.context import Context, InContext
 from service.files import repository, service
 from service.files.intake import Form
 from service.files.schemas import FileOut
+from service.http.delivery import DELIVERED_IN_PARTS, deliver
 from service.problems import Problem, responses
 from service.tables.files import File
 

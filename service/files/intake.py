@@ -15,12 +15,12 @@ from anyio.lowlevel import checkpoint
 from anyio.to_thread import run_sync
 from fastapi import Request
 
-from service.bodies import FIELD_BYTES, announced
 from service.disk import require_space
-from service.documents import require_text
-from service.files.door import shown_name, too_large
+from service.files.admission import shown_name, too_large
 from service.files.parts import Head, Parts
 from service.files.received import Received
+from service.http.bodies import FIELD_BYTES, announced
+from service.http.documents import require_text
 from service.ids import new_id
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
-from service.files.door import HEAD_BYTES, largest_mb, recognise, too_large
+from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
 

@@ -15,7 +15,7 @@ from service.clock import now
 from service.context import Context
 from service.disk import free_mb
 from service.figures.counters import COUNTERS, counted
-from service.jobs import repository
+from service.job_records import jobs as repository
 from service.settings import MEGABYTE
 from service.tables.jobs import Status
 from service.webhooks import repository as webhooks

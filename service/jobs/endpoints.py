@@ -11,17 +11,20 @@ from anyio.to_thread import run_sync
 from fastapi import APIRouter, Header, Query, Request
 from starlette.responses import Response
 
-from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.clock import Moment
 from service.connections.stopping import InStopping, Stopping
 from service.context import Context, InContext
 from service.disk import require_space
+from service.http.request_models import AskedRoute
 from service.ids import LIKE_AN_ID, is_id
-from service.jobs import repository, service
+from service.job_records import jobs as repository
+from service.job_records import owned
+from service.job_records.schemas import JobOut, JobPage, JobTree
+from service.job_records.search import words
+from service.jobs import service
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
-from service.jobs.schemas import JobChange, JobOut, JobPage, JobTree
-from service.jobs.search import words
+from service.jobs.schemas import JobChange
 from service.problems import Problem, responses
 from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 
@@ -108,7 +111,7 @@ async def revise_job(
 @router.get("/{job_id}/revisions", operation_id="list_revisions", responses=responses(404))
 def list_revisions(job_id: str, caller: Reader, context: InContext) -> JobTree:
     """The job, what it revises, and all that revises it."""
-    return service.shown_tree(context, caller.owner, job_id)
+    return owned.shown_tree(context, caller.owner, job_id)
 
 
 @router.get("", operation_id="list_jobs", responses=responses(422))
@@ -138,7 +141,7 @@ def list_jobs(
             session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before, words(q), latest
         )
         versions = repository.versions(session, caller.owner, {job.tree for job in jobs[:limit]})
-        items = service.views(context, session, caller.owner, jobs[:limit])
+        items = owned.views(context, session, caller.owner, jobs[:limit])
     next_cursor = items[-1].id if len(jobs) > limit else None
     if next_cursor is not None:
         following = request.url.include_query_params(cursor=next_cursor)
@@ -149,21 +152,21 @@ def list_jobs(
 @router.get("/{job_id}", operation_id="get_job", responses=responses(404))
 def get_job(job_id: str, caller: Reader, context: InContext) -> JobOut:
     """A job."""
-    return service.shown(context, caller.owner, job_id)
+    return owned.shown(context, caller.owner, job_id)
 
 
 @router.patch("/{job_id}", operation_id="change_job", responses=responses(404, 422))
 def change_job(job_id: str, asked: JobChange, caller: Submitter, context: InContext) -> JobOut:
     """Give the work that a job is a version of a title, or take it away: all versions have the same."""
     service.retitle(context, caller.owner, job_id, asked.title)
-    return service.shown(context, caller.owner, job_id)
+    return owned.shown(context, caller.owner, job_id)
 
 
 @router.post("/{job_id}/cancel", operation_id="cancel_job", responses=responses(404, 409))
 def cancel_job(job_id: str, caller: Submitter, context: InContext) -> JobOut:
     """Cancel a job that has not ended."""
     service.cancel(context, caller.owner, job_id)
-    return service.shown(context, caller.owner, job_id)
+    return owned.shown(context, caller.owner, job_id)
 
 
 @router.delete("/{job_id}", status_code=204, operation_id="delete_job", responses=responses(404))
@@ -186,10 +189,10 @@ async def _accepted(
         response.headers["Idempotent-Replayed"] = "true"
     wait = re.search(r"(?:^|[\s,;])wait\s*=\s*\"?(\d{1,6})", prefer or "")
     if wait is None and not replayed:
-        place = await run_sync(service.place, context, job)
+        place = await run_sync(owned.place, context, job)
         return JobOut.of(job, [], queue_position=place)  # it has only just been written
     if wait is None:
-        return await run_sync(service.shown, context, owner, job.id)
+        return await run_sync(owned.shown, context, owner, job.id)
     seconds = min(float(wait[1]), context.settings.wait_seconds)
     response.headers["Preference-Applied"] = f"wait={seconds:g}"
     return await _wait(context, stopping, owner, job.id, seconds)
@@ -199,7 +202,7 @@ async def _wait(context: Context, stopping: Stopping, owner: str, job_id: str, s
     """The job once it has ended, or the time is over, or the service stops: it was accepted, whatever becomes of us."""
     deadline = anyio.current_time() + seconds
     while True:
-        job = await run_sync(service.shown, context, owner, job_id)
+        job = await run_sync(owned.shown, context, owner, job_id)
         if job.status.final or stopping.begun or anyio.current_time() >= deadline:
             return job
         await stopping.sleep(WAIT_POLL_SECONDS)

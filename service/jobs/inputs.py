@@ -14,8 +14,8 @@ from engine.kind import AUTO, Input, Kind
 from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
 from service.ids import is_id
-from service.kept import repository as kept
-from service.kept.shelves import SHELVES, Shelf
+from service.libraries import repository as kept
+from service.libraries.library import LIBRARIES, Library
 from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
 from service.tables.files import File
@@ -114,8 +114,8 @@ def named(session: Session, owner: str, kind: Kind, given: dict[str, Value]) -> 
         value = given.get(item.name)
         if item.named_by is None or item.library is None or not isinstance(value, str):
             continue
-        shelf = SHELVES[item.library]
-        if value in shelf.built_in and kept.get(session, shelf, owner, value) is None:
+        library = LIBRARIES[item.library]
+        if value in library.built_in and kept.get(session, library, owner, value) is None:
             names[item.named_by] = value
             given[item.name] = None
     return names
@@ -173,20 +173,20 @@ def _source(lookup: _Lookup, item: Input, value: Value) -> Any:
 
 def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
     session, owner = lookup.session, lookup.owner
-    shelf = SHELVES[item.library] if item.library is not None else None
-    if shelf is not None and item.auto and value == AUTO:
-        return _candidates(lookup, shelf)
+    library = LIBRARIES[item.library] if item.library is not None else None
+    if library is not None and item.auto and value == AUTO:
+        return _candidates(lookup, library)
     if "://" in value:
         return _address(item, value, lookup.allowed)
     file_id = value
     if not is_id(value):
-        if shelf is None:
+        if library is None:
             raise Refused("unknown_file", f"“{item.name}” is not the id of a file: upload it first.")
-        own = kept.get(session, shelf, owner, value)
+        own = kept.get(session, library, owner, value)
         if own is None:
-            if value not in shelf.built_in or item.named_by is not None:
-                detail = f"There is no {shelf.noun} “{value[:80]}”: GET {shelf.address} lists them."
-                raise Refused(f"unknown_{shelf.noun}", detail)
+            if value not in library.built_in or item.named_by is not None:
+                detail = f"There is no {library.noun} “{value[:80]}”: GET {library.address} lists them."
+                raise Refused(f"unknown_{library.noun}", detail)
             return {"library": item.library, "name": value}
         file_id = own.file_id
     file = held_file(session, owner, file_id, item.name)
@@ -221,10 +221,10 @@ def require_media(item: Input, content_type: str) -> None:
         raise Refused("input_wrong_media", f"“{item.name}” must be of type {item.media}; this is {content_type}.")
 
 
-def _candidates(lookup: _Lookup, shelf: Shelf) -> dict[str, Any]:
+def _candidates(lookup: _Lookup, library: Library) -> dict[str, Any]:
     """What `auto` chooses from: the built-in library, then what the user keeps beside it, the newest first."""
-    candidates: dict[str, dict[str, str]] = {one: {"library": shelf.library, "name": one} for one in shelf.built_in}
-    own = kept.with_files(lookup.session, shelf, lookup.owner)
+    candidates: dict[str, dict[str, str]] = {one: {"library": library.name, "name": one} for one in library.built_in}
+    own = kept.with_files(lookup.session, library, lookup.owner)
     for one, _ in sorted(own, key=lambda pair: pair[0].created_at, reverse=True)[:MOST_OWN]:
         if (file := files.held(lookup.session, lookup.owner, one.file_id)) is not None:
             candidates[one.name] = {"file": file.id}

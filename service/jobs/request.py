@@ -9,12 +9,12 @@ from anyio.to_thread import run_sync
 from fastapi import Request
 from pydantic import ValidationError
 
-from service.asked import JSON_TYPES, read_json
 from service.auth.caller import Caller
 from service.context import Context
-from service.documents import parse_json
 from service.files import service as files
 from service.files.intake import Form
+from service.http.documents import parse_json
+from service.http.request_models import JSON_TYPES, read_json
 from service.jobs.schemas import JobIn, RevisionIn
 from service.jobs.service import revise, submit
 from service.problems import Problem, invalid

@@ -13,9 +13,6 @@ from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
 from engine.kind import Kind
-from service.artifacts import repository as artifacts
-from service.artifacts.links import Signer
-from service.auth import repository as keys
 from service.auth.quotas import require_job
 from service.clock import now
 from service.context import Context
@@ -23,10 +20,13 @@ from service.events import repository as events
 from service.files import repository as files
 from service.files.service import forget
 from service.ids import new_id
-from service.jobs import leases, repository, search, stages
+from service.job_records import artifacts, search
+from service.job_records import jobs as repository
+from service.job_records.owned import found, held
+from service.jobs import leases, stages
+from service.jobs.driver_segments import choose_segments
 from service.jobs.inputs import Value, named, resolve, split_corrections
-from service.jobs.portions import choose_portions
-from service.jobs.schemas import JobIn, JobOut, JobTree, RevisionIn
+from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import Problem, invalid
 from service.tables.files import File
 from service.tables.jobs import IdempotencyKey, Job, JobFile, Priority, Status
@@ -50,12 +50,12 @@ def submit(
         built_in = named(session, owner, kind, given)
     options = _options(kind, {**asked.options, **built_in})
     given |= {name: [file.id for file in came] for name, came in uploaded.items()}
-    portions = choose_portions(context, owner, kind, options, given)
+    segments = choose_segments(context, owner, kind, options, given)
     document = _document(asked)
     document["uploaded"] = {name: [file.sha256 for file in came] for name, came in sorted(uploaded.items())}
 
     def make(session: Session) -> Job:
-        meant, trimmed = portions()
+        meant, trimmed = segments()
         job = _new_job(owner, kind, trimmed, asked.metadata)
         _be_told(job, asked.webhook_url, asked.webhook_events)
         job.priority = _priority(asked.priority)
@@ -169,50 +169,6 @@ def delete(context: Context, owner: str, job_id: str) -> None:
         stages.erase(context, one)
 
 
-def found(session: Session, owner: str, job_id: str) -> Job:
-    """The owner's job, or a 404 problem."""
-    job = repository.get(session, job_id)
-    if job is None or job.owner != owner:
-        raise _missing()
-    return job
-
-
-def held(session: Session, owner: str, job_id: str) -> Job:
-    """The owner's job, locked until the transaction ends, or a 404 problem."""
-    job = repository.held(session, job_id)
-    if job is None or job.owner != owner:
-        raise _missing()
-    return job
-
-
-def shown(context: Context, owner: str, job_id: str) -> JobOut:
-    """The job as the API shows it, or a 404 problem."""
-    with context.database.read() as session:
-        return views(context, session, owner, [found(session, owner, job_id)])[0]
-
-
-def shown_tree(context: Context, owner: str, job_id: str) -> JobTree:
-    """A job with all its relations by revision, or a 404 problem."""
-    with context.database.read() as session:
-        jobs = repository.tree(session, found(session, owner, job_id).tree)
-        return JobTree(items=views(context, session, owner, jobs))
-
-
-def views(context: Context, session: Session, owner: str, jobs: Sequence[Job]) -> list[JobOut]:
-    """An owner's jobs as the API shows them, with links to what they made."""
-    made = artifacts.of_jobs(session, [job.id for job in jobs])
-    key = keys.get(session, owner) if any(made.values()) else None  # which signs the links
-    signer = Signer.of(key, context.settings) if key is not None else None
-    places = repository.places(session, [job for job in jobs if job.status == Status.QUEUED])
-    return [JobOut.of(job, made[job.id], signer, places.get(job.id)) for job in jobs]
-
-
-def place(context: Context, job: Job) -> int:
-    """The place in the queue of a job that was accepted just now; of one that a worker has by now, it was the first."""
-    with context.database.read() as session:
-        return repository.places(session, [job]).get(job.id, 1)
-
-
 def _shown(kind: Kind, given: Mapping[str, Value]) -> dict[str, str | list[str]]:
     """What is given to a job, as it shows it: one value where an input takes one, and nothing that is empty."""
     many = {item.name: item.many for item in kind.inputs}
@@ -228,10 +184,6 @@ def _document(asked: JobIn | RevisionIn) -> dict[str, Any]:
     """What a request asks for, by which it is known again. What was never said is left out, so that a request that
     came before an upgrade is the same after it."""
     return asked.model_dump(mode="json", exclude={"priority", "title"} - asked.model_fields_set)
-
-
-def _missing() -> Problem:
-    return Problem(404, "job_not_found", "There is no such job: it was deleted, or it never was.")
 
 
 def _kind(context: Context, name: str) -> Kind:

@@ -7,8 +7,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from engine.kind import Kind
+from service.catalogue.allowance import Allowance
 from service.jobs.inputs import correctable
-from service.kinds.allowance import Allowance
 from service.settings import Settings
 
 

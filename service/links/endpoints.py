@@ -10,16 +10,15 @@ from fastapi import APIRouter, Query, Request
 from sqlalchemy.orm import Session
 from starlette.responses import Response
 
-from service.artifacts import repository as artifacts
-from service.artifacts.delivery import DELIVERED_IN_PARTS, deliver
-from service.asked import AskedRoute
 from service.auth.caller import Caller, InCaller, Reader, Scope, Submitter
 from service.auth.tokens import digest
 from service.clock import now
 from service.context import InContext
+from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.http.request_models import AskedRoute
 from service.ids import LIKE_AN_ID, is_id, new_id
-from service.jobs import repository as jobs
-from service.jobs.service import found
+from service.job_records import artifacts, jobs
+from service.job_records.owned import found
 from service.links import repository
 from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens
 from service.problems import Problem, responses

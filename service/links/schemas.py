@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from pydantic import BaseModel, Field
 
-from service.asked import ASKED
+from service.http.request_models import ASKED
 from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
 from service.tables.links import PublicLink

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import BaseModel
 
 from engine.motion.catalogue import BuiltInMotion
-from service.kept.looks import Look, LookStatus
+from service.libraries.inspections import Inspection, InspectionStatus
 from service.motions.checks import Check, MotionError, MotionJoint
 from service.tables.files import File
 from service.tables.kept import Kept
@@ -42,7 +42,7 @@ class MotionOut(BaseModel):
     """Joints of a character that must have one in the file, and for which none was found."""
     error: MotionError | None = None
     """What is wrong with it. Where joints are missing, the option `motion_joints` mends it; otherwise, another file."""
-    check_status: LookStatus = "none"
+    check_status: InspectionStatus = "none"
     """How far the check of the file is; `none`: there was no check."""
     check_job: str | None = None
     """The job that checks."""
@@ -52,8 +52,8 @@ class MotionOut(BaseModel):
         return cls(name=motion.name, source="built-in", title=motion.title, seconds=motion.seconds, loops=motion.loops)
 
     @classmethod
-    def own(cls, motion: Kept, file: File, look: Look[Check]) -> MotionOut:
-        error = MotionError.model_validate(look.error) if look.error is not None else None
+    def own(cls, motion: Kept, file: File, inspection: Inspection[Check]) -> MotionOut:
+        error = MotionError.model_validate(inspection.error) if inspection.error is not None else None
         return cls(
             name=motion.name,
             source="own",
@@ -61,9 +61,9 @@ class MotionOut(BaseModel):
             size=file.size,
             content_type=file.content_type,
             created_at=motion.created_at,
-            check_status=look.status,
-            check_job=motion.look_job if look.status != "none" else None,
-            **(dict(look.document) if look.document is not None else {"error": error}),
+            check_status=inspection.status,
+            check_job=motion.inspection_job if inspection.status != "none" else None,
+            **(dict(inspection.document) if inspection.document is not None else {"error": error}),
         )
 
 

@@ -62,7 +62,7 @@ class Job(Base):
     title: Mapped[str | None] = mapped_column(String(TITLE_CHARACTERS))
     """What the client calls the work; all jobs of a tree have the same."""
     search: Mapped[str] = mapped_column(Text, default="")
-    """By what words it is found (`service.jobs.search`): a line for the title, and one for each name."""
+    """By what words it is found (`service.job_records.search`): a line for the title, and one for each name."""
     inputs: Mapped[dict[str, Any]] = mapped_column(JSON)
     """As the client gave them: file ids and names of drivers."""
     sources: Mapped[dict[str, Any]] = mapped_column(JSON)

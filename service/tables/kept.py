@@ -18,8 +18,8 @@ class Kept(Base):
     owner: Mapped[str] = mapped_column(ForeignKey("keys.id"), primary_key=True)
     name: Mapped[str] = mapped_column(String(64), primary_key=True)
     file_id: Mapped[str] = mapped_column(ForeignKey("files.id"), index=True)
-    look_job: Mapped[str | None] = mapped_column(String(36), index=True)
-    """The job that looks into it; it may have been erased since."""
+    inspection_job: Mapped[str | None] = mapped_column(String(36), index=True)
+    """The job that inspects it; it may have been erased since."""
     created_at: Mapped[datetime] = mapped_column(UTCDateTime)
 
 
@@ -28,7 +28,7 @@ class Driver(Kept):
 
     __tablename__ = "drivers"
 
-    look_job: Mapped[str | None] = mapped_column("moments_job", String(36), index=True)
+    inspection_job: Mapped[str | None] = mapped_column("moments_job", String(36), index=True)
 
 
 class Motion(Kept):
@@ -36,7 +36,7 @@ class Motion(Kept):
 
     __tablename__ = "motions"
 
-    look_job: Mapped[str | None] = mapped_column("check_job", String(36), index=True)
+    inspection_job: Mapped[str | None] = mapped_column("check_job", String(36), index=True)
 
 
 KEPT: tuple[type[Kept], ...] = (Driver, Motion)

@@ -14,7 +14,6 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from structlog.contextvars import bind_contextvars, clear_contextvars
 
 from service.ids import new_id
-from service.problems import METHODS
 from service.traces.current import CurrentRequest, begin
 from service.traces.tracer import fail, parent_of, trace_id
 
@@ -22,6 +21,10 @@ ID_PATTERN = "[A-Za-z0-9._-]{1,64}"
 """A request's id, as callers may give it."""
 
 HEADER = "X-Request-Id"
+
+METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+"""Those of HTTP; a request by another one is told of as such."""
+
 PROBES = ("/healthz", "/readyz", "/metrics")
 """Asked every few seconds by machines: they would drown all else in the traces."""
 

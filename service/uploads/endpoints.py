@@ -7,9 +7,9 @@ from fastapi import APIRouter, Depends, Request
 from starlette.responses import JSONResponse, Response
 
 from service.auth.caller import Caller, Reader, Submitter
-from service.bodies import announced
 from service.context import Context, InContext
 from service.disk import require_space
+from service.http.bodies import announced
 from service.problems import Problem, responses
 from service.tables.uploads import Upload
 from service.uploads import protocol, service

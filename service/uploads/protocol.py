@@ -16,7 +16,7 @@ from starlette.routing import Match
 from starlette.types import Scope
 
 from service.auth.caller import InCaller
-from service.files.door import largest_mb
+from service.files.admission import largest_mb
 from service.problems import Problem, invalid_request, phrase
 from service.settings import MEGABYTE, Settings
 from service.tables.uploads import Upload

@@ -15,7 +15,7 @@ from service.auth.quotas import require_room
 from service.clock import now
 from service.context import Context
 from service.disk import require_space
-from service.files.door import HEAD_BYTES, largest_mb, recognise, too_large
+from service.files.admission import HEAD_BYTES, largest_mb, recognise, too_large
 from service.files.service import record
 from service.problems import Problem
 from service.settings import MEGABYTE

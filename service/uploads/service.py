@@ -12,7 +12,7 @@ from service.clock import now
 from service.connections.patience import Stalled, Stopped
 from service.context import Context
 from service.disk import require_space
-from service.files.door import largest_mb, shown_name, too_large
+from service.files.admission import largest_mb, shown_name, too_large
 from service.files.service import erase_unused
 from service.ids import is_id, new_id
 from service.problems import Problem

@@ -8,10 +8,10 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
-from service.asked import AskedRoute
 from service.auth.caller import Reader, Submitter
 from service.clock import now
 from service.context import InContext
+from service.http.request_models import AskedRoute
 from service.ids import LIKE_AN_ID, is_id
 from service.problems import Problem, responses
 from service.tables.webhooks import Delivery, DeliveryStatus

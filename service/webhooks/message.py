@@ -6,7 +6,7 @@ import json
 from datetime import UTC
 from typing import Any
 
-from service.artifacts.links import Signer
+from service.job_records.signed_links import Signer
 from service.tables.webhooks import Delivery
 
 

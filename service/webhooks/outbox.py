@@ -10,9 +10,9 @@ import httpx
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from service.artifacts import repository as artifacts
 from service.ids import new_id
-from service.jobs.schemas import JobOut
+from service.job_records import artifacts
+from service.job_records.schemas import JobOut
 from service.tables.events import Event
 from service.tables.jobs import Job, Status
 from service.tables.webhooks import FINAL, Delivery, DeliveryStatus, EventType

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, Field, Strict
 
-from service.asked import ASKED
+from service.http.request_models import ASKED
 from service.tables.webhooks import FINAL, URL_CHARACTERS, Delivery, DeliveryAttempt, DeliveryStatus, EventType, Webhook
 
 

@@ -19,9 +19,9 @@ from engine.media.demux import open_container
 from engine.media.limits import Limits
 from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff_bytes
 from engine.media.timing import rate_of
-from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
-from service.files.door import shown_name
+from service.files.admission import shown_name
 from service.files.intake import MOST_FIELDS, Form
+from service.http.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem
 from service.settings import Settings
 

@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from running import Running
 
 from service.artifacts.archive import zipped
-from service.artifacts.ranges import Unsatisfiable, parse_ranges
+from service.http.ranges import Unsatisfiable, parse_ranges
 from service.ids import new_id
 from service.storage import Storage
 from service.tables.artifacts import Artifact

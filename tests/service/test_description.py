@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from running import ROOT, Running, eventually
 
-from service.kinds.registry import load_kinds
+from service.catalogue.registry import load_kinds
 from service.kinds.schemas import KindOut
 from service.settings import Settings
 

@@ -6,8 +6,8 @@ import pytest
 from running import Running
 
 from engine.performances import STATES
-from service.kept.shelves import DRIVERS
-from service.kinds import library
+from service.catalogue import built_in as library
+from service.libraries.library import DRIVERS
 
 
 def test_a_driver_is_kept_named_and_erased(running: Running, picture: bytes, video: bytes) -> None:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from running import Running
 
-from service.files.door import shown_name
+from service.files.admission import shown_name
 
 
 def incoming(running: Running) -> list[str]:

@@ -8,7 +8,7 @@ import pytest
 from running import Running
 from starlette.datastructures import Headers
 
-from service.guard import Guard
+from service.http.guard import Guard
 from service.loopback import is_loopback
 
 PROXY = {"x-forwarded-for": "203.0.113.5"}

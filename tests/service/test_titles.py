@@ -12,7 +12,8 @@ from engine.kind import Input, Kind
 from service.clock import now
 from service.database import Database
 from service.ids import new_id
-from service.jobs import repository, search
+from service.job_records import jobs as repository
+from service.job_records import search
 from service.tables.files import File
 from service.tables.jobs import Job
 from service.tables.keys import LOCAL

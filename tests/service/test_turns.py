@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-from service.turns import Turns
+from service.fair_lock import Turns
 
 
 def test_turns_come_in_the_order_of_asking() -> None:

@@ -11,7 +11,8 @@ from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job, Priority, Status
 from service.tables.keys import Key

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from service.artifacts import repository as artifacts
 from service.clock import now
 from service.context import Context
 from service.ids import new_id
+from service.job_records import artifacts
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job

@@ -24,7 +24,8 @@ from service.clock import now
 from service.context import Context
 from service.events import repository as events
 from service.ids import new_id
-from service.jobs import leases, repository
+from service.job_records import jobs as repository
+from service.jobs import leases
 from service.jobs.leases import Lease
 from service.problems import Problem
 from service.settings import Settings
@@ -32,7 +33,8 @@ from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
 from service.tables.keys import LOCAL, Key
 from service.tables.webhooks import Delivery, DeliveryAttempt, EventType, Webhook
-from service.webhooks import course, outbox, service
+from service.webhooks import delivery_lease as course
+from service.webhooks import outbox, service
 from service.webhooks import repository as webhooks
 from service.webhooks.schedule import RETRIES, pause
 from service.webhooks.schemas import WebhookIn

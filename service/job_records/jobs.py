@@ -160,7 +160,7 @@ def ended_before(session: Session, moment: datetime, most: int) -> Sequence[Job]
     as long as that."""
     query = select(Job).where(Job.finished_at < moment)
     for table in KEPT:
-        query = query.where(Job.id.not_in(select(table.look_job).where(table.look_job.is_not(None))))
+        query = query.where(Job.id.not_in(select(table.inspection_job).where(table.inspection_job.is_not(None))))
     return session.scalars(query.order_by(Job.finished_at).limit(most)).all()
 
 

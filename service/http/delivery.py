@@ -11,8 +11,8 @@ from urllib.parse import quote
 from starlette.responses import Response, StreamingResponse
 from starlette.types import Send
 
-from service import browser
-from service.artifacts.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
+from service.http import browser
+from service.http.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem, responses, unavailable
 from service.storage import Storage, StorageUnavailable
 from service.tables.stored import Stored

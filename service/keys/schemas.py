@@ -7,9 +7,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, Field
 
-from service.asked import ASKED, WHOLE
 from service.auth.caller import SCOPES, Scope
 from service.auth.quotas import Limits
+from service.http.request_models import ASKED, WHOLE
 from service.settings import Settings
 from service.tables.keys import Key
 

@@ -1,4 +1,4 @@
-"""What a search found in a driver: the portions of it that hold emotions and gestures."""
+"""What a search found in a driver: the segments of it that hold emotions and gestures (the API calls them moments)."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pydantic import BaseModel, Field
 from engine.performances import State
 from engine.performances.catalogue import Strength
 from service.context import Context
-from service.kept import repository
-from service.kept.looks import Look, looks_into
-from service.kept.shelves import DRIVERS
+from service.libraries import repository
+from service.libraries.inspections import Inspection, inspections_of
+from service.libraries.library import DRIVERS
 from service.problems import Problem
 from service.tables.kept import Kept
 
@@ -22,8 +22,8 @@ POSTER = "poster.jpg"
 Seconds = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
-class Portion(BaseModel):
-    """A portion of a driver, as the search wrote it down."""
+class Segment(BaseModel):
+    """A segment of a driver, as the search wrote it down."""
 
     name: Annotated[str, Field(pattern=r"^[a-z]+(-[0-9]+)?$", max_length=40)]
     state: State
@@ -35,38 +35,38 @@ class Portion(BaseModel):
     score: Annotated[float, Field(ge=0, le=1)]
 
 
-class Moments(BaseModel):
+class Segments(BaseModel):
     """All that was found; `seconds`: how long the video is."""
 
     seconds: Seconds
-    moments: Annotated[tuple[Portion, ...], Field(max_length=200)]
+    moments: Annotated[tuple[Segment, ...], Field(max_length=200)]
 
 
-def of_drivers(context: Context, drivers: Sequence[Kept]) -> dict[str, Look[Moments]]:
+def of_drivers(context: Context, drivers: Sequence[Kept]) -> dict[str, Inspection[Segments]]:
     """What was found in each of an owner's drivers, by their names."""
-    return looks_into(context, DRIVERS, Moments, drivers)
+    return inspections_of(context, DRIVERS, Segments, drivers)
 
 
-def portions(look: Look[Moments]) -> tuple[Portion, ...]:
-    """The portions that a search has found."""
-    return look.document.moments if look.document is not None else ()
+def segments(inspection: Inspection[Segments]) -> tuple[Segment, ...]:
+    """The segments that a search has found."""
+    return inspection.document.moments if inspection.document is not None else ()
 
 
-def portion(context: Context, owner: str, name: str, moment: str) -> tuple[str, Portion]:
-    """The file of a driver, and one of its portions. Raises a 422 problem where there is none of this name (yet)."""
+def segment(context: Context, owner: str, name: str, moment: str) -> tuple[str, Segment]:
+    """The file of a driver, and one of its segments. Raises a 422 problem where there is none of this name (yet)."""
     with context.database.read() as session:
         driver = repository.get(session, DRIVERS, owner, name)
     if driver is None:
         raise Problem(422, "unknown_driver", f"There is no driver “{name[:80]}”: GET /v1/drivers lists them.")
-    look = of_drivers(context, [driver])[name]
-    if look.status == "pending":
+    inspection = of_drivers(context, [driver])[name]
+    if inspection.status == "pending":
         raise Problem(422, "moments_pending", f"“{name}” is still being searched for moments: wait until it is ready.")
-    for one in portions(look):
+    for one in segments(inspection):
         if one.name == moment:
             return driver.file_id, one
-    names = ", ".join(one.name for one in portions(look)) or "none"
+    names = ", ".join(one.name for one in segments(inspection)) or "none"
     raise Problem(422, "unknown_moment", f"“{name}” has no moment “{moment[:80]}”; it has {names}.")
 
 
-def missing(name: str, moment: str) -> Problem:
+def missing_segment(name: str, moment: str) -> Problem:
     return Problem(404, "moment_not_found", f"“{name}” has no moment “{moment[:80]}” (yet).")

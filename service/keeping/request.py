@@ -9,15 +9,15 @@ from fastapi import Request
 from pydantic import BaseModel, Field, ValidationError
 from pydantic.config import JsonDict
 
-from service.asked import ASKED, JSON_TYPES, read_json
 from service.auth.caller import Caller
 from service.context import Context
 from service.disk import require_space
 from service.files import service as files
 from service.files.intake import Form
+from service.http.request_models import ASKED, JSON_TYPES, read_json
 from service.ids import LIKE_AN_ID
-from service.kept import service
-from service.kept.shelves import Shelf
+from service.keeping import service
+from service.libraries.library import Library
 from service.problems import Problem, invalid
 
 NAME: JsonDict = {"minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.pattern}$"}
@@ -54,33 +54,33 @@ def body(media_types: str) -> dict[str, Any]:
     return {"requestBody": {"required": True, "content": {"multipart/form-data": form, "application/json": json}}}
 
 
-async def keep_body(request: Request, context: Context, caller: Caller, shelf: Shelf) -> str:
+async def keep_body(request: Request, context: Context, caller: Caller, library: Library) -> str:
     """Keep what a request's body holds. Returns its name; raises `Problem`."""
     require_space(context.settings)
     content_type = request.headers.get("content-type", "").lower()
     if content_type.startswith("multipart/form-data"):
-        return await _keep_form(request, context, caller.owner, shelf)
+        return await _keep_form(request, context, caller.owner, library)
     if content_type.split(";")[0].strip() not in JSON_TYPES:
         raise Problem(415, "body_type_unsupported", "Send the body as multipart/form-data or application/json.")
     try:
         asked = KeptIn.model_validate(await read_json(request))
     except ValidationError as error:
         raise invalid(error, "invalid_request") from error
-    await run_sync(service.require_free_name, context, shelf, caller.owner, asked.name)
-    await run_sync(service.keep, context, shelf, caller.owner, asked.name, asked.file)
+    await run_sync(service.require_free_name, context, library, caller.owner, asked.name)
+    await run_sync(service.keep, context, library, caller.owner, asked.name, asked.file)
     return asked.name
 
 
-async def _keep_form(request: Request, context: Context, owner: str, shelf: Shelf) -> str:
+async def _keep_form(request: Request, context: Context, owner: str, library: Library) -> str:
     async with Form(request, context.settings, most_files=1, texts=("name",), files=("file",)) as form:
         name = form.fields.get("name", "")
-        await run_sync(service.require_free_name, context, shelf, owner, name)
+        await run_sync(service.require_free_name, context, library, owner, name)
         if not form.files:
-            raise Problem(422, "file_missing", f"Send {shelf.media} as the part “file” of the multipart body.")
-        service.require_media(shelf, form.files[0].content_type)
+            raise Problem(422, "file_missing", f"Send {library.media} as the part “file” of the multipart body.")
+        service.require_media(library, form.files[0].content_type)
         file = await run_sync(files.keep, context, owner, form.files[0])
         try:
-            await run_sync(service.keep, context, shelf, owner, name, file.id)
+            await run_sync(service.keep, context, library, owner, name, file.id)
         finally:
             await run_sync(files.erase_unused, context, [file.id])
     return name

@@ -19,7 +19,7 @@ from urllib.parse import SplitResult, urlsplit
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service import browser
+from service.http import browser
 from service.loopback import is_loopback
 from service.problems import Problem
 

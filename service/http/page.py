@@ -17,8 +17,8 @@ from starlette.responses import FileResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Receive, Scope, Send
 
-from service import browser
-from service.encodings import accepts
+from service.http import browser
+from service.http.encodings import accepts
 
 NOT_BUILT = "The web page is not built: `galatea doctor` says what to do. The API works without it."
 NO_PAGE = f"""<!doctype html><title>Galatea</title><h1>Galatea</h1>

@@ -8,17 +8,17 @@ from datetime import timedelta
 from sqlalchemy.orm import Session
 
 from service.auth import repository
-from service.auth.schemas import KeyIn
 from service.auth.tokens import HINT_CHARACTERS, digest, new_link_secret, new_signing_secret, new_token
 from service.clock import now
 from service.context import Context
 from service.files import repository as files
 from service.files.service import forget
 from service.ids import new_id
-from service.jobs import repository as jobs
+from service.job_records import jobs
 from service.jobs.service import delete as delete_job
-from service.kept import repository as kept
-from service.kept.shelves import SHELVES
+from service.keys.schemas import KeyIn
+from service.libraries import repository as kept
+from service.libraries.library import LIBRARIES
 from service.links import repository as links
 from service.problems import Problem
 from service.tables.keys import LOCAL, Key
@@ -70,8 +70,8 @@ def erase_all(context: Context, owner: str) -> None:
         for job_id in job_ids:
             delete_job(context, owner, job_id)
     with context.database.write() as session:
-        for shelf in SHELVES.values():
-            kept.erase_all(session, shelf, owner)
+        for library in LIBRARIES.values():
+            kept.erase_all(session, library, owner)
         webhooks.erase_all(session, owner)
         erased = files.erase_unused(session, owner=owner)
         given_up = uploads.erase_all(session, owner)

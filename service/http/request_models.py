@@ -11,8 +11,8 @@ from fastapi.routing import APIRoute
 from pydantic import BeforeValidator, ConfigDict
 from starlette.responses import Response
 
-from service import bodies
-from service.documents import parse_json
+from service.http import bodies
+from service.http.documents import parse_json
 
 ASKED = ConfigDict(extra="forbid", strict=True)
 """No names but the model's own, and every value of the type that the OpenAPI document says: `true` is no number."""

@@ -15,8 +15,8 @@ from random import Random
 from sqlalchemy import ColumnElement, Select, func, literal, or_, select, update
 from sqlalchemy.orm import Session
 
-from service.artifacts.links import Signer
 from service.figures import counters
+from service.job_records.signed_links import Signer
 from service.settings import Settings
 from service.tables.base import UTCDateTime, moment_in
 from service.tables.jobs import Job

@@ -5,14 +5,15 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from service.asked import AskedRoute
-from service.auth import repository, service
+from service.auth import repository
 from service.auth.caller import Admin, Reader, not_known
-from service.auth.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.auth.sessions import COOKIE, SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import InContext
+from service.http.request_models import AskedRoute
+from service.keys import service
+from service.keys.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.problems import Problem, responses
 from service.tables.keys import Key
 
