@@ -25,7 +25,7 @@ test: tools  ## every check, each even if an earlier one failed
 lint:  ## ruff: lint and format
 	@failed=0; $(BIN)/ruff check . || failed=1; $(BIN)/ruff format --check . || failed=1; exit $$failed
 
-types:  ## mypy strict on the engine, tsc strict on the page
+types:  ## mypy strict on all Python that runs, tsc strict on the page
 	@failed=0; $(BIN)/mypy || failed=1; (cd web && npm run --silent types) || failed=1; exit $$failed
 
 imports:  ## which package may import which

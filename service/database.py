@@ -54,7 +54,7 @@ class Database:
         self.url = url
         self._kind = postgresql if postgresql.speaks(url) else sqlite
         self._engine = self._kind.engine(url, connections)
-        self._engine.dialect.galatea_vault = self._vault  # type: ignore[attr-defined]
+        self._engine.dialect.galatea_vault = self._vault
         self._writing = self._engine.execution_options(galatea_writes=True)
         self._writers = self._kind.writers()
 

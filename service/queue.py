@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 import redis
 import structlog
 from celery import Celery
-from kombu import Exchange
-from kombu import Queue as KombuQueue
+from kombu.entity import Exchange
+from kombu.entity import Queue as KombuQueue
 from kombu.exceptions import OperationalError
 
 from service.breaker import Breaker
@@ -42,7 +42,7 @@ def _queue(kind: str) -> KombuQueue:
     return KombuQueue(queue_name(kind), Exchange(""), routing_key=queue_name(kind))
 
 
-class _Hints(Celery):
+class _Hints(Celery):  # type: ignore[misc]  # Celery tells no types
     """Sends with less patience than it listens."""
 
     def connection_for_write(self, url: str | None = None, **more: Any) -> Any:

@@ -89,7 +89,7 @@ def alone(url: str) -> Iterator[Connection]:
         fcntl.flock(lock, fcntl.LOCK_EX)
         with opened.connect() as connection:
             # Tables are changed by making them anew; dropping the old one must not erase what points at it.
-            connection.connection.execute("PRAGMA foreign_keys=OFF")  # type: ignore[attr-defined]
+            connection.connection.execute("PRAGMA foreign_keys=OFF")
             yield connection
     opened.dispose()
 

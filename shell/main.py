@@ -36,8 +36,7 @@ class Group(click.Group):
         except click.UsageError as error:
             near = get_close_matches(arguments[0], self.list_commands(context), n=1)
             there = f"Did you mean {near[0]}?" if near else f"There are {', '.join(self.list_commands(context))}."
-            error.message += f" {there}"
-            raise
+            raise click.UsageError(f"{error.message} {there}", error.ctx) from error
 
 
 class Kinds(Group):

@@ -60,7 +60,7 @@ def _flag(name: str, field: FieldInfo) -> click.Option:
     told = "" if usual is None or isinstance(usual, bool | tuple | dict) or field.is_required() else f" [{usual}]"
     if example := _example(field):
         told = f" For instance {example}.{told}"
-    given = {"default": None, "help": (field.description or "") + told}
+    given: dict[str, Any] = {"default": None, "help": (field.description or "") + told}
     if field.annotation is bool:
         return click.Option([f"{flag_of(name)}/--no-{flag_of(name)[2:]}", DEST + name], **given)
     return click.Option([flag_of(name), DEST + name], metavar=_metavar(field.annotation), **given)

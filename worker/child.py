@@ -205,7 +205,7 @@ def _compile_without_keeping() -> None:
     if "numba" in sys.modules:
         from numba.core.caching import CompileResultCacheImpl
 
-        CompileResultCacheImpl.check_cachable = lambda self, result: False
+        CompileResultCacheImpl.check_cachable = lambda self, result: False  # type: ignore[method-assign]
 
 
 if __name__ == "__main__":

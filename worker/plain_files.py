@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import re
 import stat
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 """What a file may be called."""
@@ -16,7 +16,7 @@ class Refused(Exception):
     """What the process left cannot be taken: a name that cannot be one, a link, a folder."""
 
 
-def opened(path: Path) -> BinaryIO:
+def opened(path: Path) -> BufferedReader:
     """A plain file under a plain name, itself and never what a link points at. Raises `Refused`."""
     if NAME.fullmatch(path.name) is None:
         raise Refused(f"“{path.name}” cannot be the name of a file")

@@ -55,7 +55,7 @@ def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[st
 
     Returns False if the lease was lost: then nothing is published. Raises `Refused`, OSError.
     """
-    artifacts = []
+    artifacts: list[Artifact] = []
 
     def record() -> list[str | None] | None:
         with context.database.write() as session:

@@ -30,7 +30,11 @@ class AttemptSpans:
     def __init__(self, tracer: Tracer, job: Job, lease: Lease):
         self._tracer = tracer
         self._began = time.time_ns()
-        attributes = {"galatea.job": job.id, "galatea.kind": job.kind, "galatea.attempt": lease.token}
+        attributes: dict[str, str | int] = {
+            "galatea.job": job.id,
+            "galatea.kind": job.kind,
+            "galatea.attempt": lease.token,
+        }
         if job.request is not None:
             attributes["galatea.request"] = job.request
         self._whole = tracer.start_span(
@@ -59,7 +63,7 @@ class AttemptSpans:
     @contextmanager
     def fetching(self, url: str) -> Iterator[Span]:
         """The fetch of one input. Of its address, which may hold secrets, only the host is told."""
-        attributes = {"server.address": urlsplit(url).hostname or ""}
+        attributes: dict[str, str | int] = {"server.address": urlsplit(url).hostname or ""}
         span = self._tracer.start_span("fetch", below(self._whole), SpanKind.CLIENT, attributes)
         try:
             yield span

@@ -38,7 +38,7 @@ def waits(queue: Queue, bucket: str, per_minute: float, burst_seconds: float) ->
     except redis.RedisError as error:
         structlog.get_logger().warning("rate_not_counted", reason=str(error))
         return 0
-    return math.ceil(float(waited))  # type: ignore[arg-type]
+    return math.ceil(float(waited))
 
 
 def take_one(queue: Queue, key_id: str, per_minute: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 
-from sqlalchemy import bindparam, func, or_, select, update
+from sqlalchemy import BindParameter, bindparam, func, or_, select, update
 from sqlalchemy.orm import Session
 
 from service.auth.tokens import digest
@@ -20,7 +20,7 @@ NOTED_EVERY = timedelta(minutes=1)
 """The use of a key is noted no more often than this."""
 
 # What every request asks is put together once.
-_OWNER = bindparam("owner")
+_OWNER: BindParameter[str] = bindparam("owner")
 OF_TOKEN = select(Key).where(Key.token_hash == bindparam("digest"))
 UNDER_WAY = (
     select(func.count())

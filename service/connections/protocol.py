@@ -195,7 +195,7 @@ class Protocol(InTurns):
             h11.Response(
                 status_code=answer.status_code, headers=answer.raw_headers, reason=phrase(answer.status_code).encode()
             ),
-            h11.Data(data=answer.body),
+            h11.Data(data=bytes(answer.body)),
             h11.EndOfMessage(),
         ):
             self.transport.write(self.conn.send(event) or b"")

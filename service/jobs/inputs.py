@@ -152,7 +152,7 @@ def _refused(name: str, code: str, detail: str) -> Problem:
 
 def _files_in(sources: Mapping[str, Any]) -> set[str]:
     """The ids of all files that a job reads from."""
-    found = set()
+    found: set[str] = set()
     for source in sources.values():
         for one in source if isinstance(source, list) else [source]:
             found |= _files_in(one["candidates"]) if "candidates" in one else {one["file"]} if "file" in one else set()

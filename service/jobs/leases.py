@@ -67,7 +67,7 @@ def claim_next(session: Session, kind: str, owner: str, seconds: float) -> Lease
     return None
 
 
-def _in_turn(kind: str) -> Select[tuple[str]]:
+def _in_turn(kind: str) -> Select[str]:
     waits = (Job.status == Status.QUEUED) & (Job.kind == kind)
     urgent = select(func.min(Job.priority)).where(waits).scalar_subquery()
     firsts = select(func.min(Job.id)).where(waits, Job.priority == urgent).group_by(Job.owner)

@@ -95,7 +95,7 @@ async def _accepted_form(
 
 def _asked(model: type[Asked], named: str, fields: Mapping[str, str]) -> Asked:
     """What the texts of a form ask for. Raises a 422 problem."""
-    parts = (named, *JSON_PARTS)
+    parts: tuple[str, ...] = (named, *JSON_PARTS)
     document: dict[str, Any] = {name: parse_json(fields[name], name) for name in parts if name in fields}
     document |= {name: fields[name] for name in TEXT_PARTS if name in fields}
     # Any other text part names an input, so that `-F driver=idle` works beside `-F image=@photo.jpg`.

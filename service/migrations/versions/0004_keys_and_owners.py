@@ -76,7 +76,7 @@ def downgrade() -> None:
 
 
 def _drivers(owned: bool) -> list[sa.schema.SchemaItem]:
-    columns = [
+    columns: list[sa.schema.SchemaItem] = [
         sa.Column("name", sa.String(length=64), nullable=False),
         sa.Column("file_id", sa.String(length=36), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
@@ -86,7 +86,7 @@ def _drivers(owned: bool) -> list[sa.schema.SchemaItem]:
 
 
 def _idempotency_keys(owned: bool) -> list[sa.schema.SchemaItem]:
-    columns = [
+    columns: list[sa.schema.SchemaItem] = [
         sa.Column("key", sa.String(length=255), nullable=False),
         sa.Column("fingerprint", sa.String(length=64), nullable=False),
         sa.Column("job_id", sa.String(length=36), nullable=False),

@@ -21,11 +21,11 @@ def upgrade() -> None:
         links.add_column(sa.Column("hint", sa.String(length=16), nullable=False, server_default=""))
     op.execute("DELETE FROM public_links WHERE owner IN (SELECT id FROM keys WHERE revoked_at IS NOT NULL)")
     connection = op.get_bind()
-    links = sa.table("public_links", sa.column("id"), sa.column("token_hash"), sa.column("hint"))
-    for link, token in connection.execute(sa.select(links.c.id, links.c.token_hash)).all():
+    rows = sa.table("public_links", sa.column("id"), sa.column("token_hash"), sa.column("hint"))
+    for link, token in connection.execute(sa.select(rows.c.id, rows.c.token_hash)).all():
         hashed = hashlib.sha256(token.encode()).hexdigest()
         values = {"token_hash": hashed, "hint": token[:HINT_CHARACTERS]}
-        connection.execute(sa.update(links).where(links.c.id == link).values(values))
+        connection.execute(sa.update(rows).where(rows.c.id == link).values(values))
     with op.batch_alter_table("public_links") as links:
         links.alter_column("hint", existing_type=sa.String(length=16), existing_nullable=False, server_default=None)
         links.create_index("ix_public_links_owner", ["owner"])
