@@ -12,11 +12,11 @@ from obstore.store import S3Store
 from service.settings import Settings
 from service.storage import Storage, StorageUnavailable, understood
 
-PATIENCE = timedelta(seconds=30)
+RETRY_TIMEOUT = timedelta(seconds=30)
 """How long a request is tried again, at most, before the storage counts as unavailable: tries that are refused at once
 are used up within seconds."""
 
-PROBE = timedelta(seconds=2)
+PROBE_TIMEOUT = timedelta(seconds=2)
 
 
 class Bucket(Storage):
@@ -24,8 +24,8 @@ class Bucket(Storage):
 
     def __init__(self, settings: Settings):
         self.folder = None
-        self._store = _store(settings, retries=8, retry_timeout=PATIENCE, timeout=2 * PATIENCE)
-        self._probe = _store(settings, retries=0, retry_timeout=PROBE, timeout=PROBE)
+        self._store = _store(settings, retries=8, retry_timeout=RETRY_TIMEOUT, timeout=2 * RETRY_TIMEOUT)
+        self._probe = _store(settings, retries=0, retry_timeout=PROBE_TIMEOUT, timeout=PROBE_TIMEOUT)
 
     def reachable(self) -> bool:
         """Whether it answers, and there is such a bucket."""

@@ -31,9 +31,9 @@ from service.vault import SecretUnreadable
 MEDIA_TYPE = "application/problem+json"
 RETRY_SECONDS = 5
 """After how long it is worth trying again where something does not answer."""
-MOST_ERRORS = 10
+MAX_ERRORS = 10
 """As many wrong fields are told of in one answer: a stranger may send many thousands."""
-LONGEST_POINTER, LONGEST_DETAIL = 300, 2000
+MAX_POINTER_CHARACTERS, MAX_DETAIL_CHARACTERS = 300, 2000
 """Characters of what an answer repeats of a request."""
 
 HEADERS = {
@@ -88,10 +88,14 @@ class Problem(Exception):
         super().__init__(f"{code}: {detail}")
         self.status = status
         self.code = code
-        self.detail = _cut(detail, LONGEST_DETAIL)
+        self.detail = _cut(detail, MAX_DETAIL_CHARACTERS)
         self.errors = [
-            FieldError(pointer=_cut(e.pointer, LONGEST_POINTER), code=e.code, detail=_cut(e.detail, LONGEST_DETAIL))
-            for e in errors[:MOST_ERRORS]
+            FieldError(
+                pointer=_cut(e.pointer, MAX_POINTER_CHARACTERS),
+                code=e.code,
+                detail=_cut(e.detail, MAX_DETAIL_CHARACTERS),
+            )
+            for e in errors[:MAX_ERRORS]
         ]
         self.headers = dict(headers or {})
 
@@ -126,13 +130,13 @@ def field_errors(
         place = elsewhere.get(str(location[0]), prefix) if location else prefix
         return place + "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in location)
 
-    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors[:MOST_ERRORS]]
+    return [FieldError(pointer=pointer(e["loc"]), code=e["type"], detail=e["msg"]) for e in errors[:MAX_ERRORS]]
 
 
 def _invalid(code: str, errors: Sequence[FieldError], count: int) -> Problem:
     """The 422 problem for `errors`, the first of `count`."""
     first = errors[0]
-    more = f" There are {count - 1} more errors." if count > MOST_ERRORS else ""
+    more = f" There are {count - 1} more errors." if count > MAX_ERRORS else ""
     return Problem(422, code, f"{first.pointer or 'The request'}: {first.detail}{more}", errors)
 
 
@@ -148,7 +152,7 @@ def invalid(
     told = error.errors(include_url=False, include_context=False, include_input=False)
     count = len(told)
     if options is not None:
-        told = explained(told[:MOST_ERRORS], options)
+        told = explained(told[:MAX_ERRORS], options)
     return _invalid(code, field_errors(told, prefix, elsewhere), count)
 
 

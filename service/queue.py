@@ -20,7 +20,7 @@ from service.redis_server import socket_path
 from service.settings import Settings
 
 TASK = "galatea.run_job"
-VISIBILITY_MARGIN = 120.0
+VISIBILITY_MARGIN_SECONDS = 120.0
 """Seconds by which an unacknowledged message outlives the longest job: the job is asked to stop, then its process is
 killed, and only then may the message come back."""
 
@@ -74,7 +74,7 @@ class Queue:
             broker_connection_retry_on_startup=True,
             broker_connection_max_retries=None,
             broker_transport_options={
-                "visibility_timeout": int(settings.job_seconds + VISIBILITY_MARGIN),
+                "visibility_timeout": int(settings.job_seconds + VISIBILITY_MARGIN_SECONDS),
                 "socket_timeout": 10,
                 "socket_connect_timeout": 2,
                 "health_check_interval": 10,

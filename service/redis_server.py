@@ -7,7 +7,7 @@ import os
 import tempfile
 from pathlib import Path
 
-LONGEST_SOCKET_PATH = 100
+MAX_SOCKET_PATH_BYTES = 100
 """A unix socket's address holds 108 bytes."""
 
 
@@ -15,7 +15,7 @@ def socket_path(data_dir: Path) -> Path:
     """Where the embedded server of a data folder listens: in that folder, or where its path is too long for a
     socket, in a folder of ours for temporary files."""
     path = data_dir / "redis" / "redis.sock"
-    if len(os.fsencode(path)) <= LONGEST_SOCKET_PATH:
+    if len(os.fsencode(path)) <= MAX_SOCKET_PATH_BYTES:
         return path
     digest = hashlib.sha256(os.fsencode(data_dir)).hexdigest()[:16]
     return Path(tempfile.gettempdir()) / f"galatea-{os.getuid()}-{digest}" / "redis.sock"

@@ -20,7 +20,7 @@ from sqlalchemy import create_engine, event
 from sqlalchemy.engine import Connection, Engine, make_url
 from sqlalchemy.exc import TimeoutError
 
-from service.fair_lock import Turns
+from service.fair_lock import FairLock
 
 PATIENCE_SECONDS = 15
 """How long a transaction waits for another to end."""
@@ -67,11 +67,11 @@ def _connections(url: str) -> Engine:
 def writers() -> Callable[[], AbstractContextManager[None]]:
     """What a writing transaction is done within: those of one process take turns, as they came. SQLite itself would let
     each ask again and again, and under load the unlucky ones for seconds."""
-    turns = Turns()
+    lock = FairLock()
 
     @contextmanager
     def turn() -> Iterator[None]:
-        with turns.turn(PATIENCE_SECONDS) as came:
+        with lock.turn(PATIENCE_SECONDS) as came:
             if not came:
                 raise TimeoutError("the database is locked: others write")
             yield

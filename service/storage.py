@@ -15,8 +15,8 @@ import structlog
 from obstore.exceptions import BaseError
 from obstore.store import LocalStore, ObjectStore
 
-CHUNK = 1 << 20
-PART = 8 << 20
+CHUNK_BYTES = 1 << 20
+PART_BYTES = 8 << 20
 """Bytes of one part where a large file is put part by part; few are on their way at once, so that memory stays small."""
 
 PARTS_AT_ONCE = 3
@@ -40,7 +40,7 @@ class Storage:
     def put(self, key: str, file: BinaryIO) -> None:
         """Store a whole file under `key`. Raises OSError: when the disk is full, or `StorageUnavailable`."""
         with understood():
-            obstore.put(self._store, key, file, chunk_size=PART, max_concurrency=PARTS_AT_ONCE)
+            obstore.put(self._store, key, file, chunk_size=PART_BYTES, max_concurrency=PARTS_AT_ONCE)
 
     def adopt(self, key: str, path: Path) -> None:
         """Store the finished file at `path` under `key`, by a second name for it where both lie on one disk: nothing is
@@ -74,7 +74,7 @@ class Storage:
         if self.folder is not None:
             return self.local(key)
         with understood(), to.open("wb") as file:
-            for piece in obstore.get(self._store, key).stream(min_chunk_size=CHUNK):
+            for piece in obstore.get(self._store, key).stream(min_chunk_size=CHUNK_BYTES):
                 file.write(piece)
         return to
 
@@ -84,7 +84,7 @@ class Storage:
             return
         with understood():
             found = await obstore.get_async(self._store, key, options={"range": (start, end)})
-            async for piece in found.stream(min_chunk_size=CHUNK):
+            async for piece in found.stream(min_chunk_size=CHUNK_BYTES):
                 yield bytes(piece)
 
     def delete(self, keys: Iterable[str]) -> None:

@@ -20,11 +20,11 @@ from service.links import repository as links
 from service.problems import Problem
 from service.tables.keys import Key
 from service.vault import new_key
-from shell.complaint import Complaint
+from shell.cli_error import CliError
 from shell.settings import read_settings
 
-MOST_LINKS = 1000
-LONGEST_ROW = 10_000
+MAX_LINKS = 1000
+MAX_ROW_CHARACTERS = 10_000
 """Characters of a row that another program reads."""
 
 
@@ -47,7 +47,7 @@ def create(name: str, scopes: tuple[str, ...], if_none: bool, **limits: float | 
         asked = KeyIn.model_validate({"name": name, **({"scopes": list(scopes)} if scopes else {}), **limits})
     except ValidationError as error:
         first = error.errors()[0]
-        raise Complaint(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
+        raise CliError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
     with _writing() as session:
         if if_none and repository.any_usable(session):
             return
@@ -82,14 +82,14 @@ def revoke(key_id: str) -> None:
         with _writing() as session:
             service.revoke(session, key_id)
     except Problem as problem:
-        raise Complaint(problem.detail) from None
+        raise CliError(problem.detail) from None
 
 
 @keys.command("links")
 def show_links() -> None:
     """The public links of all keys, newest first, without what opens them."""
     with _writing() as session:
-        found = links.page(session, None, MOST_LINKS, None)
+        found = links.page(session, None, MAX_LINKS, None)
     table = Table(box=None)
     for heading in ("id", "begins with", "key", "job", "made", "good until"):
         table.add_column(heading, overflow="fold")
@@ -106,11 +106,11 @@ def show_links() -> None:
 def revoke_link(link_id: str | None, everything: bool, key_id: str | None) -> None:
     """Take a public link back, or many."""
     if [link_id is not None, everything, key_id is not None].count(True) != 1:
-        raise Complaint("Name one link (`galatea keys links` lists them), or say --key or --all.")
+        raise CliError("Name one link (`galatea keys links` lists them), or say --key or --all.")
     with _writing() as session:
         gone = links.revoke_all(session, key_id) if link_id is None else int(links.revoke(session, None, link_id))
     if link_id is not None and not gone:
-        raise Complaint("There is no such link.")
+        raise CliError("There is no such link.")
     click.echo(f"Links that were taken back: {gone}.")
 
 
@@ -143,5 +143,5 @@ def _print(table: Table) -> None:
     """As wide as the terminal; for another program, each row on one line, however long."""
     console = Console()
     if not console.is_terminal:
-        console.width = LONGEST_ROW
+        console.width = MAX_ROW_CHARACTERS
     console.print(table)

@@ -25,10 +25,10 @@ from engine.store import StageStore, trim
 from engine.unknown_options import explained
 from service.catalogue import built_in as library
 from service.settings import MEGABYTE, Settings
-from shell.complaint import Complaint
-from shell.noise import libraries_silenced
+from shell.cli_error import CliError
 from shell.option_flags import flag_of, form_of, given_options, option_flags
 from shell.settings import read_settings
+from shell.silence_libraries import libraries_silenced
 
 EXAMPLE = """'{"fps": 24}'"""
 MISFORMED = (
@@ -62,7 +62,7 @@ def kind_command(kind: Kind) -> click.Command:
         chosen = _options(kind, options, given, named)
         for item in kind.inputs:
             if item.needed(chosen) and item.name not in inputs:
-                raise Complaint(f"{item.name} is missing, --{item.name.replace('_', '-')}: {item.description}")
+                raise CliError(f"{item.name} is missing, --{item.name.replace('_', '-')}: {item.description}")
         _run(kind, inputs, chosen, Path(out), settings)
 
     alone = len(kind.inputs) == 1
@@ -109,7 +109,7 @@ def _input(item: Input, given: str | None) -> Given | None:
     if given in offered:
         return library.item(item.library or "", given)
     built_in = f", nor a built-in one of this name ({', '.join(offered)})" if item.library is not None else ""
-    raise Complaint(f"{item.name}: there is no file {given}{built_in}")
+    raise CliError(f"{item.name}: there is no file {given}{built_in}")
 
 
 def _name(given: str | None) -> str | None:
@@ -127,16 +127,16 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
         flags = given_options(kind.options, given)
         return kind.options.model_validate({**asked, **flags, **named} if isinstance(asked, dict) else asked)
     except OSError as error:
-        raise Complaint(f"--options: {error.filename} cannot be read: {error.strerror}") from error
+        raise CliError(f"--options: {error.filename} cannot be read: {error.strerror}") from error
     except ValidationError as error:
         first = explained(error.errors(), kind.options)[0]
         place = [str(part) for part in first["loc"]]
         if place and place[0] in flags:
             form = form_of(kind.options.model_fields[place[0]]) if first["type"] in MISFORMED else None
-            raise Complaint(f"{flag_of(place[0])}: {f'give {form}' if form else first['msg']}") from error
-        raise Complaint(f"--options: {'.'.join(place) or 'the whole'}: {first['msg']}") from error
+            raise CliError(f"{flag_of(place[0])}: {f'give {form}' if form else first['msg']}") from error
+        raise CliError(f"--options: {'.'.join(place) or 'the whole'}: {first['msg']}") from error
     except ValueError as error:
-        raise Complaint(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error
+        raise CliError(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error
 
 
 def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path, settings: Settings) -> None:
@@ -149,14 +149,14 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
         ):
             results = deliver(kind, inputs, options, out, run)
     except InputError as error:
-        raise Complaint(f"{error.code}: {error.detail}") from error
+        raise CliError(f"{error.code}: {error.detail}") from error
     except Canceled:
         raise click.Abort from None
     except IncompleteInstallation as error:
         raise click.ClickException(error.detail) from error
     except OSError as error:
         if error.errno in (ENOSPC, EDQUOT) or isinstance(error, PermissionError | NotADirectoryError | FileExistsError):
-            raise Complaint(f"{error.filename or out}: {error.strerror}") from error
+            raise CliError(f"{error.filename or out}: {error.strerror}") from error
         raise
     for notice in run.notices:
         click.echo(f"{click.style(notice.code, fg='yellow')}: {notice.message}", err=True)

@@ -125,7 +125,7 @@ def migrate(version: str, down: bool) -> None:
 
     from service.database import Database, DatabaseInUse, WouldForget
     from service.vault import SecretUnreadable
-    from shell.complaint import Complaint
+    from shell.cli_error import CliError
     from shell.settings import read_settings
 
     settings = read_settings()
@@ -135,19 +135,19 @@ def migrate(version: str, down: bool) -> None:
             click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
         database.migrate(version, forget=down)
     except WouldForget as lost:
-        raise Complaint(
+        raise CliError(
             f"{version} is older than the tables are. Going down to it erases {lost}. Nothing was done: make a backup, "
             "then say --down."
         ) from None
     except DatabaseInUse:
-        raise Complaint(
+        raise CliError(
             "The service runs: stop `galatea serve` and every `galatea worker` that uses this database, on all "
             "machines, then migrate. Nothing was done."
         ) from None
     except SecretUnreadable as error:
-        raise Complaint(f"{error} Nothing was done.") from None
+        raise CliError(f"{error} Nothing was done.") from None
     except CommandError as error:
-        raise Complaint(f"{version}: {error}") from error
+        raise CliError(f"{version}: {error}") from error
     click.echo(f"The tables are at version {database.revision()}.")
 
 

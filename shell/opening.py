@@ -10,37 +10,37 @@ from service import postgresql
 from service.catalogue.registry import load_kinds, require_known
 from service.context import Context
 from service.settings import Settings
-from shell.complaint import Complaint
+from shell.cli_error import CliError
 
 
 def open_context(settings: Settings, part: str) -> Context:
-    """The opened parts. Raises `Complaint` where a setting, the data folder or the database stands in the way."""
+    """The opened parts. Raises `CliError` where a setting, the data folder or the database stands in the way."""
     check_kinds(settings)
     try:
         return Context.open(settings, part)
     except DBAPIError as error:
-        raise Complaint(database_complaint(settings, error)) from error
+        raise CliError(database_complaint(settings, error)) from error
     except (CommandError, RevisionError) as error:
-        raise Complaint(
+        raise CliError(
             f"The database is not of this release ({error}): start the newer one, or go back with its `galatea migrate`."
         ) from error
     except OSError as error:
-        raise Complaint(
+        raise CliError(
             f"{error.filename or settings.data_dir}: {error.strerror or error}. Set GALATEA_DATA_DIR to a folder of "
             "your own."
         ) from error
 
 
 def check_kinds(settings: Settings) -> None:
-    """Raise `Complaint` where the job kinds that the settings name are not there."""
+    """Raise `CliError` where the job kinds that the settings name are not there."""
     try:
         kinds = load_kinds(settings.kinds)
     except (ImportError, AttributeError, TypeError, ValueError) as error:
-        raise Complaint(f"GALATEA_KINDS: {error}. Use module:attribute, of modules that can be imported.") from error
+        raise CliError(f"GALATEA_KINDS: {error}. Use module:attribute, of modules that can be imported.") from error
     try:
         require_known(settings.worker_kinds, kinds)
     except ValueError as error:
-        raise Complaint(str(error)) from error
+        raise CliError(str(error)) from error
 
 
 def database_complaint(settings: Settings, error: DBAPIError) -> str:

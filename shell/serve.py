@@ -30,7 +30,7 @@ from service.logs import configure
 from service.pulse import BEAT_SECONDS, owner, silence
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
-from shell.complaint import Complaint
+from shell.cli_error import CliError
 from shell.opening import open_context
 from shell.supervisor import Supervisor
 from worker.interpreter import module_command
@@ -51,7 +51,7 @@ so long each time."""
 
 
 def serve(settings: Settings) -> None:
-    """Serve until SIGINT or SIGTERM. Raises `Complaint` where that cannot begin."""
+    """Serve until SIGINT or SIGTERM. Raises `CliError` where that cannot begin."""
     configure(settings)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
@@ -103,7 +103,7 @@ def _config(settings: Settings, app: FastAPI) -> Config:
 def _require_a_key(context: Context) -> None:
     with context.database.read() as session:
         if context.settings.keys_required and not any_usable(session):
-            raise Complaint(
+            raise CliError(
                 "Nobody could use the service: it asks for a key, and there is none. Make one first, with the same "
                 "settings: galatea keys create NAME"
             )
@@ -138,7 +138,7 @@ def _listen(settings: Settings) -> socket.socket:
         listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return listening
     except OSError as error:
-        raise Complaint(f"{settings.host}:{settings.port} cannot be bound: {error.strerror or error}") from error
+        raise CliError(f"{settings.host}:{settings.port} cannot be bound: {error.strerror or error}") from error
 
 
 def _lock(data_dir: Path) -> IO[str]:
@@ -154,7 +154,7 @@ def _lock(data_dir: Path) -> IO[str]:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             if time.monotonic() > deadline:
-                raise Complaint(f"Another `galatea serve` uses {data_dir} (GALATEA_DATA_DIR).") from None
+                raise CliError(f"Another `galatea serve` uses {data_dir} (GALATEA_DATA_DIR).") from None
             time.sleep(0.1)
         else:
             return lock
@@ -169,7 +169,7 @@ def _await_redis(settings: Settings) -> None:
         except redis.RedisError as error:
             if time.monotonic() > deadline:
                 folder = settings.data_dir / "redis"
-                raise Complaint(
+                raise CliError(
                     f"The embedded Redis does not start: {error}. See {folder / 'redis.log'}; the folder may be "
                     "deleted, for it holds nothing but hints."
                 ) from error

@@ -3,7 +3,7 @@
 One that is frozen has not ended, and would never be missed: those that give signs of life are killed when they fall silent,
 and started again.
 
-All are started by one thread that lives as long as this process: each is tethered to it and ends with it, even
+All are started by one thread that lives as long as this process: each is tied to it and ends with it, even
 if it is killed.
 """
 
@@ -19,15 +19,15 @@ from dataclasses import dataclass, field
 import structlog
 
 from worker.interpreter import module_environment
-from worker.tether import tethered
+from worker.parent_death import tied_to_parent
 
 LOOK_SECONDS = 0.2
-LONGEST_PAUSE = 30.0
+MAX_PAUSE_SECONDS = 30.0
 STEADY_SECONDS = 60.0
 """A process that lived this long is started again without a pause, should it end."""
 
 LISTEN_SECONDS = 1.0
-LONGEST_START = 120.0
+MAX_START_SECONDS = 120.0
 """How long a process may take to give its first sign of life."""
 
 LATE_SECONDS = 5.0
@@ -110,10 +110,10 @@ class Supervisor:
             if moment - program.started < program.pause:
                 return
             steady = moment - program.started > STEADY_SECONDS
-            program.pause = 0.5 if steady else min(max(program.pause * 2, 0.5), LONGEST_PAUSE)
+            program.pause = 0.5 if steady else min(max(program.pause * 2, 0.5), MAX_PAUSE_SECONDS)
             program.started = moment
             program.process = subprocess.Popen(  # noqa: S603  (our own programs)
-                tethered(list(program.command), signal.SIGTERM),
+                tied_to_parent(list(program.command), signal.SIGTERM),
                 pass_fds=self._inherited,
                 stdin=subprocess.DEVNULL,
                 env=module_environment(),
@@ -129,7 +129,7 @@ class Supervisor:
 
     def _silence(self, program: Program, moment: float) -> float:
         """For how many seconds a program has owed a sign of life."""
-        heard = program.heard if program.heard > program.started else program.started + LONGEST_START
+        heard = program.heard if program.heard > program.started else program.started + MAX_START_SECONDS
         return moment - max(heard, self._attentive)
 
     def _listen(self, program: Program, lives: Callable[[int], bool]) -> None:

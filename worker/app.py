@@ -35,7 +35,7 @@ from worker.rehearsal import rehearse, rehearsed
 from worker.short_lane import ShortLane
 from worker.spans import AttemptSpans
 from worker.sweep import sweep
-from worker.webhooks import Courier
+from worker.webhooks import WebhookSender
 
 WEBHOOK_SECONDS = 0.5
 """How often is looked for webhooks that are due."""
@@ -43,7 +43,7 @@ WEBHOOK_SECONDS = 0.5
 REDIS_SECONDS = 0.2
 """How often is looked whether Redis answers again."""
 
-LONGEST_FAREWELL = 5.0
+MAX_FAREWELL_SECONDS = 5.0
 """Seconds in which running jobs are given back; then the worker ends, come what may."""
 
 
@@ -57,7 +57,7 @@ class Worker:
         self.user = user_id(context.settings.job_user)
         self.children: WarmChildren
         self.lane: ShortLane | None = None
-        self.courier = Courier(context)
+        self.sender = WebhookSender(context)
         self.owner = owner(socket.gethostname(), os.getpid())
         self.pulse = Pulse(context.settings.data_dir, self.owner)
         context.queue.celery.task(name=TASK)(self.run_job)
@@ -122,7 +122,7 @@ class Worker:
         worker.start()
         self._stop()
         if self.lane is not None:
-            self.lane.close(LONGEST_FAREWELL)
+            self.lane.close(MAX_FAREWELL_SECONDS)
         self.children.close()
         if self.interrupted:
             raise KeyboardInterrupt
@@ -157,7 +157,7 @@ class Worker:
             self.interrupted = sig == signal.SIGINT.name
             self.stopping.set()
             # Celery waits for a Redis that may be gone already. Nothing is lost by not waiting with it.
-            last = threading.Timer(LONGEST_FAREWELL, os._exit, [128 + signal.SIGINT if self.interrupted else 0])
+            last = threading.Timer(MAX_FAREWELL_SECONDS, os._exit, [128 + signal.SIGINT if self.interrupted else 0])
             last.daemon = True
             last.start()
 
@@ -172,8 +172,8 @@ class Worker:
         self._repeat(lambda: keep_house(self.context), self.context.settings.sweep_seconds * 12)
 
     def _deliver_webhooks(self) -> None:
-        self._repeat(self.courier.look, WEBHOOK_SECONDS)
-        self.courier.close()
+        self._repeat(self.sender.look, WEBHOOK_SECONDS)
+        self.sender.close()
 
     def _repeat(self, task: Callable[[], object], seconds: float) -> None:
         """Do something again and again until the worker stops, whatever becomes of it."""

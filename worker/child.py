@@ -24,12 +24,12 @@ from engine.perception.models import MATTING_SETTING
 from service.catalogue.registry import load_kinds
 from worker import death
 from worker.confinement import Limits, confine, keep_to_cores, limit, of_the_program
+from worker.parent_death import die_with_parent
 from worker.rehearsal import kept_in, load_compiled
-from worker.tether import die_with_parent
 from worker.work import Wire, failed, files_of, local, perform
 
-LONGEST_LINE = 1_000_000
-PIECE = 1 << 16
+MAX_LINE_BYTES = 1_000_000
+READ_BYTES = 1 << 16
 TIME_LIMIT = "time_limit"
 PASSED_ON = ("progress", "stage", "stored", "artifact")
 """What a job's process may say; the rest is this process's own to say."""
@@ -44,7 +44,7 @@ class Commands:
 
     def read(self) -> list[dict[str, Any]]:
         """The next ones; ends the process when the worker is gone or wants no more of it."""
-        data = os.read(self.descriptor, PIECE)
+        data = os.read(self.descriptor, READ_BYTES)
         if not data:
             os._exit(0)
         *lines, self._rest = (self._rest + data).split(b"\n")
@@ -86,14 +86,14 @@ class JobProcess:
 
     def read(self) -> list[dict[str, Any]] | None:
         """What it said; None once it says no more, or speaks nonsense."""
-        data = os.read(self.events, PIECE)
+        data = os.read(self.events, READ_BYTES)
         *lines, self._rest = (self._rest + data).split(b"\n")
         try:
             said = [json.loads(line) for line in lines]
         except (ValueError, RecursionError):
             return None
         whole = all(isinstance(event, dict) and "event" in event for event in said)
-        return said if data and whole and len(self._rest) < LONGEST_LINE else None
+        return said if data and whole and len(self._rest) < MAX_LINE_BYTES else None
 
     def end(self, cpu_seconds: int) -> str | None:
         """Make sure that it has ended. Returns why it did where that was not in order: `time_limit`, or how it

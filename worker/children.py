@@ -24,7 +24,7 @@ from worker.confinement import Limits
 from worker.interpreter import module_command, module_environment
 from worker.niceness import give_way
 
-LONGEST_LINE = 1_000_000
+MAX_LINE_BYTES = 1_000_000
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
 
@@ -94,7 +94,7 @@ class Child:
             self._process.stdin.write(json.dumps(command).encode() + b"\n")
             self._process.stdin.flush()
         except OSError as error:
-            raise ChildLost(self.obituary()) from error
+            raise ChildLost(self.exit_reason()) from error
 
     def receive(self, timeout: float) -> list[dict[str, Any]]:
         """What it has said, waiting up to `timeout` seconds for something. Raises `ChildLost`."""
@@ -102,9 +102,9 @@ class Child:
             return []
         data = os.read(self._read_end, 1 << 16)
         if not data:
-            raise ChildLost(self.obituary())
+            raise ChildLost(self.exit_reason())
         *lines, self._buffer = (self._buffer + data).split(b"\n")
-        if len(self._buffer) > LONGEST_LINE:
+        if len(self._buffer) > MAX_LINE_BYTES:
             raise ChildLost("the job's process spoke nonsense")
         try:
             said = [json.loads(line, parse_constant=_no_number) for line in lines]
@@ -144,7 +144,7 @@ class Child:
         self._log.truncate(0)
         return tail
 
-    def obituary(self) -> str:
+    def exit_reason(self) -> str:
         """Why it ended."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(1)

@@ -23,12 +23,12 @@ from service.jobs.stages import erase
 from service.storage import StorageUnavailable
 from service.tables.jobs import Job, Status
 from worker.heartbeat import beating
-from worker.insist import insist
 from worker.plain_files import Refused
 from worker.preparation import Folders
 from worker.publish import publish_all
+from worker.retry_db import retry_db
 
-MOST_FOUND = 20_000
+MAX_FOUND_CHARACTERS = 20_000
 """Characters of what a failed job may say it has found."""
 
 DISK_FULL = "The disk became full during the job: free space and submit it again."
@@ -59,9 +59,9 @@ def conclude(
     try:
         match verdict["outcome"]:
             case "failed":
-                insist(lambda: _fail(context, lease, verdict), lease.seconds)
+                retry_db(lambda: _fail(context, lease, verdict), lease.seconds)
             case "crashed" | "stopped":
-                insist(lambda: _give_back(context, job, lease, verdict), lease.seconds)
+                retry_db(lambda: _give_back(context, job, lease, verdict), lease.seconds)
     except SQLAlchemyError:
         return {"outcome": "lost"}  # the lease has ended meanwhile, and the job is another worker's
     return verdict
@@ -92,7 +92,7 @@ def _fail(context: Context, lease: Lease, verdict: Mapping[str, Any]) -> None:
     with context.database.write() as session:
         correctable = [str(name) for name in verdict.get("correctable", ())]
         found = verdict.get("found") or {}
-        if len(json.dumps(found)) > MOST_FOUND:
+        if len(json.dumps(found)) > MAX_FOUND_CHARACTERS:
             found = {}
         leases.fail(session, lease, str(verdict["code"]), str(verdict["detail"])[:2000], correctable, found)
 

@@ -20,10 +20,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from worker import landlock, privileges, seccomp
-from worker.tether import die_with_parent
+from worker.parent_death import die_with_parent
 
-MOST_OPEN_FILES = 1024
-CPU_GRACE = 5
+MAX_OPEN_FILES = 1024
+CPU_GRACE_SECONDS = 5
 """Seconds between the signal that says that the time is used up and the one that cannot be ignored."""
 
 OF_THE_SYSTEM = (
@@ -50,7 +50,7 @@ def limit(limits: Limits) -> None:
     resource.setrlimit(resource.RLIMIT_DATA, (limits.memory_bytes, limits.memory_bytes))
     resource.setrlimit(resource.RLIMIT_FSIZE, (limits.file_bytes, limits.file_bytes))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    most = min(MOST_OPEN_FILES, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    most = min(MAX_OPEN_FILES, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
     privileges.no_new_privileges()
     Path("/proc/self/oom_score_adj").write_text("1000")
@@ -59,7 +59,7 @@ def limit(limits: Limits) -> None:
 def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: Iterable[Path]) -> None:
     """Give up, for good and while this process has one thread, all that a job does not need. It ends with `parent`."""
     resource.setrlimit(resource.RLIMIT_DATA, (limits.memory_bytes, limits.memory_bytes))
-    resource.setrlimit(resource.RLIMIT_CPU, (limits.cpu_seconds, limits.cpu_seconds + CPU_GRACE))
+    resource.setrlimit(resource.RLIMIT_CPU, (limits.cpu_seconds, limits.cpu_seconds + CPU_GRACE_SECONDS))
     files_kept = landlock.version() > 0
     if files_kept:
         system = [Path(path) for path in OF_THE_SYSTEM]

@@ -6,9 +6,9 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-LEAST_FRACTION = 0.02
-LEAST_SECONDS = 1.0
-JUMP = 0.05
+MIN_FRACTION = 0.02
+MIN_SECONDS = 1.0
+JUMP_FRACTION = 0.05
 JUMP_SECONDS = 0.5
 """A fraction that grows by this much in this time was not worked for: the stage had been stored before."""
 
@@ -38,7 +38,7 @@ class Eta:
         if self._fraction is None or self._cold:  # a resumed job begins in the middle
             self._began, self._worked = moment, 0.0
             self._steps.clear()
-        elif not (fraction - self._fraction > JUMP and moment - self._last < JUMP_SECONDS):
+        elif not (fraction - self._fraction > JUMP_FRACTION and moment - self._last < JUMP_SECONDS):
             self._worked += max(fraction - self._fraction, 0.0)
         self._fraction, self._last = fraction, moment
         self._steps.append((moment, self._worked))
@@ -49,6 +49,6 @@ class Eta:
     def _estimate(self, moment: float, fraction: float) -> float | None:
         since, before = self._steps[0]
         later = self._worked - before
-        if moment - self._began < LEAST_SECONDS or self._worked < LEAST_FRACTION or later <= 0 or moment <= since:
+        if moment - self._began < MIN_SECONDS or self._worked < MIN_FRACTION or later <= 0 or moment <= since:
             return None
         return round((moment - since) * (1 - fraction) / later, 1)

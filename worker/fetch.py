@@ -24,7 +24,7 @@ from service.outbound.client import client
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
 
-MOST_REDIRECTS = 5
+MAX_REDIRECTS = 5
 CONNECT_SECONDS = 10.0
 STALL_SECONDS = 20.0
 """How long a host may send nothing."""
@@ -85,7 +85,7 @@ def fetch(
 
 def _open(settings: Settings, http: httpx.Client, url: str, deadline: float, stack: ExitStack) -> httpx.Response:
     """Ask for the address, and for those that it leads on to. Returns the answer before its content has come."""
-    for _ in range(MOST_REDIRECTS + 1):
+    for _ in range(MAX_REDIRECTS + 1):
         require_callable(url, settings.allowed_networks)
         left = deadline - time.monotonic()
         if left <= 0:
@@ -99,7 +99,7 @@ def _open(settings: Settings, http: httpx.Client, url: str, deadline: float, sta
             return response
         url = str(response.url.join(response.headers["location"]))
         response.close()
-    raise FetchFailed("input_url_refused", f"The address leads on more than {MOST_REDIRECTS} times: give the last one.")
+    raise FetchFailed("input_url_refused", f"The address leads on more than {MAX_REDIRECTS} times: give the last one.")
 
 
 def _receive(

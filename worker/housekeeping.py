@@ -28,14 +28,14 @@ from service.uploads import repository as uploads
 from service.uploads import spool
 from service.webhooks import repository as webhooks
 
-IN_PROGRESS = timedelta(hours=1)
+MIN_ORPHAN_AGE = timedelta(hours=1)
 """Younger things may belong to something that is going on: a file is stored before its record is."""
 
-MOMENT = timedelta(minutes=1)
+MIN_FOLDER_AGE = timedelta(minutes=1)
 """Younger folders of jobs are left alone: their process may just be ending."""
 
 IDEMPOTENCY_KEPT = timedelta(hours=24)
-BATCH = 500
+BATCH_JOBS = 500
 
 
 def keep_house(context: Context) -> None:
@@ -56,7 +56,7 @@ def erase_old_jobs(context: Context) -> None:
     if not days:
         return
     with context.database.read() as session:
-        old = jobs.ended_before(session, now() - timedelta(days=days), BATCH)
+        old = jobs.ended_before(session, now() - timedelta(days=days), BATCH_JOBS)
     for job in old:
         with suppress(Problem):  # its owner was faster
             delete(context, job.owner, job.id)
@@ -88,16 +88,16 @@ def erase_expired_uploads(context: Context) -> None:
 def erase_orphans(context: Context) -> None:
     """Erase what lies on disk without a record: a process was killed between storing and recording, or between
     erasing the one and the other."""
-    before = now() - IN_PROGRESS
+    before = now() - MIN_ORPHAN_AGE
     for prefix, known in (("files", files.known), ("artifacts", artifacts.known), (STAGES, jobs.with_folder)):
         keys = context.storage.keys(prefix, before)
-        while batch := list(islice(keys, BATCH)):
+        while batch := list(islice(keys, BATCH_JOBS)):
             ids = {key: key.split("/")[1] for key in batch}  # of a stage, the id is its tree's
             orphans = set(_without_record(context, list(set(ids.values())), known))
             context.storage.delete(key for key in batch if ids[key] in orphans)
     data = context.settings.data_dir
     # A job's record is there before its folder: a folder without one is of a job that was erased, on any machine.
-    folders = {folder.name: folder for folder in _older(data / "jobs", now() - MOMENT)}
+    folders = {folder.name: folder for folder in _older(data / "jobs", now() - MIN_FOLDER_AGE)}
     for job_id in _without_record(context, list(folders), jobs.with_folder):
         shutil.rmtree(folders[job_id], ignore_errors=True)
     erase_broken_off(context, before)

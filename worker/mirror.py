@@ -23,7 +23,7 @@ from service.storage import Storage
 from worker.plain_files import NAME, Refused, opened
 
 KEY = re.compile(r"[0-9a-f]{40}")
-MOST_BYTES = 1_000_000_000
+MAX_BYTES = 1_000_000_000
 """Of one output, and of all that are fetched for one attempt: what is larger is worked out anew elsewhere."""
 
 
@@ -46,7 +46,7 @@ class Mirror:
         """Fetch the outputs that this machine lacks, the newest first. Raises OSError."""
         if self._storage.folder is not None:
             return
-        left = MOST_BYTES
+        left = MAX_BYTES
         for key, size in self._storage.sizes(self._prefix).items():
             name = key.rpartition("/")[2]
             self._sent.add(name)
@@ -82,7 +82,7 @@ class Mirror:
                     with opened(path) as file:
                         entry = tarfile.TarInfo(path.name)
                         entry.size = path.lstat().st_size
-                        if packed.tell() + entry.size > MOST_BYTES:
+                        if packed.tell() + entry.size > MAX_BYTES:
                             raise Refused("it is too large")
                         tar.addfile(entry, file)
             packed.seek(0)

@@ -21,10 +21,10 @@ from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.artifacts import Artifact
 from worker.content_types import content_type
-from worker.insist import insist
 from worker.plain_files import Refused, opened
+from worker.retry_db import retry_db
 
-REPORT_BYTES, MOST_STAGES = 1_000_000, 40
+REPORT_BYTES, MAX_STAGES = 1_000_000, 40
 """What is read of a report: the process that wrote it may be in a stranger's hands."""
 
 
@@ -42,7 +42,7 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
                 return False, None
             return True, _record(session, _copy(artifact))
 
-    held, freed = insist(record, lease.seconds)
+    held, freed = retry_db(record, lease.seconds)
     if not held:
         _erase_unrecorded(context, [artifact])
         return None
@@ -71,7 +71,7 @@ def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[st
             if published.get(path.name) != _mark(path.lstat()):
                 artifacts.append(_store(context, lease, path)[0])
         seconds = _stage_seconds(out)
-        freed = insist(record, lease.seconds)
+        freed = retry_db(record, lease.seconds)
     except BaseException:
         _erase_unrecorded(context, artifacts)
         raise
@@ -98,7 +98,7 @@ def _stage_seconds(out: Path) -> dict[str, float]:
     try:
         with opened(out / "report.json") as file:
             stages = json.loads(file.read(REPORT_BYTES))["stages"].items()
-        return {str(name): float(spent) for name, spent in list(stages)[:MOST_STAGES] if 0 <= float(spent) < 1e6}
+        return {str(name): float(spent) for name, spent in list(stages)[:MAX_STAGES] if 0 <= float(spent) < 1e6}
     except (Refused, OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return {}
 

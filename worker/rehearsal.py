@@ -30,10 +30,10 @@ import engine
 from service.catalogue.registry import load_kinds
 from service.settings import Settings
 from worker.interpreter import module_command, module_environment
-from worker.tether import tethered
+from worker.parent_death import tied_to_parent
 
 NAME = "rehearsed"
-FORGOTTEN = 90 * 24 * 3600.0
+FORGOTTEN_SECONDS = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
@@ -48,7 +48,7 @@ def rehearse(settings: Settings) -> None:
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
     command = module_command("worker.rehearsal", *settings.kinds)
     done = subprocess.run(  # noqa: S603  (our own program)
-        tethered(command),
+        tied_to_parent(command),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
@@ -110,7 +110,7 @@ def main() -> None:
     draft.write_bytes(pickle.dumps(_compiled()))
     draft.rename(mark)
     for other in mark.parent.glob(f"{NAME}-*"):  # of an engine that is no more
-        if other.stat().st_mtime < time.time() - FORGOTTEN:
+        if other.stat().st_mtime < time.time() - FORGOTTEN_SECONDS:
             other.unlink(missing_ok=True)
 
 

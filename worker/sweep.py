@@ -13,7 +13,7 @@ from service.job_records import jobs as repository
 from service.jobs import leases
 from service.tables.jobs import Status
 
-PATIENCE = 10.0
+REQUEUE_SECONDS = 10.0
 """Seconds: how long a message may be on its way before it can count as lost."""
 
 
@@ -45,7 +45,7 @@ def send_lost(context: Context) -> None:
     for kind in context.kinds:
         with context.database.read() as session:
             queued = repository.count_queued(session, kind)
-            overdue = repository.queued(session, kind, PATIENCE)
+            overdue = repository.queued(session, kind, REQUEUE_SECONDS)
         try:
             if not overdue or context.queue.waiting(kind) >= queued:
                 continue

@@ -26,12 +26,12 @@ from service.traces.tracer import fail, parent_of, trace_id
 from service.webhooks import delivery_lease as course
 from service.webhooks.delivery_lease import UNREADABLE, Claim, Outcome
 from service.webhooks.signing import signed_headers
-from worker.insist import insist
+from worker.retry_db import retry_db
 
 EXCERPT_BYTES = 1024
 
 
-class Courier:
+class WebhookSender:
     """Delivers what is due, whenever it is told to look."""
 
     def __init__(self, context: Context):
@@ -86,7 +86,7 @@ class Courier:
                 span.set_attribute("http.response.status_code", outcome.status)
             if outcome.code is not None:
                 fail(span, outcome.code)
-            insist(lambda: self._settle(claim, outcome, moment), self._context.settings.webhook_seconds)
+            retry_db(lambda: self._settle(claim, outcome, moment), self._context.settings.webhook_seconds)
         except Exception:
             fail(span, "internal_error")
             log.exception("webhook_not_settled")  # its lease expires, and it is tried again

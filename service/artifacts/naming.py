@@ -8,7 +8,7 @@ from typing import Any
 
 from service.ids import is_id
 
-LONGEST = 60
+MAX_PART_CHARACTERS = 60
 """Characters of each part."""
 
 PICTURE = ("portrait", "photo")
@@ -43,4 +43,4 @@ def _first(metadata: Mapping[str, Any], names: tuple[str, ...]) -> str:
 
 def _words(text: str) -> str:
     """Letters and digits of any script, and dashes between them: nothing that a file system or a shell reads."""
-    return re.sub(r"[\W_]+", "-", text.casefold()).strip("-")[:LONGEST].strip("-")
+    return re.sub(r"[\W_]+", "-", text.casefold()).strip("-")[:MAX_PART_CHARACTERS].strip("-")

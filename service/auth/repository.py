@@ -16,7 +16,7 @@ from service.tables.jobs import Job, Status
 from service.tables.keys import LOCAL, Key
 from service.tables.uploads import Upload
 
-NOTED_EVERY = timedelta(minutes=1)
+USE_NOTED_EVERY = timedelta(minutes=1)
 """The use of a key is noted no more often than this."""
 
 # What every request asks is put together once.
@@ -66,7 +66,7 @@ def any_usable(session: Session) -> bool:
 
 
 def used_recently(key: Key) -> bool:
-    return key.last_used_at is not None and key.last_used_at > now() - NOTED_EVERY
+    return key.last_used_at is not None and key.last_used_at > now() - USE_NOTED_EVERY
 
 
 def note_use(session: Session, key_id: str) -> None:

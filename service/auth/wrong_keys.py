@@ -17,11 +17,11 @@ from service.context import Context
 from service.outbound.address import Network
 from service.problems import Problem
 
-PLACES = 4096
+ADDRESS_BUCKETS = 4096
 """Addresses are counted in so many buckets: who shares one with a stranger is slowed down with them, and Redis holds no
 more than these however many addresses there are."""
 
-ALL_TIMES = 20
+TOTAL_TO_ADDRESS_RATIO = 20
 """How many times what one address may send all may send together."""
 
 BURST_SECONDS = 60.0
@@ -30,10 +30,10 @@ BURST_SECONDS = 60.0
 def count_wrong_key(context: Context, request: Request) -> None:
     """Count a key that opened nothing. Raises a 429 problem where there are too many."""
     most = context.settings.wrong_keys_per_minute
-    place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % PLACES
+    place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % ADDRESS_BUCKETS
     seconds = max(
         waits(context.queue, f"galatea:wrong:{place}", most, BURST_SECONDS),
-        waits(context.queue, "galatea:wrong:all", most * ALL_TIMES, BURST_SECONDS),
+        waits(context.queue, "galatea:wrong:all", most * TOTAL_TO_ADDRESS_RATIO, BURST_SECONDS),
     )
     if seconds > 0:
         raise Problem(

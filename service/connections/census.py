@@ -14,10 +14,10 @@ from typing import Protocol as Interface
 
 import structlog
 
-SHARE = 0.75
+MAX_ADDRESS_SHARE = 0.75
 """As much of all connections one address may hold."""
 
-MOST_PARTING = 64
+MAX_PARTING = 64
 """As many connections are closed with care at once (see `Parting`); those beyond, at once."""
 
 SPARE_FILES = 128
@@ -49,7 +49,7 @@ class Census:
     def admit(self, newcomer: Connected) -> bool:
         """Count a connection in, for which another one may have to go. False where there is no room for it."""
         address = newcomer.address
-        alone = self._by_address[address] >= max(1, int(SHARE * self.most))
+        alone = self._by_address[address] >= max(1, int(MAX_ADDRESS_SHARE * self.most))
         if alone or self._by_address.total() >= self.most:
             self._tell(address)
             longest = self._longest_waiting(address if alone else self._fullest())

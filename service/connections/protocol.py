@@ -13,11 +13,11 @@ from typing import Any, cast
 import h11
 import uvicorn
 
-from service.connections.census import MOST_PARTING, Census
+from service.connections.census import MAX_PARTING, Census
 from service.connections.patience import Stopped
+from service.connections.sliced_reading import SlicedReading
 from service.connections.strict import StrictConnection
 from service.connections.transport import Transport
-from service.connections.turns import InTurns
 from service.http import browser
 from service.problems import Problem, phrase
 
@@ -44,7 +44,7 @@ class Config(uvicorn.Config):
         self.send_seconds = send_seconds
 
 
-class Protocol(InTurns):
+class Protocol(SlicedReading):
     """One connection."""
 
     config: Config
@@ -160,7 +160,7 @@ class Protocol(InTurns):
         """Whether to close with care: something may still come in, and few connections are closed like that."""
         census = self.config.census
         careful = self.conn.their_state in (h11.SEND_BODY, h11.ERROR) or self._heard or not self._admitted
-        if careful and census.parting < MOST_PARTING:
+        if careful and census.parting < MAX_PARTING:
             census.parting += 1
             return True
         return False

@@ -20,7 +20,7 @@ from service.context import Context
 from service.events import repository
 
 LOOK_SECONDS = 0.25
-LATE = 100
+LATE_EVENT_IDS = 100
 """Ids before the newest that are looked at again: where several write at once, a smaller one may show later."""
 
 PATIENCE_SECONDS = 5.0
@@ -78,7 +78,7 @@ class Watch:
         with self._context.database.read() as session:
             if newest is None:
                 newest = repository.newest(session)
-            return repository.jobs_since(session, newest - LATE)
+            return repository.jobs_since(session, newest - LATE_EVENT_IDS)
 
 
 class Follower:

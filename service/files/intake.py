@@ -25,7 +25,7 @@ from service.ids import new_id
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
 
-MOST_FIELDS = 100
+MAX_FIELDS = 100
 """The most parts that are not files."""
 VALUE_BYTES = 4000
 """The longest text that stands for a file: an address."""
@@ -131,8 +131,8 @@ class Form:
             self._become_file()
             return
         self._fields += 1
-        if self._fields > MOST_FIELDS:
-            raise Problem(413, "too_many_parts", f"A form may have {MOST_FIELDS} parts that are not files at most.")
+        if self._fields > MAX_FIELDS:
+            raise Problem(413, "too_many_parts", f"A form may have {MAX_FIELDS} parts that are not files at most.")
 
     def data(self, data: bytes) -> None:
         if self._file is None:

@@ -11,7 +11,7 @@ from python_multipart.multipart import MAX_BOUNDARY_LENGTH, MultipartParser, par
 
 from service.problems import Problem
 
-MOST_HEADERS = 8
+MAX_HEADERS = 8
 HEAD_BYTES = 4000
 """The most bytes of all headers of a part."""
 CONTENT_TYPE_CHARACTERS = 1000
@@ -54,7 +54,7 @@ class Parts:
         self._parser = MultipartParser(
             _boundary(content_type),
             callbacks,  # type: ignore[arg-type]
-            max_header_count=10 * MOST_HEADERS,
+            max_header_count=10 * MAX_HEADERS,
             max_header_size=10**9,
         )
 
@@ -67,8 +67,8 @@ class Parts:
 
     def _count(self, size: int) -> None:
         self._head_bytes += size
-        if self._head_bytes > HEAD_BYTES or len(self._headers) > MOST_HEADERS:
-            detail = f"The headers of a part may be {MOST_HEADERS}, with {HEAD_BYTES} bytes together, at most."
+        if self._head_bytes > HEAD_BYTES or len(self._headers) > MAX_HEADERS:
+            detail = f"The headers of a part may be {MAX_HEADERS}, with {HEAD_BYTES} bytes together, at most."
             raise Problem(413, "part_head_too_large", detail)
 
     # The parser's callbacks.

@@ -14,11 +14,11 @@ from typing import Any
 
 from service.problems import Problem
 
-MOST_NAMES = 5000
+MAX_NAMES = 5000
 """Names in all objects of a document: an option with 1,000 strokes has 3,000."""
-DEEPEST = 50
+MAX_DEPTH = 50
 """Arrays and objects within each other."""
-LARGEST_NUMBER = 1.7e308
+MAX_NUMBER = 1.7e308
 """Beyond it, most programs read infinity."""
 
 
@@ -51,7 +51,7 @@ def require_text(texts: Iterable[str], what: str) -> None:
 def _require_bounded(value: Any, what: str) -> None:
     """Walk over a document level by level, which takes no more of the stack however deep it is."""
     level, names = [value], 0
-    for _ in range(DEEPEST + 1):
+    for _ in range(MAX_DEPTH + 1):
         below: list[Any] = []
         for one in level:
             if isinstance(one, str):
@@ -60,13 +60,13 @@ def _require_bounded(value: Any, what: str) -> None:
                 below += one
             elif isinstance(one, dict):
                 names += len(one)
-                if names > MOST_NAMES:
-                    detail = f"{what} has more than {MOST_NAMES} names: send no more than is asked for."
+                if names > MAX_NAMES:
+                    detail = f"{what} has more than {MAX_NAMES} names: send no more than is asked for."
                     raise Problem(422, "too_many_names", detail)
                 require_text(one, what)
                 below += one.values()
             elif isinstance(one, int | float) and not _is_number(one):
-                raise Problem(422, "number_too_large", f"{what} holds a number beyond {LARGEST_NUMBER:g}.")
+                raise Problem(422, "number_too_large", f"{what} holds a number beyond {MAX_NUMBER:g}.")
         level = below
         if not level:
             return
@@ -74,11 +74,11 @@ def _require_bounded(value: Any, what: str) -> None:
 
 
 def _is_number(value: float) -> bool:
-    return isfinite(value) if isinstance(value, float) else abs(value) <= LARGEST_NUMBER
+    return isfinite(value) if isinstance(value, float) else abs(value) <= MAX_NUMBER
 
 
 def _too_deep(what: str) -> Problem:
-    return Problem(422, "json_too_deep", f"{what} has more than {DEEPEST} arrays and objects within each other.")
+    return Problem(422, "json_too_deep", f"{what} has more than {MAX_DEPTH} arrays and objects within each other.")
 
 
 def _no_number(name: str) -> None:

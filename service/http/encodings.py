@@ -9,13 +9,13 @@ from anyio.to_thread import run_sync
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-LEAST = 1000
+MIN_GZIP_BYTES = 1000
 """Bytes from which on it is worth it."""
 
-MUCH = 50_000
+THREADED_GZIP_BYTES = 50_000
 """Bytes from which on it is done in a thread."""
 
-LEVEL = 5
+GZIP_LEVEL = 5
 TEXTS = ("application/json", "application/problem+json", "text/plain")
 
 
@@ -49,7 +49,7 @@ class Compressed:
                 return
             if held is not None:
                 start, held = held, None
-                if taken and not message.get("more_body", False) and len(message.get("body", b"")) >= LEAST:
+                if taken and not message.get("more_body", False) and len(message.get("body", b"")) >= MIN_GZIP_BYTES:
                     message = {**message, "body": await _gzipped(message["body"])}
                     headers = MutableHeaders(scope=start)
                     headers["Content-Encoding"] = "gzip"
@@ -66,6 +66,6 @@ def _is_text(start: Message) -> bool:
 
 
 async def _gzipped(body: bytes) -> bytes:
-    if len(body) < MUCH:
-        return gzip.compress(body, LEVEL, mtime=0)
-    return await run_sync(lambda: gzip.compress(body, LEVEL, mtime=0))
+    if len(body) < THREADED_GZIP_BYTES:
+        return gzip.compress(body, GZIP_LEVEL, mtime=0)
+    return await run_sync(lambda: gzip.compress(body, GZIP_LEVEL, mtime=0))

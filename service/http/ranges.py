@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 
-MOST_RANGES = 16
+MAX_RANGES = 16
 """More ranges in one request than any player asks for are ignored, as the RFC allows."""
 
 
@@ -22,8 +22,8 @@ def parse_ranges(header: str | None, size: int) -> list[tuple[int, int]] | None:
     """
     if header is None or not header.strip().lower().startswith("bytes="):
         return None
-    parts = [part.strip() for part in header.strip()[6:].split(",", MOST_RANGES + 1)]
-    if len(parts) > MOST_RANGES:
+    parts = [part.strip() for part in header.strip()[6:].split(",", MAX_RANGES + 1)]
+    if len(parts) > MAX_RANGES:
         return None
     ranges = []
     for part in filter(None, parts):

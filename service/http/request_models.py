@@ -14,7 +14,7 @@ from starlette.responses import Response
 from service.http import bodies
 from service.http.documents import parse_json
 
-ASKED = ConfigDict(extra="forbid", strict=True)
+REQUEST_MODEL = ConfigDict(extra="forbid", strict=True)
 """No names but the model's own, and every value of the type that the OpenAPI document says: `true` is no number."""
 
 
@@ -35,7 +35,7 @@ async def read_json(request: Request) -> Any:
     return await run_sync(parse_json, await bodies.read(request), "The body")
 
 
-class _AskedRequest(Request):
+class _BoundedRequest(Request):
     """A request whose body FastAPI reads within the same bounds."""
 
     async def body(self) -> bytes:
@@ -47,13 +47,13 @@ class _AskedRequest(Request):
         return await run_sync(parse_json, await self.body(), "The body")
 
 
-class AskedRoute(APIRoute):
-    """The class of every route whose body is a model in its signature (`APIRouter(route_class=AskedRoute)`)."""
+class RequestModelRoute(APIRoute):
+    """The class of every route whose body is a model in its signature (`APIRouter(route_class=RequestModelRoute)`)."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handle = super().get_route_handler()
 
         async def bounded(request: Request) -> Response:
-            return await handle(_AskedRequest(request.scope, request.receive))
+            return await handle(_BoundedRequest(request.scope, request.receive))
 
         return bounded

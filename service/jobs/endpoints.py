@@ -16,7 +16,7 @@ from service.clock import Moment
 from service.connections.stopping import InStopping, Stopping
 from service.context import Context, InContext
 from service.disk import require_space
-from service.http.request_models import AskedRoute
+from service.http.request_models import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id
 from service.job_records import jobs as repository
 from service.job_records import owned
@@ -28,7 +28,7 @@ from service.jobs.schemas import JobChange
 from service.problems import Problem, responses
 from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 
-router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=AskedRoute)
+router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=RequestModelRoute)
 
 WAIT_POLL_SECONDS = 0.2
 TITLE = {"type": "string", "minLength": 1, "maxLength": TITLE_CHARACTERS, "pattern": TITLE_PATTERN}

@@ -21,7 +21,7 @@ from service.problems import FieldError, Problem
 from service.tables.files import File
 from service.uploads import repository as uploads
 
-MOST_OWN = 6
+MAX_OWN_CANDIDATES = 6
 """How many of the user's own drivers `auto` looks at: looking at one costs a second or two."""
 
 MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPES}
@@ -225,7 +225,7 @@ def _candidates(lookup: _Lookup, library: Library) -> dict[str, Any]:
     """What `auto` chooses from: the built-in library, then what the user keeps beside it, the newest first."""
     candidates: dict[str, dict[str, str]] = {one: {"library": library.name, "name": one} for one in library.built_in}
     own = kept.with_files(lookup.session, library, lookup.owner)
-    for one, _ in sorted(own, key=lambda pair: pair[0].created_at, reverse=True)[:MOST_OWN]:
+    for one, _ in sorted(own, key=lambda pair: pair[0].created_at, reverse=True)[:MAX_OWN_CANDIDATES]:
         if (file := files.held(lookup.session, lookup.owner, one.file_id)) is not None:
             candidates[one.name] = {"file": file.id}
             lookup.used.add(file.id)

@@ -21,7 +21,7 @@ from service.figures import counters
 from service.tables.base import SET_BACK_SECONDS, moment_in
 from service.tables.jobs import Job, Status
 
-MOST_FRUITLESS_ATTEMPTS = 3
+MAX_FRUITLESS_ATTEMPTS = 3
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ def give_back(
     if counts and fruitless and death is not None and death == last_death:
         detail = f"Tried twice, and it ended in the same way: {reason}. Send another file, or the same one saved anew."
         return Status.FAILED if fail(session, lease, "process_died", detail) else None
-    if counts and fruitless >= MOST_FRUITLESS_ATTEMPTS:
+    if counts and fruitless >= MAX_FRUITLESS_ATTEMPTS:
         detail = f"Tried {fruitless} times without getting any further. The last time: {reason}"
         return Status.FAILED if fail(session, lease, "attempts_exhausted", detail) else None
     requeued = change(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, Field, JsonValue
 
-from service.http.request_models import ASKED
+from service.http.request_models import REQUEST_MODEL
 from service.job_records.schemas import PriorityName
 from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN
 from service.webhooks.schemas import Events, Url
@@ -18,7 +18,7 @@ Title = Annotated[str, Field(min_length=1, max_length=TITLE_CHARACTERS, pattern=
 class JobIn(BaseModel):
     """What a client asks for."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     kind: str
     inputs: dict[str, Given] = {}
@@ -38,7 +38,7 @@ class JobIn(BaseModel):
 class JobChange(BaseModel):
     """What is to be different about a job."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     title: Title | None
     """What the work is called, in all its versions; null takes the title away."""
@@ -47,7 +47,7 @@ class JobChange(BaseModel):
 class RevisionIn(BaseModel):
     """What is to be different."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     corrections: dict[str, JsonValue] = {}
     """What was found wrongly, by the names that the kind offers (`GET /kinds`); of inputs, file ids or https addresses,

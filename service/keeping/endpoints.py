@@ -13,7 +13,7 @@ from starlette.responses import Response
 from service.auth.caller import Reader, Submitter
 from service.context import InContext
 from service.disk import require_space
-from service.http.request_models import AskedRoute
+from service.http.request_models import RequestModelRoute
 from service.keeping import service
 from service.keeping.presentation import Presentation, everything, one
 from service.keeping.request import KeptChange, body, keep_body
@@ -44,7 +44,7 @@ class Endpoints:
 def library_router(presented: Presentation[Any, Any], named: Endpoints) -> APIRouter:
     """The endpoints of a library, below its address."""
     library, noun = presented.library, presented.library.noun
-    router = APIRouter(prefix=f"/{noun}s", tags=[f"{noun}s"], route_class=AskedRoute)
+    router = APIRouter(prefix=f"/{noun}s", tags=[f"{noun}s"], route_class=RequestModelRoute)
 
     def about(operation: str, says: str) -> dict[str, Any]:
         return {"operation_id": operation, "name": operation, "description": says}

@@ -14,7 +14,7 @@ from service.context import Context
 from service.disk import require_space
 from service.files import service as files
 from service.files.intake import Form
-from service.http.request_models import ASKED, JSON_TYPES, read_json
+from service.http.request_models import JSON_TYPES, REQUEST_MODEL, read_json
 from service.ids import LIKE_AN_ID
 from service.keeping import service
 from service.libraries.library import Library
@@ -27,7 +27,7 @@ NAME: JsonDict = {"minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.p
 class KeptIn(BaseModel):
     """What is to be kept."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     name: str
     file: str
@@ -36,7 +36,7 @@ class KeptIn(BaseModel):
 class KeptChange(BaseModel):
     """What is to be different about something that is kept."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     name: Annotated[str, Field(json_schema_extra=NAME)]
     """Its new name."""

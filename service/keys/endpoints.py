@@ -11,13 +11,13 @@ from service.auth.sessions import COOKIE, SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import InContext
-from service.http.request_models import AskedRoute
+from service.http.request_models import RequestModelRoute
 from service.keys import service
 from service.keys.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.problems import Problem, responses
 from service.tables.keys import Key
 
-router = APIRouter(tags=["keys"], route_class=AskedRoute)
+router = APIRouter(tags=["keys"], route_class=RequestModelRoute)
 
 
 @router.get("/key", operation_id="get_own_key")

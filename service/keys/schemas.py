@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BaseModel, Field
 
 from service.auth.caller import SCOPES, Scope
 from service.auth.quotas import Limits
-from service.http.request_models import ASKED, WHOLE
+from service.http.request_models import REQUEST_MODEL, WHOLE
 from service.settings import Settings
 from service.tables.keys import Key
 
@@ -21,7 +21,7 @@ def _each_once(scopes: list[Scope]) -> list[Scope]:
 class KeyIn(BaseModel):
     """A key to be made. Limits that are left out are those of the service's settings."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     name: str = Field(min_length=1, max_length=100, pattern=r"^[^\x00-\x1f\x7f]+$")
     scopes: Annotated[list[Scope], Field(fail_fast=True, min_length=1, max_length=10), AfterValidator(_each_once)] = [
@@ -102,6 +102,6 @@ class OwnKeyOut(BaseModel):
 class SessionIn(BaseModel):
     """The key that a session of the web page stands for."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     key: str = Field(min_length=1, max_length=200)

@@ -22,10 +22,10 @@ from service.tables.artifacts import Artifact
 from service.tables.jobs import Status
 from service.tables.kept import Kept
 
-DOCUMENT_BYTES = 1_000_000
+MAX_DOCUMENT_BYTES = 1_000_000
 """What is read of a document at most: the process that wrote it may be in a stranger's hands."""
 
-KEPT_IN_MEMORY = 1000
+CACHED_DOCUMENTS = 1000
 """Documents; an artifact never changes under its key."""
 
 InspectionStatus = Literal["none", "pending", "ready", "failed"]
@@ -68,13 +68,13 @@ def _inspection(
     status, error = end
     if not status.final:
         return Inspection("pending")
-    if status != Status.SUCCEEDED or document is None or document.size > DOCUMENT_BYTES:
+    if status != Status.SUCCEEDED or document is None or document.size > MAX_DOCUMENT_BYTES:
         return Inspection("failed", error=error)
     read = _read(context.storage, document.key, model)
     return Inspection("ready" if read is not None else "failed", read)
 
 
-@lru_cache(maxsize=KEPT_IN_MEMORY)
+@lru_cache(maxsize=CACHED_DOCUMENTS)
 def _read(storage: Storage, key: str, model: type[D]) -> D | None:
     with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
         text = storage.fetch(key, Path(folder) / "document.json").read_bytes()

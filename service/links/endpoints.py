@@ -15,7 +15,7 @@ from service.auth.tokens import digest
 from service.clock import now
 from service.context import InContext
 from service.http.delivery import DELIVERED_IN_PARTS, deliver
-from service.http.request_models import AskedRoute
+from service.http.request_models import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id, new_id
 from service.job_records import artifacts, jobs
 from service.job_records.owned import found
@@ -24,7 +24,7 @@ from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut
 from service.problems import Problem, responses
 from service.tables.links import PublicLink
 
-router = APIRouter(tags=["links"], route_class=AskedRoute)
+router = APIRouter(tags=["links"], route_class=RequestModelRoute)
 
 HINT_CHARACTERS = 6
 

@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from pydantic import BaseModel, Field
 
-from service.http.request_models import ASKED
+from service.http.request_models import REQUEST_MODEL
 from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
 from service.tables.links import PublicLink
@@ -18,7 +18,7 @@ from service.tables.links import PublicLink
 class LinkIn(BaseModel):
     """A link to be made."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     expires_in_hours: float | None = Field(None, gt=0, le=876_000)
     """Null: it is good until it is revoked. Left out: as long as the service's settings say

@@ -37,7 +37,7 @@ RESERVED = tuple(
 )
 """Reserved networks of which the standard library's `is_global` does not know, or did not in every version."""
 
-LONGEST_URL = 2000
+MAX_URL_CHARACTERS = 2000
 HOST = re.compile(r"[\w-]+(\.[\w-]+)*\.?")
 
 
@@ -68,8 +68,8 @@ def require_callable(url: str, allowed: Sequence[Network]) -> None:
         parsed = httpx.URL(url)
     except httpx.InvalidURL as error:
         raise AddressRefused(f"It is no address: {error}.") from error
-    if len(url) > LONGEST_URL:
-        raise AddressRefused(f"An address may have {LONGEST_URL} characters at most.")
+    if len(url) > MAX_URL_CHARACTERS:
+        raise AddressRefused(f"An address may have {MAX_URL_CHARACTERS} characters at most.")
     encrypted = parsed.scheme == "https"
     if parsed.scheme not in ("http", "https") or not parsed.host:
         raise AddressRefused("Only addresses that begin with https:// can be called.")

@@ -7,14 +7,14 @@ import binascii
 
 from service.problems import Problem
 
-LONGEST = 8000
+MAX_METADATA_CHARACTERS = 8000
 """Characters of the header; together with the others it must fit into what a server takes of headers at all."""
 
 
 def parse(header: str) -> dict[str, str]:
     """The pairs of the header. Raises a 422 problem if it is not as the protocol says."""
-    if len(header) > LONGEST:
-        raise _invalid(f"it has more than {LONGEST} characters")
+    if len(header) > MAX_METADATA_CHARACTERS:
+        raise _invalid(f"it has more than {MAX_METADATA_CHARACTERS} characters")
     pairs: dict[str, str] = {}
     for pair in header.split(",") if header.strip() else ():
         key, _, value = pair.strip(" ").partition(" ")

@@ -27,14 +27,14 @@ EXTENSIONS = ("creation", "creation-with-upload", "creation-defer-length", "chec
 PIECE = "application/offset+octet-stream"
 """The media type of a piece."""
 
-LARGEST = 1 << 53
+MAX_LENGTH_BYTES = 1 << 53
 """Where numbers of bytes end (JavaScript knows no larger whole ones)."""
 
-UploadLength = Annotated[int | None, Header(ge=0, le=LARGEST, description="How long the whole upload is.")]
+UploadLength = Annotated[int | None, Header(ge=0, le=MAX_LENGTH_BYTES, description="How long the whole upload is.")]
 DeferLength = Annotated[
     int | None, Header(alias="Upload-Defer-Length", ge=1, le=1, description="1: the length will be told later.")
 ]
-UploadOffset = Annotated[int, Header(ge=0, le=LARGEST, description="Where the piece begins.")]
+UploadOffset = Annotated[int, Header(ge=0, le=MAX_LENGTH_BYTES, description="Where the piece begins.")]
 UploadMetadata = Annotated[
     str | None,
     Header(description="Keys with values in base64, separated by commas; `filename` and `filetype` are understood."),

@@ -20,7 +20,7 @@ from service.uploads.digest import RunningDigest
 PATIENCE_SECONDS = 10.0
 """How long a later request waits for an earlier one to let go; only one that is storing the whole file takes so long."""
 
-MOST_DIGESTS = 1000
+MAX_DIGESTS = 1000
 
 
 class Hold:
@@ -70,7 +70,7 @@ class UnderWay:
         """The running digest of an upload; those that were not asked for longest are forgotten."""
         digest = self._digests.setdefault(upload_id, RunningDigest())
         self._digests.move_to_end(upload_id)
-        while len(self._digests) > MOST_DIGESTS:
+        while len(self._digests) > MAX_DIGESTS:
             self._digests.popitem(last=False)
         return digest
 

@@ -161,7 +161,7 @@ def _waited(moment: datetime) -> ColumnElement[bool]:
     return or_(
         Delivery.next_attempt_at <= moment,
         Delivery.tries == 0,
-        Delivery.next_attempt_at > moment + schedule.LONGEST_PAUSE,
+        Delivery.next_attempt_at > moment + schedule.MAX_PAUSE,
     )
 
 
@@ -226,7 +226,7 @@ def _fail(session: Session, delivery: Delivery, outcome: Outcome, moment: dateti
     if pause is None:
         delivery.status = DeliveryStatus.FAILED
     if delivery.webhook_id is not None and outcome.code != UNREADABLE:  # of that the receiver knows nothing
-        _blame(session, delivery.webhook_id, outcome.gone, pause is None, moment)
+        _count_failure(session, delivery.webhook_id, outcome.gone, pause is None, moment)
     elif outcome.gone:
         session.execute(
             update(Delivery)
@@ -239,7 +239,7 @@ def _fail(session: Session, delivery: Delivery, outcome: Outcome, moment: dateti
         )
 
 
-def _blame(session: Session, webhook_id: str, gone: bool, given_up: bool, moment: datetime) -> None:
+def _count_failure(session: Session, webhook_id: str, gone: bool, given_up: bool, moment: datetime) -> None:
     """Note at the endpoint that an attempt failed, and disable it if that is enough."""
     session.execute(
         update(Webhook)

@@ -11,7 +11,7 @@ from starlette.responses import Response
 from service.auth.caller import Reader, Submitter
 from service.clock import now
 from service.context import InContext
-from service.http.request_models import AskedRoute
+from service.http.request_models import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id
 from service.problems import Problem, responses
 from service.tables.webhooks import Delivery, DeliveryStatus
@@ -31,7 +31,7 @@ from service.webhooks.schemas import (
     WebhookOut,
 )
 
-router = APIRouter(prefix="/webhooks", tags=["webhooks"], route_class=AskedRoute)
+router = APIRouter(prefix="/webhooks", tags=["webhooks"], route_class=RequestModelRoute)
 
 
 @router.get("", operation_id="list_webhooks")

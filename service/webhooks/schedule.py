@@ -23,7 +23,7 @@ RETRIES = (
     timedelta(hours=24),
 )
 JITTER = 0.1
-LONGEST_PAUSE = RETRIES[-1] * (1 + JITTER)
+MAX_PAUSE = RETRIES[-1] * (1 + JITTER)
 
 PROGRESS_RETRIES = 2
 """Progress is not worth telling hours later: the job has ended by then, and that is told by itself."""

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, Field, Strict
 
-from service.http.request_models import ASKED
+from service.http.request_models import REQUEST_MODEL
 from service.tables.webhooks import FINAL, URL_CHARACTERS, Delivery, DeliveryAttempt, DeliveryStatus, EventType, Webhook
 
 
@@ -28,7 +28,7 @@ Told = EventType | Literal["webhook.test"]
 class WebhookIn(BaseModel):
     """An endpoint to be told of jobs."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     url: Url
     """Begins with `https://`; with `http://` only where the operator allows the network."""
@@ -40,7 +40,7 @@ class WebhookIn(BaseModel):
 class WebhookChange(BaseModel):
     """What is to be different about an endpoint; what is left out stays."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     url: Url | None = None
     events: Events | None = None
@@ -103,7 +103,7 @@ class WebhookList(BaseModel):
 class RotationIn(BaseModel):
     """How an endpoint's secret is replaced."""
 
-    model_config = ASKED
+    model_config = REQUEST_MODEL
 
     overlap_hours: float = Field(default=24, ge=0, le=168)
     """How long the old secret signs beside the new one."""

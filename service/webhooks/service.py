@@ -18,7 +18,7 @@ from service.webhooks import repository
 from service.webhooks.outbox import Destination, new_delivery
 from service.webhooks.schemas import WebhookChange, WebhookIn
 
-MOST_ENDPOINTS = 50
+MAX_ENDPOINTS = 50
 
 
 def require_address(url: str, allowed: Sequence[Network], pointer: str = "/url") -> None:
@@ -34,8 +34,8 @@ def create(session: Session, owner: str, asked: WebhookIn, allowed: Sequence[Net
     """Make an endpoint. Raises `Problem`."""
     require_address(asked.url, allowed)
     keys.get_locked(session, owner)  # so that two requests at the same moment cannot both be the last
-    if repository.count(session, owner) >= MOST_ENDPOINTS:
-        raise Problem(409, "too_many_webhooks", f"There may be {MOST_ENDPOINTS} endpoints: delete one of them first.")
+    if repository.count(session, owner) >= MAX_ENDPOINTS:
+        raise Problem(409, "too_many_webhooks", f"There may be {MAX_ENDPOINTS} endpoints: delete one of them first.")
     webhook = Webhook(
         id=new_id(),
         owner=owner,

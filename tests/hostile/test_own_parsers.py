@@ -20,7 +20,7 @@ from engine.media.limits import Limits
 from engine.media.sniff import IMAGE_TYPES, VIDEO_TYPES, is_still_webp, sniff_bytes
 from engine.media.timing import rate_of
 from service.files.admission import shown_name
-from service.files.intake import MOST_FIELDS, Form
+from service.files.intake import MAX_FIELDS, Form
 from service.http.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem
 from service.settings import Settings
@@ -196,8 +196,8 @@ def part(name: str, content: bytes = b"x", more: str = "") -> bytes:
 @pytest.mark.parametrize(
     ("pieces", "status", "code", "most"),
     [
-        ([part(f"f{i}") for i in range(30_000)], 413, "too_many_parts", MOST_FIELDS + 1),
-        ([part("f", b"", '; filename=""') for _ in range(30_000)], 413, "too_many_parts", MOST_FIELDS + 1),
+        ([part(f"f{i}") for i in range(30_000)], 413, "too_many_parts", MAX_FIELDS + 1),
+        ([part("f", b"", '; filename=""') for _ in range(30_000)], 413, "too_many_parts", MAX_FIELDS + 1),
         ([part("f", b"GIF89a", '; filename="a"') for _ in range(30_000)], 413, "too_many_files", 4),
         ([b"--edge\r\n", *(b"X-%d: a\r\n" % i for i in range(30_000))], 413, "part_head_too_large", 11),
         ([b"--edge\r\nX: ", *[b"a" * 1000] * 30_000], 413, "part_head_too_large", 6),

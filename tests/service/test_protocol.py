@@ -10,7 +10,7 @@ from uvicorn.server import ServerState
 
 from service.connections.census import Census
 from service.connections.protocol import Config, Protocol
-from service.connections.turns import FINE_SLICE_BYTES, SLICE_BYTES
+from service.connections.sliced_reading import FINE_SLICE_BYTES, SLICE_BYTES
 
 Answer = tuple[bytes, list[str]]
 

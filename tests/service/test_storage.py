@@ -17,7 +17,7 @@ from service import postgresql
 from service.bucket import Bucket
 from service.clock import now
 from service.settings import Settings
-from service.storage import PART, Storage, StorageUnavailable
+from service.storage import PART_BYTES, Storage, StorageUnavailable
 
 
 @pytest.fixture(params=["folder", "bucket"])
@@ -36,10 +36,10 @@ def read(storage: Storage, key: str, start: int, end: int) -> bytes:
 
 
 def test_what_is_put_is_there_whole_and_in_parts(storage: Storage, tmp_path: Path) -> None:
-    large = os.urandom(PART * 2 + 12345)  # so large that a bucket gets it in three parts
+    large = os.urandom(PART_BYTES * 2 + 12345)  # so large that a bucket gets it in three parts
     storage.put("files/large", io.BytesIO(large))
     storage.put("files/empty", io.BytesIO(b""))
-    assert read(storage, "files/large", PART - 5, PART + 5) == large[PART - 5 : PART + 5]
+    assert read(storage, "files/large", PART_BYTES - 5, PART_BYTES + 5) == large[PART_BYTES - 5 : PART_BYTES + 5]
     assert read(storage, "files/large", 0, len(large)) == large
     assert read(storage, "files/empty", 0, 0) == b""
     copy = storage.fetch("files/large", tmp_path / "copy")

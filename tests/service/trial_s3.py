@@ -24,7 +24,7 @@ from swift import Swift
 
 from service.bucket import Bucket
 from service.settings import Settings
-from service.storage import PART, StorageUnavailable
+from service.storage import PART_BYTES, StorageUnavailable
 
 SIDE = 2700
 
@@ -71,7 +71,7 @@ def large_picture() -> bytes:
     """A PNG file of three parts."""
     file = io.BytesIO()
     Image.fromarray(np.random.default_rng(7).integers(0, 256, (SIDE, SIDE, 3), np.uint8)).save(file, "PNG")
-    assert file.tell() > 2 * PART
+    assert file.tell() > 2 * PART_BYTES
     return file.getvalue()
 
 
@@ -105,13 +105,13 @@ def test_an_upload_that_the_server_does_not_survive_is_whole_or_refused(
         if comes_back:
             back.append(keeper.submit(swift.start))
 
-    old, new = os.urandom(2 * PART + 1), os.urandom(3 * PART)
+    old, new = os.urandom(2 * PART_BYTES + 1), os.urandom(3 * PART_BYTES)
     expected = dict.fromkeys(("files/before", "files/replaced"), digest(old))
     for key in expected:
         direct.put(key, io.BytesIO(old))
     back: list[Future[None]] = []
     for key in ("files/replaced", "files/new"):
-        fuse = Fuse(swift, PART + PART // 2, fall)
+        fuse = Fuse(swift, PART_BYTES + PART_BYTES // 2, fall)
         try:
             Bucket(Settings(**given | through(fuse))).put(key, io.BytesIO(new))
             expected[key] = digest(new)
@@ -137,7 +137,7 @@ def test_a_job_whose_storage_is_killed_in_the_upload_of_its_picture_loses_nothin
         swift.stop()
         keeper.submit(swift.start)
 
-    fuse = Fuse(swift, PART + PART // 2, fall)
+    fuse = Fuse(swift, PART_BYTES + PART_BYTES // 2, fall)
     running = Running(tmp_path / "data", sweep_seconds=0.5, **swift.new_bucket() | through(fuse))
     try:
         answers = []

@@ -25,7 +25,7 @@ from service.tables.webhooks import Delivery, Webhook
 from service.vault import PREFIX, SecretUnreadable, new_key
 from service.webhooks import repository, service
 from service.webhooks.schemas import WebhookIn
-from worker.webhooks import Courier
+from worker.webhooks import WebhookSender
 
 LOOPBACK = [ip_network("127.0.0.0/8")]
 COLUMNS = (("keys", "signing_secret"), ("keys", "link_secret"), ("webhooks", "secret"), ("webhooks", "previous_secret"))
@@ -75,9 +75,9 @@ def deliver(context: Context, webhook_id: str) -> Delivery:
     """Send the endpoint a test; what became of it."""
     with context.database.write() as session:
         message = service.test(session, LOCAL, webhook_id)
-    courier = Courier(context)
-    wait(courier.look())
-    courier.close()
+    sender = WebhookSender(context)
+    wait(sender.look())
+    sender.close()
     with context.database.read() as session:
         return session.scalars(select(Delivery).where(Delivery.id == message.id)).one()
 

@@ -39,7 +39,7 @@ from service.webhooks import repository as webhooks
 from service.webhooks.schedule import RETRIES, pause
 from service.webhooks.schemas import WebhookIn
 from worker.housekeeping import forget_old_deliveries
-from worker.webhooks import Courier
+from worker.webhooks import WebhookSender
 
 Receive = Callable[..., Receiver]
 LOOPBACK = [ip_network("127.0.0.0/8")]
@@ -72,8 +72,8 @@ def context(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Context]
 
 
 @pytest.fixture
-def courier(context: Context) -> Iterator[Courier]:
-    made = Courier(context)
+def sender(context: Context) -> Iterator[WebhookSender]:
+    made = WebhookSender(context)
     yield made
     made.close()
 
@@ -110,9 +110,9 @@ def succeeded(context: Context, **more: Any) -> str:
     return lease.job_id
 
 
-def deliver(courier: Courier, moment: datetime | None = None) -> None:
+def deliver(sender: WebhookSender, moment: datetime | None = None) -> None:
     """Make the attempts that are due now, or at a moment, all of them."""
-    while attempts := courier.look(moment):
+    while attempts := sender.look(moment):
         wait(attempts)
 
 
@@ -132,10 +132,10 @@ def reload(context: Context, webhook: Webhook) -> Webhook:
         return session.get_one(Webhook, webhook.id)
 
 
-def through_all_tries(context: Context, courier: Courier, moment: datetime) -> datetime:
+def through_all_tries(context: Context, sender: WebhookSender, moment: datetime) -> datetime:
     """Go from attempt to attempt until nothing is to be tried any more; the moment of the last."""
     while True:
-        deliver(courier, moment)
+        deliver(sender, moment)
         following = [delivery.next_attempt_at for delivery in deliveries(context) if delivery.next_attempt_at]
         if not following:
             return moment
@@ -143,11 +143,11 @@ def through_all_tries(context: Context, courier: Courier, moment: datetime) -> d
 
 
 @ON_ANY
-def test_a_job_s_end_is_told_signed(context: Context, courier: Courier, receive: Receive) -> None:
+def test_a_job_s_end_is_told_signed(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive()
     webhook = endpoint(context, receiver.url)
     job_id = succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     (call,) = receiver.calls
     told = standardwebhooks.Webhook(webhook.secret.reveal()).verify(call.body, call.headers)
     assert call.headers["content-type"] == "application/json"
@@ -170,7 +170,7 @@ def test_a_job_s_end_is_told_signed(context: Context, courier: Courier, receive:
         standardwebhooks.Webhook(webhook.secret.reveal()).verify(call.body.replace("succeeded", "failed"), call.headers)
 
 
-def test_every_way_to_end_is_told_and_no_other_event(context: Context, courier: Courier, receive: Receive) -> None:
+def test_every_way_to_end_is_told_and_no_other_event(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive()
     endpoint(context, receiver.url)
     succeeded(context)
@@ -180,7 +180,7 @@ def test_every_way_to_end_is_told_and_no_other_event(context: Context, courier: 
         leases.fail(session, failed, "no_face", "No face.")
         leases.cancel(session, canceled.job_id)
         leases.give_back(session, exhausted, "it died")
-    deliver(courier, now())
+    deliver(sender, now())
     told = {(call.json["type"], (call.json["data"]["error"] or {}).get("code")) for call in receiver.calls}
     assert told == {
         ("job.succeeded", None),
@@ -201,7 +201,7 @@ def test_only_what_became_true_is_told(context: Context, receive: Receive) -> No
 
 
 def test_a_receiver_that_fails_for_an_hour_gets_it_afterwards(
-    context: Context, courier: Courier, receive: Receive
+    context: Context, sender: WebhookSender, receive: Receive
 ) -> None:
     receiver = receive(answer=status(500, b"down"))
     endpoint(context, receiver.url)
@@ -213,7 +213,7 @@ def test_a_receiver_that_fails_for_an_hour_gets_it_afterwards(
         moment = max(moment, delivery.next_attempt_at)
         if moment - start > HOUR:
             receiver.answer = OK
-        deliver(courier, moment)
+        deliver(sender, moment)
         times.append((moment - start).total_seconds())
     assert delivery.status == "delivered"
     expected = [0, 5, 305, 2105, 9305]
@@ -227,14 +227,14 @@ def test_a_receiver_that_fails_for_an_hour_gets_it_afterwards(
 
 
 @ON_ANY
-def test_an_endpoint_that_fails_for_days_is_disabled(context: Context, courier: Courier, receive: Receive) -> None:
+def test_an_endpoint_that_fails_for_days_is_disabled(context: Context, sender: WebhookSender, receive: Receive) -> None:
     """Three messages given up are not enough within five days, nor five days of one message."""
     receiver = receive(answer=status(503))
     webhook = endpoint(context, receiver.url)
     for _ in range(3):
         succeeded(context)
     start = now()
-    end = through_all_tries(context, courier, start)
+    end = through_all_tries(context, sender, start)
     assert sum(RETRIES, timedelta(0)) <= end - start < 4 * DAY
     assert [(delivery.status, len(attempts(context, delivery))) for delivery in deliveries(context)] == [
         ("failed", 10)
@@ -242,40 +242,40 @@ def test_an_endpoint_that_fails_for_days_is_disabled(context: Context, courier: 
     after = reload(context, webhook)
     assert after.enabled and after.given_up == 3 and after.failing_since is not None
     succeeded(context)
-    deliver(courier, start + 5 * DAY - HOUR)
+    deliver(sender, start + 5 * DAY - HOUR)
     assert reload(context, webhook).enabled
-    deliver(courier, start + 5 * DAY + HOUR)
+    deliver(sender, start + 5 * DAY + HOUR)
     after = reload(context, webhook)
     assert (after.enabled, after.disabled_code) == (False, "failing")
     held = deliveries(context)[-1]
     assert held.status == "pending"
     receiver.answer = OK
-    deliver(courier, start + 9 * DAY)
+    deliver(sender, start + 9 * DAY)
     assert deliveries(context)[-1].status == "pending", "a disabled endpoint is left alone"
     with context.database.write() as session:
         service.change(session, LOCAL, webhook.id, service.WebhookChange(enabled=True), LOOPBACK)
-    deliver(courier, start + 9 * DAY)
+    deliver(sender, start + 9 * DAY)
     assert deliveries(context)[-1].status == "delivered"
 
 
-def test_one_success_ends_the_count(context: Context, courier: Courier, receive: Receive) -> None:
+def test_one_success_ends_the_count(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive(answer=status(500))
     webhook = endpoint(context, receiver.url)
     succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     assert reload(context, webhook).failing_since is not None
     receiver.answer = OK
     succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     after = reload(context, webhook)
     assert (after.failing_since, after.given_up) == (None, 0)
 
 
-def test_410_disables_at_once(context: Context, courier: Courier, receive: Receive) -> None:
+def test_410_disables_at_once(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive(answer=status(410, b"bye"))
     webhook = endpoint(context, receiver.url)
     succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     after = reload(context, webhook)
     assert (after.enabled, after.disabled_code) == (False, "gone")
     (delivery,) = deliveries(context)
@@ -285,24 +285,24 @@ def test_410_disables_at_once(context: Context, courier: Courier, receive: Recei
 
 
 @ON_ANY
-def test_410_ends_all_for_an_address_of_a_job(context: Context, courier: Courier, receive: Receive) -> None:
+def test_410_ends_all_for_an_address_of_a_job(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive(answer=status(410))
     lease = begun(context, webhook_url=receiver.url, webhook_events=["job.progress", "job.succeeded"])
     with context.database.write() as session:
         leases.report(session, lease, {"stage": "x", "fraction": 0.5})
         leases.succeed(session, lease)
-    first = courier.look(now())
+    first = sender.look(now())
     wait(first)
-    deliver(courier, now() + DAY)
+    deliver(sender, now() + DAY)
     assert [delivery.status for delivery in deliveries(context)] == ["failed", "failed"]
 
 
 def test_the_address_of_a_job_is_signed_with_the_key_s_secret(
-    context: Context, courier: Courier, receive: Receive
+    context: Context, sender: WebhookSender, receive: Receive
 ) -> None:
     receiver = receive()
     succeeded(context, webhook_url=receiver.url)
-    deliver(courier, now())
+    deliver(sender, now())
     with context.database.read() as session:
         secret = session.get_one(Key, LOCAL).signing_secret.reveal()
     (call,) = receiver.calls
@@ -310,20 +310,20 @@ def test_the_address_of_a_job_is_signed_with_the_key_s_secret(
     assert deliveries(context)[0].webhook_id is None
 
 
-def test_two_secrets_sign_until_the_old_one_expires(context: Context, courier: Courier, receive: Receive) -> None:
+def test_two_secrets_sign_until_the_old_one_expires(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive()
     webhook = endpoint(context, receiver.url)
     with context.database.write() as session:
         rotated = service.rotate(session, LOCAL, webhook.id, HOUR)
     assert rotated.secret != webhook.secret
     succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     call = receiver.calls[-1]
     assert len(call.headers["webhook-signature"].split(" ")) == 2
     for secret in (webhook.secret, rotated.secret):
         assert standardwebhooks.Webhook(secret.reveal()).verify(call.body, call.headers)
     succeeded(context)
-    deliver(courier, now() + 2 * HOUR)
+    deliver(sender, now() + 2 * HOUR)
     assert len(receiver.calls[-1].headers["webhook-signature"].split(" ")) == 1
 
 
@@ -366,7 +366,7 @@ def dripping(request: BaseHTTPRequestHandler) -> None:
 )
 def test_what_a_receiver_did_can_be_read(
     context: Context,
-    courier: Courier,
+    sender: WebhookSender,
     receive: Receive,
     answer: Callable,
     code: str | None,
@@ -376,7 +376,7 @@ def test_what_a_receiver_did_can_be_read(
     receiver = receive(answer=answer)
     endpoint(context, receiver.url)
     succeeded(context)
-    wait(courier.look(now()))
+    wait(sender.look(now()))
     (delivery,) = deliveries(context)
     (attempt,) = attempts(context, delivery)
     assert delivery.status == ("delivered" if code is None else "pending")
@@ -386,12 +386,12 @@ def test_what_a_receiver_did_can_be_read(
     assert len(receiver.calls) == 1
 
 
-def test_nobody_there(context: Context, courier: Courier, receive: Receive) -> None:
+def test_nobody_there(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive()
     receiver.close()
     endpoint(context, receiver.url)
     succeeded(context)
-    wait(courier.look(now()))
+    wait(sender.look(now()))
     assert attempts(context, deliveries(context)[0])[0].error_code == "unreachable"
 
 
@@ -400,7 +400,7 @@ def test_nobody_there(context: Context, courier: Courier, receive: Receive) -> N
     [("120", 120, 122), ("1", 5, 7), ("99999999999", 86_400, 86_402), ("soon", 5, 7), ("DATE", 598, 602)],
 )
 def test_what_the_receiver_asks_for_makes_the_pause_longer(
-    context: Context, courier: Courier, receive: Receive, header: str, least: float, most: float
+    context: Context, sender: WebhookSender, receive: Receive, header: str, least: float, most: float
 ) -> None:
     moment = now()
     if header == "DATE":
@@ -408,7 +408,7 @@ def test_what_the_receiver_asks_for_makes_the_pause_longer(
     receiver = receive(answer=status(429, Retry_After=header))
     endpoint(context, receiver.url)
     succeeded(context)
-    wait(courier.look(now()))
+    wait(sender.look(now()))
     following = deliveries(context)[0].next_attempt_at
     assert following is not None
     assert least - 1 <= (following - moment).total_seconds() <= most + 2
@@ -431,7 +431,7 @@ def test_a_private_address_is_not_called(tmp_path: Path, receive: Receive, names
     for url in (receiver.url, f"https://hooks.example:{receiver.port}/", "https://hooks.example/"):
         endpoint(context, url)
     succeeded(context)
-    deliver(Courier(context), now())
+    deliver(WebhookSender(context), now())
     for delivery in deliveries(context):
         (attempt,) = attempts(context, delivery)
         assert attempt.error_code == "address_refused"
@@ -446,18 +446,18 @@ def test_many_workers_send_each_message_once(context: Context, receive: Receive)
     endpoint(context, receiver.url)
     for _ in range(30):
         succeeded(context)
-    couriers = [Courier(context) for _ in range(3)]
+    senders = [WebhookSender(context) for _ in range(3)]
     with ThreadPoolExecutor(3) as pool:
-        list(pool.map(deliver, couriers))
+        list(pool.map(deliver, senders))
     while any(delivery.status == "pending" for delivery in deliveries(context)):
-        deliver(couriers[0])
+        deliver(senders[0])
     ids = [call.headers["webhook-id"] for call in receiver.calls]
     assert len(ids) == len(set(ids)) == 30
 
 
 @ON_ANY
 def test_what_a_dead_worker_had_claimed_is_sent_by_another(
-    context: Context, courier: Courier, receive: Receive
+    context: Context, sender: WebhookSender, receive: Receive
 ) -> None:
     receiver = receive()
     endpoint(context, receiver.url)
@@ -468,9 +468,9 @@ def test_what_a_dead_worker_had_claimed_is_sent_by_another(
         assert dead is not None
         assert course.claim(session, context.settings, moment) is None, "not twice at the same time"
     lease = 2 * context.settings.webhook_seconds * SECOND
-    deliver(courier, moment + lease - SECOND)
+    deliver(sender, moment + lease - SECOND)
     assert receiver.calls == []
-    deliver(courier, moment + lease)
+    deliver(sender, moment + lease)
     assert len(receiver.calls) == 1
     with context.database.write() as session:
         late = course.Outcome(1.0, code="refused", detail="too late")
@@ -479,13 +479,13 @@ def test_what_a_dead_worker_had_claimed_is_sent_by_another(
     assert len(attempts(context, deliveries(context)[0])) == 1
 
 
-def test_a_clock_that_is_set_back_delays_nothing(context: Context, courier: Courier, receive: Receive) -> None:
+def test_a_clock_that_is_set_back_delays_nothing(context: Context, sender: WebhookSender, receive: Receive) -> None:
     """It was two days ahead for a while: then something was written, something failed, something was claimed."""
     receiver = receive(answer=status(500))
     endpoint(context, receiver.url)
     ahead = now() + 2 * DAY
     succeeded(context)
-    wait(courier.look(ahead))
+    wait(sender.look(ahead))
     succeeded(context)
     with context.database.write() as session:
         assert course.claim(session, context.settings, ahead) is not None
@@ -493,18 +493,18 @@ def test_a_clock_that_is_set_back_delays_nothing(context: Context, courier: Cour
     with context.database.write() as session:
         session.get_one(Delivery, deliveries(context)[-1].id).next_attempt_at = ahead
     receiver.answer = OK
-    deliver(courier, now())
+    deliver(sender, now())
     assert [delivery.status for delivery in deliveries(context)] == ["delivered"] * 3
 
 
 def test_there_are_not_endlessly_many_endpoints(context: Context) -> None:
-    for number in range(service.MOST_ENDPOINTS):
+    for number in range(service.MAX_ENDPOINTS):
         endpoint(context, f"https://h{number}.example.com/")
     with pytest.raises(Problem, match="too_many_webhooks"):
         endpoint(context, "https://one-too-many.example.com/")
 
 
-def test_a_slow_receiver_holds_up_nobody_else(context: Context, courier: Courier, receive: Receive) -> None:
+def test_a_slow_receiver_holds_up_nobody_else(context: Context, sender: WebhookSender, receive: Receive) -> None:
     go_on = threading.Event()
     slow, quick = receive("127.0.0.1", lambda request: (go_on.wait(20), OK(request))), receive("127.0.0.2")
     endpoint(context, slow.url)
@@ -512,7 +512,7 @@ def test_a_slow_receiver_holds_up_nobody_else(context: Context, courier: Courier
         succeeded(context)
     endpoint(context, quick.url)
     job_id = succeeded(context)
-    going_on = courier.look(now())
+    going_on = sender.look(now())
     assert len(going_on) == 3, "half of the places for the one, a place for the other"
     deadline = time.monotonic() + 10
     while not quick.calls and time.monotonic() < deadline:
@@ -520,12 +520,14 @@ def test_a_slow_receiver_holds_up_nobody_else(context: Context, courier: Courier
     assert [call.json["data"]["id"] for call in quick.calls] == [job_id]
     assert all(delivery.status == "pending" for delivery in deliveries(context) if delivery.host == "127.0.0.1")
     go_on.set()
-    deliver(courier, now())
+    deliver(sender, now())
     assert len(slow.calls) == 11
 
 
 @ON_ANY
-def test_progress_is_told_on_request_and_not_too_often(context: Context, courier: Courier, receive: Receive) -> None:
+def test_progress_is_told_on_request_and_not_too_often(
+    context: Context, sender: WebhookSender, receive: Receive
+) -> None:
     plain, keen = receive(), receive()
     endpoint(context, plain.url)
     endpoint(context, keen.url, EventType.PROGRESS)
@@ -543,13 +545,13 @@ def test_progress_is_told_on_request_and_not_too_often(context: Context, courier
     start = now()
     for number in range(13):  # six seconds of a busy job
         report(number / 100, start + number * 0.5 * SECOND)
-        deliver(courier, start + number * 0.5 * SECOND)
+        deliver(sender, start + number * 0.5 * SECOND)
     assert [call.json["data"]["progress"]["fraction"] for call in keen.calls] == [0.0, 0.1]
     keen.answer = status(500)
     for number in range(1, 21):
         report(0.99, start + number * 10 * SECOND)
         if number % 5 == 0:
-            deliver(courier, start + number * 10 * SECOND)
+            deliver(sender, start + number * 10 * SECOND)
     told = [delivery for delivery in deliveries(context) if delivery.event == "job.progress"]
     assert len(told) <= 5, "while one is on its way, no other is written"
     assert plain.calls == []
@@ -557,11 +559,11 @@ def test_progress_is_told_on_request_and_not_too_often(context: Context, courier
 
 @ON_ANY
 def test_deliveries_go_with_their_job_and_after_their_time(
-    context: Context, courier: Courier, receive: Receive
+    context: Context, sender: WebhookSender, receive: Receive
 ) -> None:
     endpoint(context, receive().url)
     first, second = succeeded(context), succeeded(context)
-    deliver(courier, now())
+    deliver(sender, now())
     with context.database.write() as session:
         repository.erase(session, first)
     assert [delivery.job_id for delivery in deliveries(context)] == [second]
@@ -577,15 +579,15 @@ def test_deliveries_go_with_their_job_and_after_their_time(
         assert session.scalar(select(func.count()).select_from(DeliveryAttempt)) == 0
 
 
-def test_sent_again_it_keeps_its_id(context: Context, courier: Courier, receive: Receive) -> None:
+def test_sent_again_it_keeps_its_id(context: Context, sender: WebhookSender, receive: Receive) -> None:
     receiver = receive(answer=status(400))
     endpoint(context, receiver.url)
     succeeded(context)
-    through_all_tries(context, courier, now())
+    through_all_tries(context, sender, now())
     (delivery,) = deliveries(context)
     receiver.answer = OK
     with context.database.write() as session:
         service.replay(session, LOCAL, delivery.id)
-    deliver(courier, now())
+    deliver(sender, now())
     assert {call.headers["webhook-id"] for call in receiver.calls} == {delivery.id}
     assert (deliveries(context)[0].status, len(receiver.calls)) == ("delivered", 11)

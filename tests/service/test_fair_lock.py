@@ -5,22 +5,22 @@ from __future__ import annotations
 import threading
 import time
 
-from service.fair_lock import Turns
+from service.fair_lock import FairLock
 
 
 def test_turns_come_in_the_order_of_asking() -> None:
-    turns, served = Turns(), []
+    lock, served = FairLock(), []
 
     def wait(number: int) -> None:
-        with turns.turn(30) as came:
+        with lock.turn(30) as came:
             assert came
             served.append(number)
 
     threads = [threading.Thread(target=wait, args=(number,)) for number in range(20)]
-    with turns.turn(1):
+    with lock.turn(1):
         for waiting, thread in enumerate(threads, 1):
             thread.start()
-            while len(turns._waiting) < waiting:
+            while lock.waiting < waiting:
                 time.sleep(0.001)
     for thread in threads:
         thread.join()
@@ -28,11 +28,11 @@ def test_turns_come_in_the_order_of_asking() -> None:
 
 
 def test_one_works_at_a_time() -> None:
-    turns, at_work, most = Turns(), [], []
+    lock, at_work, most = FairLock(), [], []
 
     def work() -> None:
         for _ in range(50):
-            with turns.turn(30):
+            with lock.turn(30):
                 at_work.append(1)
                 most.append(len(at_work))
                 time.sleep(0)
@@ -48,19 +48,19 @@ def test_one_works_at_a_time() -> None:
 
 
 def test_who_gives_up_is_passed_over() -> None:
-    turns = Turns()
-    with turns.turn(1) as first, turns.turn(0.01) as second:
+    lock = FairLock()
+    with lock.turn(1) as first, lock.turn(0.01) as second:
         assert (first, second) == (True, False)
-    with turns.turn(0.01) as third:
+    with lock.turn(0.01) as third:
         assert third
 
 
 def test_an_error_ends_the_turn() -> None:
-    turns = Turns()
+    lock = FairLock()
     try:
-        with turns.turn(1):
+        with lock.turn(1):
             raise ValueError
     except ValueError:
         pass
-    with turns.turn(0.01) as came:
+    with lock.turn(0.01) as came:
         assert came

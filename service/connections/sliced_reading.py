@@ -1,4 +1,4 @@
-"""HTTP/1.1 as uvicorn speaks it by h11, in turns with everybody."""
+"""HTTP/1.1 as uvicorn speaks it by h11, read a slice at a time, so that everybody has a turn."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FINE_SLICE_BYTES = 1 << 12
 """The same of a body in chunks: where each has one byte, it takes a thousand times as long as it is worth."""
 
 
-class _InTurns(FlowControl):
+class _SlicedFlow(FlowControl):
     """Lets the line bring more only when what it brought before was read: whoever takes a piece asks for more, and a piece
     is a small part of what one look at the line brings."""
 
@@ -29,7 +29,7 @@ class _InTurns(FlowControl):
             self._go_on()
 
 
-class InTurns(H11Protocol):
+class SlicedReading(H11Protocol):
     """Reads what came a slice at a time."""
 
     def __init__(self, *arguments: Any, **more: Any):
@@ -39,7 +39,7 @@ class InTurns(H11Protocol):
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
-        self.flow = _InTurns(transport, self._go_on)
+        self.flow = _SlicedFlow(transport, self._go_on)
 
     def data_received(self, data: bytes) -> None:
         """Read what came, a slice at a time: the others have their turn in between, and no more comes meanwhile."""

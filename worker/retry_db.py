@@ -14,7 +14,7 @@ T = TypeVar("T")
 PAUSE_SECONDS = 1.0
 
 
-def insist(change: Callable[[], T], seconds: float) -> T:
+def retry_db(change: Callable[[], T], seconds: float) -> T:
     """Do it, again and again for so many seconds while the database refuses. Raises SQLAlchemyError after that.
 
     `change` may be done although it looked as if it was not: the connection can break between a commit and its answer.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 
-class Complaint(click.ClickException):
+class CliError(click.ClickException):
     """Ends the command with one line on standard error and exit code 2."""
 
     exit_code = 2
