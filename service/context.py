@@ -9,13 +9,13 @@ from typing import Annotated
 from fastapi import Depends, Request
 
 from engine.kind import Kind
-from service.bucket import Bucket
 from service.catalogue.registry import load_kinds, require_known
-from service.database import Database
+from service.database.sessions import Database
 from service.disk import keep_ballast
 from service.queue import Queue
 from service.settings import Settings
-from service.storage import Storage
+from service.storage.bucket import Bucket
+from service.storage.files import Storage
 from service.traces.tracer import Traces
 
 

@@ -21,9 +21,9 @@ from starlette.routing import Match
 from starlette.types import Scope
 
 from engine.unknown_options import explained
-from service.database import database_unavailable
-from service.postgresql import UNTRANSLATABLE, error_code
-from service.storage import StorageUnavailable
+from service.database.postgresql import UNTRANSLATABLE, error_code
+from service.database.sessions import database_unavailable
+from service.storage.files import StorageUnavailable
 from service.traces.current import current_request
 from service.traces.requests import METHODS
 from service.vault import SecretUnreadable

@@ -182,7 +182,7 @@ class Settings(BaseSettings):
     def _database(cls, value: str | None) -> str | None:
         if value is None or value.startswith("sqlite:///"):
             return value
-        from service import postgresql  # SQLAlchemy with it, which only who serves needs
+        from service.database import postgresql  # SQLAlchemy with it, which only who serves needs
 
         if not postgresql.speaks(value):
             raise ValueError("use sqlite:///PATH or postgresql://USER:PASSWORD@HOST/NAME")

@@ -185,8 +185,8 @@ def _folder(settings: Settings) -> Iterator[Finding]:
 def _database(settings: Settings) -> Iterator[Finding]:
     from sqlalchemy.exc import DBAPIError
 
-    from service import postgresql
-    from service.database import Database
+    from service.database import postgresql
+    from service.database.sessions import Database
     from shell.opening import database_complaint
 
     if not postgresql.speaks(settings.database):

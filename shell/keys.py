@@ -13,7 +13,7 @@ from sqlalchemy.orm import Session
 
 from service.auth import repository
 from service.auth.tokens import HINT_CHARACTERS
-from service.database import Database
+from service.database.sessions import Database
 from service.keys import service
 from service.keys.schemas import KeyIn
 from service.links import repository as links

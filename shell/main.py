@@ -123,7 +123,7 @@ def migrate(version: str, down: bool) -> None:
     """
     from alembic.util import CommandError
 
-    from service.database import Database, DatabaseInUse, WouldForget
+    from service.database.sessions import Database, DatabaseInUse, WouldForget
     from service.vault import SecretUnreadable
     from shell.cli_error import CliError
     from shell.settings import read_settings

@@ -6,9 +6,9 @@ from alembic.script.revision import RevisionError
 from alembic.util import CommandError
 from sqlalchemy.exc import DBAPIError
 
-from service import postgresql
 from service.catalogue.registry import load_kinds, require_known
 from service.context import Context
+from service.database import postgresql
 from service.settings import Settings
 from shell.cli_error import CliError
 

@@ -17,13 +17,13 @@ from celery.platforms import SecurityWarning
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.context import Context
-from service.database import database_unavailable
+from service.database.sessions import database_unavailable
 from service.job_records import jobs as repository
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.pulse import BEAT_SECONDS, Pulse, owner
 from service.queue import TASK, queue_name
-from service.storage import StorageUnavailable
+from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job
 from service.traces.current import origin_logged
 from worker.announcement import announced

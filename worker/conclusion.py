@@ -20,7 +20,7 @@ from service.job_records import jobs as repository
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.jobs.stages import erase
-from service.storage import StorageUnavailable
+from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job, Status
 from worker.heartbeat import beating
 from worker.plain_files import Refused

@@ -19,7 +19,7 @@ from pathlib import Path
 import structlog
 
 from service.jobs.stages import stages_prefix
-from service.storage import Storage
+from service.storage.files import Storage
 from worker.plain_files import NAME, Refused, opened
 
 KEY = re.compile(r"[0-9a-f]{40}")

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Sequence
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
-from service.storage import Storage
+from service.storage.files import Storage
 from service.tables.artifacts import Artifact
 
 ZIP64_FROM = 1 << 31

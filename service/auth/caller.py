@@ -19,7 +19,7 @@ from service.auth.sessions import COOKIE, key_of_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import Context, InContext
-from service.database import database_full
+from service.database.sessions import database_full
 from service.disk import make_room
 from service.problems import Problem
 from service.tables.keys import LOCAL, Key

@@ -16,7 +16,7 @@ from service.libraries import repository
 from service.libraries.driver_segments import POSTER, Segments, missing_segment, of_drivers, segments
 from service.libraries.library import DRIVERS
 from service.problems import Problem
-from service.storage import Storage
+from service.storage.files import Storage
 from service.tables.kept import Kept
 from service.tables.stored import Stored
 

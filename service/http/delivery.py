@@ -14,7 +14,7 @@ from starlette.types import Send
 from service.http import browser
 from service.http.ranges import Unsatisfiable, not_modified, parse_ranges, range_applies
 from service.problems import Problem, responses, unavailable
-from service.storage import Storage, StorageUnavailable
+from service.storage.files import Storage, StorageUnavailable
 from service.tables.stored import Stored
 
 DELIVERED: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ValidationError
 from service.context import Context
 from service.job_records import artifacts, jobs
 from service.libraries.library import Library
-from service.storage import Storage
+from service.storage.files import Storage
 from service.tables.artifacts import Artifact
 from service.tables.jobs import Status
 from service.tables.kept import Kept

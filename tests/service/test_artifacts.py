@@ -22,7 +22,7 @@ from running import Running
 from service.artifacts.archive import zipped
 from service.http.ranges import Unsatisfiable, parse_ranges
 from service.ids import new_id
-from service.storage import Storage
+from service.storage.files import Storage
 from service.tables.artifacts import Artifact
 
 WHOLE = bytes(range(256)) * 400

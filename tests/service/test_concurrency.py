@@ -10,7 +10,7 @@ from datetime import UTC, datetime, timedelta
 import pytest
 
 from service.clock import now
-from service.database import Database
+from service.database.sessions import Database
 from service.events import repository as events
 from service.files import repository as files
 from service.ids import new_id

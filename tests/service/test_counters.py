@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from service.database import Database
+from service.database.sessions import Database
 from service.figures import counters
 
 

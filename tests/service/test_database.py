@@ -10,7 +10,7 @@ import pytest
 from sqlalchemy import select, text
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
-from service.database import Database
+from service.database.sessions import Database
 from service.ids import is_id, new_id
 from service.tables.base import moment_in
 from service.tables.files import File

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-from service.fair_lock import FairLock
+from service.database.fair_lock import FairLock
 
 
 def test_turns_come_in_the_order_of_asking() -> None:

@@ -13,9 +13,8 @@ from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import MetaData, Table, create_engine, insert, select, text
 
-from service import postgresql
 from service.auth.tokens import digest
-from service.database import Database, DatabaseInUse, WouldForget, alembic_config
+from service.database.sessions import Database, DatabaseInUse, WouldForget, alembic_config, postgresql
 from service.links.repository import good, page
 from service.tables import Base
 

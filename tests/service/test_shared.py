@@ -47,8 +47,8 @@ from test_uploads import (  # noqa: F401
 )
 from test_url_inputs import Host
 
-from service.bucket import Bucket
 from service.settings import Settings
+from service.storage.bucket import Bucket
 
 
 @pytest.fixture(scope="module")

@@ -13,11 +13,11 @@ import pytest
 from pydantic import ValidationError
 from servers import Gate, S3Server
 
-from service import postgresql
-from service.bucket import Bucket
 from service.clock import now
+from service.database import postgresql
 from service.settings import Settings
-from service.storage import PART_BYTES, Storage, StorageUnavailable
+from service.storage.bucket import Bucket
+from service.storage.files import PART_BYTES, Storage, StorageUnavailable
 
 
 @pytest.fixture(params=["folder", "bucket"])

@@ -10,7 +10,7 @@ from running import Running
 
 from engine.kind import Input, Kind
 from service.clock import now
-from service.database import Database
+from service.database.sessions import Database
 from service.ids import new_id
 from service.job_records import jobs as repository
 from service.job_records import search

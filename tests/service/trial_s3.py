@@ -22,9 +22,9 @@ from running import Running, eventually
 from servers import Gate
 from swift import Swift
 
-from service.bucket import Bucket
 from service.settings import Settings
-from service.storage import PART_BYTES, StorageUnavailable
+from service.storage.bucket import Bucket
+from service.storage.files import PART_BYTES, StorageUnavailable
 
 SIDE = 2700
 

@@ -11,7 +11,7 @@ import pytest
 from servers import PostgresServer, free_port
 from sqlalchemy import text
 
-from service.database import Database
+from service.database.sessions import Database
 
 ROOT = Path(__file__).parent.parent.parent
 

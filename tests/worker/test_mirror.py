@@ -12,8 +12,8 @@ import pytest
 from servers import S3Server
 
 from engine.store import StageStore
-from service.bucket import Bucket
 from service.settings import Settings
+from service.storage.bucket import Bucket
 from worker.mirror import Mirror
 
 KEY, OTHER = "a" * 40, "b" * 40

@@ -17,8 +17,8 @@ import standardwebhooks
 from receiver import Receiver
 from sqlalchemy import create_engine, select, text
 
-from service import postgresql
 from service.context import Context
+from service.database import postgresql
 from service.settings import Settings
 from service.tables.keys import LOCAL, Key
 from service.tables.webhooks import Delivery, Webhook

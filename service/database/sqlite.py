@@ -20,7 +20,7 @@ from sqlalchemy import create_engine, event
 from sqlalchemy.engine import Connection, Engine, make_url
 from sqlalchemy.exc import TimeoutError
 
-from service.fair_lock import FairLock
+from service.database.fair_lock import FairLock
 
 PATIENCE_SECONDS = 15
 """How long a transaction waits for another to end."""

@@ -1,8 +1,8 @@
 """The database: sessions that read, sessions that write, and the bringing up to date of its tables.
 
-SQLite and PostgreSQL are spoken to as `service.sqlite` and `service.postgresql` say. On SQLite one transaction writes
-at a time; on PostgreSQL many do, each under READ COMMITTED: a row that a decision rests on is locked first, or the
-decision stands in the WHERE of the change itself.
+SQLite and PostgreSQL are spoken to as the files beside this one say. On SQLite one transaction writes at a time. On
+PostgreSQL many do, each under READ COMMITTED: a row that a decision rests on is locked first, or the decision stands in
+the WHERE of the change itself.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from sqlalchemy.exc import DBAPIError, InterfaceError, TimeoutError
 from sqlalchemy.orm import Session
 
 from engine.package_data import package_folder
-from service import postgresql, sqlite
+from service.database import postgresql, sqlite
 from service.tables import Base
 from service.tables.base import Sealed
 from service.vault import Vault

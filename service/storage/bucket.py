@@ -10,7 +10,7 @@ import obstore
 from obstore.store import S3Store
 
 from service.settings import Settings
-from service.storage import Storage, StorageUnavailable, understood
+from service.storage.files import Storage, StorageUnavailable, understood
 
 RETRY_TIMEOUT = timedelta(seconds=30)
 """How long a request is tried again, at most, before the storage counts as unavailable: tries that are refused at once
