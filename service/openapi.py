@@ -26,10 +26,10 @@ REQUEST_ID = {
     "required": True,
     "schema": {"type": "string", "pattern": f"^{ID_PATTERN}$"},
 }
-"""With every answer. It is no parameter: one of another form is not refused, but replaced."""
+"""The header of every answer. It is no parameter: one of another form is not refused, but replaced."""
 
 OPEN = (PUBLIC, "/v1/session")
-"""Where nobody needs a key."""
+"""The beginnings of addresses where nobody needs a key."""
 
 SCHEMES = {
     "key": {"type": "http", "scheme": "bearer", "description": "A key that `galatea keys create` or POST /keys made."},

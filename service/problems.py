@@ -32,9 +32,9 @@ MEDIA_TYPE = "application/problem+json"
 RETRY_SECONDS = 5
 """After how long it is worth trying again where something does not answer."""
 MAX_ERRORS = 10
-"""As many wrong fields are told of in one answer: a stranger may send many thousands."""
+"""How many wrong fields are told of in one answer: a stranger may send many thousands."""
 MAX_POINTER_CHARACTERS, MAX_DETAIL_CHARACTERS = 300, 2000
-"""Characters of what an answer repeats of a request."""
+"""The longest pointer and detail of an answer, which may repeat what a request held."""
 
 HEADERS = {
     401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},
@@ -46,7 +46,7 @@ HEADERS = {
 
 
 PHRASES = {460: "Checksum Mismatch"}
-"""Of statuses that HTTP itself does not know (460 is of the tus protocol)."""
+"""The phrases of statuses that HTTP itself does not know (460 is of the tus protocol)."""
 
 
 class FieldError(BaseModel):

@@ -47,7 +47,7 @@ def silence(data_dir: Path, name: str) -> float:
 
 
 def least_silence(data_dir: Path) -> float:
-    """The same of that worker on this machine which was heard last."""
+    """For how many seconds nothing was heard of the worker on this machine that was heard last."""
     folder = data_dir / FOLDER
     return min(map(_silence, folder.iterdir()), default=float("inf")) if folder.is_dir() else float("inf")
 

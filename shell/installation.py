@@ -30,7 +30,7 @@ def data_files() -> dict[str, tuple[str, ...]]:
 
 
 def missing_files() -> Iterator[Path]:
-    """Those that are not there, or empty; and whatever else was installed and is gone."""
+    """The files that are not there, or empty; and whatever else was installed and is gone."""
     expected = [package_folder(package) / name for package, names in data_files().items() for name in names]
     gone = [path for path in expected if not path.is_file() or not path.stat().st_size]
     yield from gone

@@ -64,7 +64,7 @@ class Kinds(Group):
 
 
 class Keys(Group):
-    """Its commands are loaded only where they are asked for."""
+    """Commands that are loaded only where they are asked for."""
 
     def list_commands(self, context: click.Context) -> list[str]:
         from shell.keys import keys
@@ -160,8 +160,11 @@ def doctor() -> None:
 
 
 def run() -> None:
-    """`main` as a process of its own, which ends when its work is done and all that was to be left in order is: Python
-    would take apart every module and look for rubbish in what the numeric libraries hold, half a second for nothing."""
+    """`main` as a process of its own, which ends as soon as its work is done and all is left in order.
+
+    Python itself would take apart every module and look for rubbish in what the numeric libraries hold: half a second
+    for nothing.
+    """
     leave_out_current_folder()
     status: list[int] = []
     atexit.register(lambda: _leave(status))  # the first to be registered is the last to be called

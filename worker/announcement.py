@@ -52,7 +52,7 @@ def announce(context: Context, kinds: Sequence[str]) -> None:
 
 
 def take_back(context: Context, kinds: Sequence[str]) -> None:
-    """From now on, those that were told wait for their turn like others."""
+    """From now on, jobs that were told wait for their turn like others."""
     with context.database.read() as session:
         told = [job for kind in kinds for job in repository.queued(session, kind, 0.0) if _told(job)]
     _note(context, told, None, "")

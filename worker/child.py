@@ -2,8 +2,7 @@
 
 It reads commands from its standard input and writes what happens to the file descriptor named in its arguments, both
 as JSON, one object a line. The process that it forks confines itself to its one job before it opens a stranger's file
-(`worker.confinement`), and ends with it: a hostile input that takes it over or brings it down costs that job and
-nothing else. It knows no database, no queue and no storage; it gets paths and limits.
+(`worker.confinement`), and ends with it. A hostile input that takes it over or brings it down costs that job alone. It knows no database, no queue and no storage; it gets paths and limits.
 """
 
 from __future__ import annotations

@@ -1,8 +1,12 @@
 """How an attempt at a job ends: its verdict made true in SQL.
 
-A verdict's `outcome` is `succeeded`; `failed`, with `code` and `detail`; `crashed` or `stopped`, with a `reason`, after
-which the job is given back, a crash counting against it (and more so where it brings the same `death` as the last one);
-or `lost`: the job is somebody else's, and nothing is written.
+A verdict's `outcome` is one of these:
+
+- `succeeded`;
+- `failed`, with `code` and `detail`;
+- `crashed` or `stopped`, with a `reason`: the job is given back. A crash counts against it, and more so where it brings
+  the same `death` as the last one;
+- `lost`: the job is somebody else's, and nothing is written.
 """
 
 from __future__ import annotations

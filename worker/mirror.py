@@ -24,7 +24,8 @@ from worker.plain_files import NAME, Refused, opened
 
 KEY = re.compile(r"[0-9a-f]{40}")
 MAX_BYTES = 1_000_000_000
-"""Of one output, and of all that are fetched for one attempt: what is larger is worked out anew elsewhere."""
+"""The most bytes of one output, and of all that are fetched for one attempt. What is larger is worked out anew
+elsewhere."""
 
 
 class Mirror:

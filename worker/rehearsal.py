@@ -87,7 +87,7 @@ def _mark(kinds: Sequence[str]) -> Path:
 
 
 def _folder(package: Path) -> Path:
-    """Where that file lies: with what was compiled where that has a place of its own, so that they come and go together."""
+    """Where the record of the rehearsal lies: beside what was compiled, so that both come and go together."""
     if kept := os.environ.get("NUMBA_CACHE_DIR"):
         return Path(kept)
     beside = package / "__pycache__"

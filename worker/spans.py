@@ -19,7 +19,7 @@ from service.tables.jobs import Job
 from service.traces.tracer import below, fail, parent_of, trace_id
 
 MAX_STAGES = 200
-"""Of one attempt: what more it tells of is left out."""
+"""The most stages of one attempt; what more it tells of is left out."""
 
 NANOSECONDS = 1_000_000_000
 

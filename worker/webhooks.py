@@ -1,8 +1,7 @@
 """The delivery of webhooks: what is due is claimed, sent, and settled.
 
-Any number of workers may deliver at once. A slow receiver takes one of a worker's few places for a bounded time and
-no more: an attempt has a deadline, only the first bytes of an answer are read, and a host gets half of the places at
-most.
+Any number of workers may deliver at once. A slow receiver takes one of a worker's few places for a bounded time: an
+attempt has a deadline, and only the first bytes of an answer are read. One host gets half of the places at most.
 """
 
 from __future__ import annotations

@@ -9,12 +9,12 @@ from typing import Any
 from service.ids import is_id
 
 MAX_PART_CHARACTERS = 60
-"""Characters of each part."""
+"""The longest part of a name."""
 
 PICTURE = ("portrait", "photo")
 """Names in a job's metadata that tell of its picture."""
 PERFORMANCE = ("performance", "motion")
-"""Those that tell of what it does."""
+"""Names in a job's metadata that tell of what it does."""
 
 
 def download_name(

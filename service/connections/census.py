@@ -15,10 +15,10 @@ from typing import Protocol as Interface
 import structlog
 
 MAX_ADDRESS_SHARE = 0.75
-"""As much of all connections one address may hold."""
+"""The share of all connections that one address may hold."""
 
 MAX_PARTING = 64
-"""As many connections are closed with care at once (see `Parting`); those beyond, at once."""
+"""How many connections may be closed with care at the same time (see `Parting`). One more is cut off."""
 
 SPARE_FILES = 128
 """File descriptors for all else than connections and what is read for them."""

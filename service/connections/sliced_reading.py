@@ -10,9 +10,9 @@ from uvicorn.protocols.http.flow_control import FlowControl
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 SLICE_BYTES = 1 << 15
-"""As much is read in one go."""
+"""How much of what came is read in one go."""
 FINE_SLICE_BYTES = 1 << 12
-"""The same of a body in chunks: where each has one byte, it takes a thousand times as long as it is worth."""
+"""How much of a body in chunks is read in one go: where each has one byte, it takes a thousand times as long."""
 
 
 class _SlicedFlow(FlowControl):

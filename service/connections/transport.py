@@ -12,7 +12,7 @@ from typing import Any
 
 PARTING_SECONDS = 2.0
 PARTING_BYTES = 16 << 20
-"""As much is thrown away before a connection is reset after all."""
+"""How many bytes are thrown away before a connection is reset after all."""
 
 
 class Transport:

@@ -24,8 +24,8 @@ AFTER = (
 def append(session: Session, job_id: str, type_: str, data: dict[str, Any]) -> None:
     """Add an event and the webhooks that tell of it, in the same transaction as the change itself.
 
-    The events of a job become visible in the order of their ids, or a follower that has seen one would never see a
-    smaller one that came later: an id is drawn only once the job's row is locked, which lasts until the event is there.
+    The events of a job become visible in the order of their ids: a follower that has seen one would never see a smaller
+    one that came later. So an id is drawn only once the job's row is locked, which lasts until the event is there.
     """
     session.execute(select(Job.id).where(Job.id == job_id).with_for_update(key_share=True))
     event = Event(job_id=job_id, type=type_, data=data, created_at=now())

@@ -46,7 +46,7 @@ def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
 
 
 def counted(session: Session) -> Iterator[tuple[str, list[str], float]]:
-    """All of them: name, values of the labels, value."""
+    """All counters: name, values of the labels, value."""
     for counter in session.scalars(select(Counter).order_by(Counter.name, Counter.labels)):
         if counter.name in COUNTERS:
             yield counter.name, json.loads(counter.labels), counter.value

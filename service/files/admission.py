@@ -8,7 +8,7 @@ from service.problems import Problem
 from service.settings import Settings
 
 HEAD_BYTES = 4096
-"""As many first bytes tell what a file is."""
+"""How many first bytes tell what a file is."""
 
 
 def recognise(head: bytes, name: str, declared: str) -> str:

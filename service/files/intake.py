@@ -1,8 +1,8 @@
 """Receiving forms: files go straight to disk, texts are kept, and what cannot be accepted is refused while it comes.
 
-What of a form is a file and what a text is for its name to say; where the name can stand for either (a job's input is a
-file, or the id, address or name of one), the part itself says it. What browsers send of a field that was left empty is
-as if it had not been sent.
+Whether a part is a file or a text, its name says. A name may stand for either: a job's input is a file, or the id,
+address or name of one. Then the part itself says it. What browsers send of a field that was left empty is as if it had
+not been sent.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ MAX_FIELDS = 100
 VALUE_BYTES = 4000
 """The longest text that stands for a file: an address."""
 SLICE_BYTES = 1 << 16
-"""As much is read in one go: others have their turn in between."""
+"""How much is read in one go: others have their turn in between."""
 WRITE_BYTES = 1 << 18
-"""As much of files is held in memory."""
+"""How much of files is held in memory before it is written."""
 
 FILE_FAMILIES = ("image", "video", "audio", "model")
 

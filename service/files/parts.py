@@ -15,7 +15,7 @@ MAX_HEADERS = 8
 HEAD_BYTES = 4000
 """The most bytes of all headers of a part."""
 CONTENT_TYPE_CHARACTERS = 1000
-"""Of the request's own header, which takes time by the square of it."""
+"""The longest `Content-Type` of a request: to read it takes time by the square of its length."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ DELIVERED: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified
 """What `deliver` may answer beside the whole, for the OpenAPI document."""
 
 DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The asked parts"}, **DELIVERED}
-"""Likewise, of what is often asked for in ranges."""
+"""What `deliver` may answer beside the whole where ranges are often asked for, for the OpenAPI document."""
 
 
 def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: bool) -> Response:

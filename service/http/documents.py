@@ -1,8 +1,8 @@
 """JSON that strangers send: what of it is read at all.
 
-Everything behind the door may take for granted that texts can be stored and shown again (no half characters, which no
-UTF-8 has, and no NUL, which PostgreSQL keeps in no text), that numbers are ones, and that a walk over the whole is
-short and not deep.
+All that works with a document that was read may take three things for granted. Texts can be stored and shown again:
+they hold no half characters, which UTF-8 does not have, and no NUL, which PostgreSQL does not keep. Numbers are numbers.
+A walk over the whole is short and not deep.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from typing import Any
 from service.problems import Problem
 
 MAX_NAMES = 5000
-"""Names in all objects of a document: an option with 1,000 strokes has 3,000."""
+"""The most names in all objects of a document: an option with 1,000 strokes has 3,000."""
 MAX_DEPTH = 50
-"""Arrays and objects within each other."""
+"""The most arrays and objects within each other."""
 MAX_NUMBER = 1.7e308
-"""Beyond it, most programs read infinity."""
+"""The largest number: beyond it, most programs read infinity."""
 
 
 def parse_json(text: str | bytes, what: str) -> Any:

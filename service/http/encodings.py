@@ -10,10 +10,10 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MIN_GZIP_BYTES = 1000
-"""Bytes from which on it is worth it."""
+"""A shorter text is sent as it is."""
 
 THREADED_GZIP_BYTES = 50_000
-"""Bytes from which on it is done in a thread."""
+"""A longer text is compressed in a thread."""
 
 GZIP_LEVEL = 5
 TEXTS = ("application/json", "application/problem+json", "text/plain")

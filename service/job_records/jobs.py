@@ -125,8 +125,11 @@ def running(session: Session, ids: Sequence[str]) -> set[str]:
 
 
 def places(session: Session, jobs: Sequence[Job]) -> dict[str, int]:
-    """The places of these jobs among those of their kind that are queued, counted from 1, as `leases.claim_next` takes
-    them: by priority; then one of each key in turn, those first of which fewer jobs run; then by age."""
+    """The places of these jobs among those of their kind that are queued, counted from 1.
+
+    The order is that of `leases.claim_next`: by priority, then one of each key in turn, then by age. Keys of which fewer
+    jobs run come first.
+    """
     if not jobs:
         return {}
     other = aliased(Job)

@@ -43,13 +43,18 @@ class Endpoints:
 
 def library_router(presented: Presentation[Any, Any], named: Endpoints) -> APIRouter:
     """The endpoints of a library, below its address."""
+    nouns = f"{presented.library.noun}s"
+    router = APIRouter(prefix=f"/{nouns}", tags=[nouns], route_class=RequestModelRoute)
+    _list_and_keep(router, presented, named)
+    _show_and_inspect(router, presented, named)
+    _rename_and_erase(router, presented, named)
+    return router
+
+
+def _list_and_keep(router: APIRouter, presented: Presentation[Any, Any], named: Endpoints) -> None:
     library, noun = presented.library, presented.library.noun
-    router = APIRouter(prefix=f"/{noun}s", tags=[f"{noun}s"], route_class=RequestModelRoute)
 
-    def about(operation: str, says: str) -> dict[str, Any]:
-        return {"operation_id": operation, "name": operation, "description": says}
-
-    @router.get("", response_model=named.listed, **about(f"list_{noun}s", named.list_says))
+    @router.get("", response_model=named.listed, **_about(f"list_{noun}s", named.list_says))
     def list_all(caller: Reader, context: InContext) -> dict[str, Any]:
         return {"items": everything(context, presented, caller.owner)}
 
@@ -59,19 +64,19 @@ def library_router(presented: Presentation[Any, Any], named: Endpoints) -> APIRo
         response_model=named.item,
         openapi_extra=body(named.media_types),
         responses=responses(409, 413, 415, 422, 507),
-        **about(f"create_{noun}", named.keep_says),
+        **_about(f"create_{noun}", named.keep_says),
     )
     async def keep(request: Request, response: Response, caller: Submitter, context: InContext) -> Any:
         name = await keep_body(request, context, caller, library)
         response.headers["Location"] = f"{library.address}/{name}"
         return await run_sync(one, context, presented, caller.owner, name)
 
-    @router.get(
-        "/{name}",
-        response_model=named.item,
-        responses=responses(404),
-        **about(f"get_{noun}", f"What is known of a {noun}."),
-    )
+
+def _show_and_inspect(router: APIRouter, presented: Presentation[Any, Any], named: Endpoints) -> None:
+    library, noun = presented.library, presented.library.noun
+    says = f"What is known of a {noun}."
+
+    @router.get("/{name}", response_model=named.item, responses=responses(404), **_about(f"get_{noun}", says))
     def show(name: str, caller: Reader, context: InContext) -> Any:
         return one(context, presented, caller.owner, name)
 
@@ -80,17 +85,20 @@ def library_router(presented: Presentation[Any, Any], named: Endpoints) -> APIRo
         status_code=202,
         response_model=named.item,
         responses=responses(404, 409, 422, 507),
-        **about(f"{named.inspect}_{noun}", named.inspect_says),
+        **_about(f"{named.inspect}_{noun}", named.inspect_says),
     )
     def inspect(name: str, caller: Submitter, context: InContext) -> Any:
         require_space(context.settings)
         service.inspect_again(context, library, caller.owner, name)
         return one(context, presented, caller.owner, name)
 
+
+def _rename_and_erase(router: APIRouter, presented: Presentation[Any, Any], named: Endpoints) -> None:
+    library, noun = presented.library, presented.library.noun
     says = f"Give one of the user's own {noun}s another name. Jobs that use it stay as they are."
 
     @router.patch(
-        "/{name}", response_model=named.item, responses=responses(404, 409, 422), **about(f"rename_{noun}", says)
+        "/{name}", response_model=named.item, responses=responses(404, 409, 422), **_about(f"rename_{noun}", says)
     )
     def rename(name: str, asked: KeptChange, caller: Submitter, context: InContext) -> Any:
         service.rename(context, library, caller.owner, name, asked.name)
@@ -98,8 +106,11 @@ def library_router(presented: Presentation[Any, Any], named: Endpoints) -> APIRo
 
     says = f"Erase one of the user's own {noun}s. Jobs that use it keep its {named.file_is} until they are deleted."
 
-    @router.delete("/{name}", status_code=204, responses=responses(404, 409), **about(f"delete_{noun}", says))
+    @router.delete("/{name}", status_code=204, responses=responses(404, 409), **_about(f"delete_{noun}", says))
     def delete(name: str, caller: Submitter, context: InContext) -> None:
         service.delete(context, library, caller.owner, name)
 
-    return router
+
+def _about(operation: str, says: str) -> dict[str, Any]:
+    """What the OpenAPI document says of an operation."""
+    return {"operation_id": operation, "name": operation, "description": says}

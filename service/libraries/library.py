@@ -42,4 +42,4 @@ DRIVERS = Library("performances", Driver, "driver", "a video", VIDEO_TYPES, "mom
 MOTIONS = Library("motions", Motion, "motion", "a BVH, GLB or glTF file", MOTION_TYPES, "motion", "motion.json")
 
 LIBRARIES: Mapping[str, Library] = {library.name: library for library in (DRIVERS, MOTIONS)}
-"""By their names."""
+"""All libraries, by their names."""

@@ -1,7 +1,7 @@
 """A client that calls only hosts that may be called.
 
 The check sits where a connection is made: the name is looked up once, its addresses are judged, and the socket goes to
-one of those very addresses, so that a name that points elsewhere a moment later (DNS rebinding) gains nothing. Every
+one of those very addresses. A name that points elsewhere a moment later (DNS rebinding) gains nothing by it. Every
 redirect that a caller chooses to follow makes a connection of its own and is judged again. The name itself still
 stands in `Host`, in the TLS handshake (SNI) and in the check of the certificate.
 """

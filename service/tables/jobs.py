@@ -66,8 +66,8 @@ class Job(Base):
     inputs: Mapped[dict[str, Any]] = mapped_column(JSON)
     """As the client gave them: file ids and names of drivers."""
     sources: Mapped[dict[str, Any]] = mapped_column(JSON)
-    """As the worker needs them: `{"file": id}`, `{"library": ..., "name": ...}` or `{"url": ...}` until that was fetched; a list
-    where many."""
+    """As the worker needs them: `{"file": id}` or `{"library": ..., "name": ...}`; `{"url": ...}` until that was fetched.
+    An input that takes many has a list of them."""
     options: Mapped[dict[str, Any]] = mapped_column(JSON)
     notes: Mapped[dict[str, Any]] = mapped_column("metadata", JSON)
     """The client's own metadata."""
@@ -76,7 +76,7 @@ class Job(Base):
     webhook_url: Mapped[str | None] = mapped_column(String(2000))
     """An address of its own to be told."""
     webhook_events: Mapped[list[str] | None] = mapped_column(JSON(none_as_null=True))
-    """Of what; null for its end alone."""
+    """What `webhook_url` is told of; null for the end of the job alone."""
     error: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     request: Mapped[str | None] = mapped_column(String(64))
     """The id of the request that submitted it."""

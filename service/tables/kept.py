@@ -40,4 +40,4 @@ class Motion(Kept):
 
 
 KEPT: tuple[type[Kept], ...] = (Driver, Motion)
-"""All of them."""
+"""All tables of what users keep."""

@@ -23,7 +23,7 @@ ID_PATTERN = "[A-Za-z0-9._-]{1,64}"
 HEADER = "X-Request-Id"
 
 METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
-"""Those of HTTP; a request by another one is told of as such."""
+"""The methods of HTTP; a request by another one is told of as `_OTHER`."""
 
 PROBES = ("/healthz", "/readyz", "/metrics")
 """Asked every few seconds by machines: they would drown all else in the traces."""

@@ -1,7 +1,7 @@
 """Traces by OpenTelemetry: spans that go to the collector of the settings, or nowhere.
 
-Only the API of OpenTelemetry is used everywhere, which makes spans that do nothing where traces are switched off; what
-sends them is imported where they are switched on, for that takes a while.
+Only the API of OpenTelemetry is used everywhere: its spans do nothing where traces are switched off. What sends spans
+takes a while to import, and is imported only where traces are switched on.
 """
 
 from __future__ import annotations

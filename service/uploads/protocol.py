@@ -28,7 +28,7 @@ PIECE = "application/offset+octet-stream"
 """The media type of a piece."""
 
 MAX_LENGTH_BYTES = 1 << 53
-"""Where numbers of bytes end (JavaScript knows no larger whole ones)."""
+"""The longest upload: JavaScript knows no larger whole numbers."""
 
 UploadLength = Annotated[int | None, Header(ge=0, le=MAX_LENGTH_BYTES, description="How long the whole upload is.")]
 DeferLength = Annotated[

@@ -24,7 +24,7 @@ from service.uploads.reception import Reception
 from service.uploads.under_way import Hold
 
 WRITE_BYTES = 1 << 20
-"""As much is held in memory of a piece that comes in."""
+"""How much of a piece that comes in is held in memory."""
 
 
 def create(context: Context, owner: str, length: int | None, notes: str | None) -> Upload:

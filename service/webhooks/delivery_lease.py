@@ -49,7 +49,7 @@ class Claim:
     request: str | None
     """The id of the request that submitted the job."""
     trace: str | None
-    """Its span, as a `traceparent`."""
+    """The span of the request that submitted the job, as a `traceparent`."""
     fault: str | None = None
     """Why nothing can be sent, for there are no secrets to sign it with."""
 
