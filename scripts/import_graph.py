@@ -20,6 +20,9 @@ from statistics import median
 PACKAGES = ("engine", "service", "worker", "shell")
 PAGE = Path("web", "src")
 
+GENERATED = re.compile("not to be edited")
+"""How a file begins that nobody has written."""
+
 PAGE_IMPORT = re.compile(r"""(?:\bfrom\s+|\bimport\s*\(?\s*)["'](\.[^"']*)["']""")
 PAGE_FUNCTION = re.compile(r"(?:export )?(?:default )?(?:async )?(?:function\b|const \w+ = .*(?:=>|\() ?\{?$)")
 
@@ -64,6 +67,8 @@ def page_files(folder: Path) -> list[File]:
     files = []
     for name, path in paths.items():
         text = path.read_text()
+        if GENERATED.search(text[:200]):
+            continue
         aims = set()
         for given in PAGE_IMPORT.findall(text):
             aim = (path.parent / given).resolve()
