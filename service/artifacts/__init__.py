@@ -1,0 +1,1 @@
+"""The endpoints of what jobs have made: one by one, or all as a zip."""

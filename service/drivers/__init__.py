@@ -1,0 +1,1 @@
+"""The endpoints of driving videos: built-in performances, and the user's own."""

@@ -1,0 +1,1 @@
+"""What happens to jobs: written down with the change itself, and followed as it comes."""

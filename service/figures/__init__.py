@@ -1,0 +1,1 @@
+"""Counts that outlive what they count."""

@@ -1,0 +1,1 @@
+"""Uploaded files: what may come in, how forms are received, and what is kept."""

@@ -1,0 +1,1 @@
+"""For machines that watch: whether the service lives, and its figures."""

@@ -1,0 +1,1 @@
+"""What all endpoints share of HTTP: bodies, ranges, content codings, and what browsers are told."""

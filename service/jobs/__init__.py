@@ -1,0 +1,1 @@
+"""Jobs as clients and workers change them: submitted, revised, leased, canceled, deleted."""

@@ -1,0 +1,1 @@
+"""The endpoints of keys: making, listing and revoking them, and erasing what belongs to one."""

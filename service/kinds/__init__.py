@@ -1,0 +1,1 @@
+"""The endpoint of the job kinds, from which forms can be drawn."""

@@ -1,0 +1,1 @@
+"""Public links to what jobs have made."""

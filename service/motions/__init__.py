@@ -1,0 +1,1 @@
+"""The endpoints of motions: the built-in ones, and the user's own."""
