@@ -8,7 +8,7 @@ from fastapi.middleware.cors import CORSMiddleware
 import engine
 from service import openapi, problems
 from service.artifacts.endpoints import router as artifacts
-from service.connections.patience import Patience
+from service.connections.body_timeout import BodyTimeout
 from service.connections.stopping import Stopping
 from service.context import Context
 from service.drivers.endpoints import router as drivers
@@ -56,7 +56,7 @@ def make_app(context: Context) -> FastAPI:
     app.router.default = Page(context.settings.web_dir)  # not mounted: a mount would hide which methods a route has
     settings = context.settings
     app.add_middleware(
-        Patience, stopping=app.state.stopping, most=settings.body_seconds, rate=settings.body_bytes_per_second
+        BodyTimeout, stopping=app.state.stopping, most=settings.body_seconds, rate=settings.body_bytes_per_second
     )
     app.add_middleware(Compressed)
     if settings.cors_origins:

@@ -187,7 +187,7 @@ def _database(settings: Settings) -> Iterator[Finding]:
 
     from service.database import postgresql
     from service.database.sessions import Database
-    from shell.opening import database_complaint
+    from shell.opening import explain_database_error
 
     if not postgresql.speaks(settings.database):
         return  # a file, made where it is not there
@@ -195,7 +195,7 @@ def _database(settings: Settings) -> Iterator[Finding]:
     try:
         database.revision()
     except DBAPIError as error:
-        yield Finding("missing", database_complaint(settings, error))
+        yield Finding("missing", explain_database_error(settings, error))
     else:
         yield Finding("ok", f"PostgreSQL at {postgresql.shown(settings.database)} answers")
     finally:

@@ -1,4 +1,4 @@
-"""Opening what the service works with, where a person reads the complaint."""
+"""Opening what the service works with, where a person reads what is wrong."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def open_context(settings: Settings, part: str) -> Context:
     try:
         return Context.open(settings, part)
     except DBAPIError as error:
-        raise CliError(database_complaint(settings, error)) from error
+        raise CliError(explain_database_error(settings, error)) from error
     except (CommandError, RevisionError) as error:
         raise CliError(
             f"The database is not of this release ({error}): start the newer one, or go back with its `galatea migrate`."
@@ -43,7 +43,7 @@ def check_kinds(settings: Settings) -> None:
         raise CliError(str(error)) from error
 
 
-def database_complaint(settings: Settings, error: DBAPIError) -> str:
+def explain_database_error(settings: Settings, error: DBAPIError) -> str:
     """What is wrong with the database, and what to do; without its password."""
     if not postgresql.speaks(settings.database):
         return f"The database {settings.database.removeprefix('sqlite:///')} cannot be used: {error.orig}."

@@ -21,7 +21,7 @@ from fastapi import FastAPI
 
 from service.app import make_app
 from service.auth.repository import any_usable
-from service.connections.census import Census, most_connections, raise_file_limit
+from service.connections.connection_limit import ConnectionLimit, most_connections, raise_file_limit
 from service.connections.protocol import Config
 from service.connections.stopping import Stopping
 from service.context import Context
@@ -35,7 +35,7 @@ from shell.opening import open_context
 from shell.supervisor import Supervisor
 from worker.interpreter import module_command
 
-PATIENCE_SECONDS = 10.0
+START_TIMEOUT_SECONDS = 10.0
 STOP_SECONDS = 3
 """How long requests may take to end once the service is to end; `Stopping` has told them."""
 
@@ -85,7 +85,7 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
 def _config(settings: Settings, app: FastAPI) -> Config:
     return Config(
         app,
-        Census(most_connections(settings.connections, raise_file_limit())),
+        ConnectionLimit(most_connections(settings.connections, raise_file_limit())),
         settings.head_seconds,
         settings.send_seconds,
         timeout_keep_alive=settings.idle_seconds,
@@ -148,7 +148,7 @@ def _lock(data_dir: Path) -> IO[str]:
     """
     data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
     lock = (data_dir / "serve.lock").open("w")
-    deadline = time.monotonic() + PATIENCE_SECONDS
+    deadline = time.monotonic() + START_TIMEOUT_SECONDS
     while True:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -162,7 +162,7 @@ def _lock(data_dir: Path) -> IO[str]:
 
 def _await_redis(settings: Settings) -> None:
     client = _redis(settings)
-    deadline = time.monotonic() + PATIENCE_SECONDS
+    deadline = time.monotonic() + START_TIMEOUT_SECONDS
     while True:
         try:
             client.ping()

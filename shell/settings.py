@@ -1,4 +1,4 @@
-"""Reading the settings where a person reads the complaint."""
+"""Reading the settings where a person reads what is wrong."""
 
 from __future__ import annotations
 

@@ -115,9 +115,9 @@ class Child:
                 self._job = event.get("pid")
         return said
 
-    def end_job(self, patience: float) -> bool:
+    def end_job(self, timeout: float) -> bool:
         """End the job that runs, now. Returns whether it is over, so that the next one may come."""
-        deadline = time.monotonic() + patience
+        deadline = time.monotonic() + timeout
         try:
             self.send({"command": "kill"})
             while time.monotonic() < deadline:

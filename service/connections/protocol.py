@@ -1,7 +1,7 @@
 """HTTP/1.1 as uvicorn speaks it by h11: strict, with bounds for connections that bring nothing, and with refusals of its
 own that are problem documents too.
 
-How long a body may take is not said here: see `service.connections.patience`.
+How long a body may take is not said here: see `service.connections.body_timeout`.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any, cast
 import h11
 import uvicorn
 
-from service.connections.census import MAX_PARTING, Census
-from service.connections.patience import Stopped
+from service.connections.body_timeout import Stopped
+from service.connections.connection_limit import MAX_PARTING, ConnectionLimit
 from service.connections.sliced_reading import SlicedReading
 from service.connections.strict import StrictConnection
 from service.connections.transport import Transport
@@ -36,10 +36,12 @@ class Config(uvicorn.Config):
     an upgrade.
     """
 
-    def __init__(self, app: Any, census: Census, head_seconds: float, send_seconds: float, **more: Any):
+    def __init__(
+        self, app: Any, connection_limit: ConnectionLimit, head_seconds: float, send_seconds: float, **more: Any
+    ):
         """`head_seconds` may the head of a request take, `send_seconds` may nothing be taken of an answer."""
         super().__init__(app, http=Protocol, h11_max_incomplete_event_size=HEAD_BYTES, **more)
-        self.census = census
+        self.connection_limit = connection_limit
         self.head_seconds = head_seconds
         self.send_seconds = send_seconds
 
@@ -63,7 +65,7 @@ class Protocol(SlicedReading):
         guarded = Transport(transport, self._incoming, self.config.send_seconds)
         super().connection_made(cast(asyncio.Transport, guarded))
         self.address = self.client[0] if self.client else ""
-        self._admitted = self.config.census.admit(self)
+        self._admitted = self.config.connection_limit.admit(self)
         if self._admitted:
             self._look()
         else:
@@ -73,7 +75,7 @@ class Protocol(SlicedReading):
         self._time("", 0, lambda: None)
         self._count_out()
         if self.transport.parting:
-            self.config.census.parting -= 1
+            self.config.connection_limit.parting -= 1
         self.transport.rest()
         super().connection_lost(exc)
 
@@ -127,13 +129,13 @@ class Protocol(SlicedReading):
             self._time("", 0, lambda: None)
             self._count_out()
         elif self.conn.their_state is h11.IDLE:
-            self.config.census.wait(self)
+            self.config.connection_limit.wait(self)
             if self._heard or self.cycle is None:  # else it is idle, and uvicorn looks after that
                 self._time("head", self.config.head_seconds, lambda: self._refuse_or_close(late()))
             else:
                 self._time("", 0, lambda: None)
         else:
-            self.config.census.busy(self)
+            self.config.connection_limit.busy(self)
             self._heard = False
             if self.conn.their_state is h11.SEND_BODY and self.cycle is not None and self.cycle.response_complete:
                 self._time("unread", UNREAD_SECONDS, self.transport.abort)
@@ -154,14 +156,14 @@ class Protocol(SlicedReading):
     def _count_out(self) -> None:
         if self._admitted:
             self._admitted = False
-            self.config.census.leave(self)
+            self.config.connection_limit.leave(self)
 
     def _incoming(self) -> bool:
         """Whether to close with care: something may still come in, and few connections are closed like that."""
-        census = self.config.census
+        connection_limit = self.config.connection_limit
         careful = self.conn.their_state in (h11.SEND_BODY, h11.ERROR) or self._heard or not self._admitted
-        if careful and census.parting < MAX_PARTING:
-            census.parting += 1
+        if careful and connection_limit.parting < MAX_PARTING:
+            connection_limit.parting += 1
             return True
         return False
 

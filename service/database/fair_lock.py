@@ -26,11 +26,11 @@ class FairLock:
             return len(self._waiting)
 
     @contextmanager
-    def turn(self, patience: float) -> Iterator[bool]:
-        """Wait up to `patience` seconds for one's turn; it lasts as long as the block. Yields whether it came: where it
+    def turn(self, timeout: float) -> Iterator[bool]:
+        """Wait up to `timeout` seconds for one's turn; it lasts as long as the block. Yields whether it came: where it
         did not, the block has it not."""
         mine = self._queue()
-        came = mine is None or mine.wait(patience) or not self._leave(mine)
+        came = mine is None or mine.wait(timeout) or not self._leave(mine)
         try:
             yield came
         finally:

@@ -22,7 +22,7 @@ from sqlalchemy.exc import TimeoutError
 
 from service.database.fair_lock import FairLock
 
-PATIENCE_SECONDS = 15
+LOCK_TIMEOUT_SECONDS = 15
 """How long a transaction waits for another to end."""
 EMPTYING_MILLISECONDS = 50
 """How long the emptying of the log waits for those who read."""
@@ -48,7 +48,7 @@ def engine(url: str, connections: int) -> Engine:
 
 def _connections(url: str) -> Engine:
     _keep_to_owner(url)
-    made = create_engine(url, connect_args={"timeout": PATIENCE_SECONDS})
+    made = create_engine(url, connect_args={"timeout": LOCK_TIMEOUT_SECONDS})
 
     @event.listens_for(made, "connect")
     def prepare(connection: Any, _: Any) -> None:
@@ -71,7 +71,7 @@ def writers() -> Callable[[], AbstractContextManager[None]]:
 
     @contextmanager
     def turn() -> Iterator[None]:
-        with lock.turn(PATIENCE_SECONDS) as came:
+        with lock.turn(LOCK_TIMEOUT_SECONDS) as came:
             if not came:
                 raise TimeoutError("the database is locked: others write")
             yield
@@ -122,7 +122,7 @@ def _in_use(url: str) -> IO[str]:
     """The lock that every connection shares with the others for as long as it is open: `unused` asks for it alone. The
     system gives it back when a process ends, in whatever way."""
     lock = _uses(url).open("w")
-    deadline = time.monotonic() + PATIENCE_SECONDS
+    deadline = time.monotonic() + LOCK_TIMEOUT_SECONDS
     while True:
         try:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -156,4 +156,4 @@ def tidy(connection: Connection) -> None:
             time.sleep(EMPTYING_PAUSE_SECONDS)
         structlog.get_logger().info("log_not_emptied", why="somebody was reading or writing all the while")
     finally:
-        cursor.execute(f"PRAGMA busy_timeout={PATIENCE_SECONDS * 1000}")
+        cursor.execute(f"PRAGMA busy_timeout={LOCK_TIMEOUT_SECONDS * 1000}")

@@ -23,7 +23,7 @@ LOOK_SECONDS = 0.25
 LATE_EVENT_IDS = 100
 """Ids before the newest that are looked at again: where several write at once, a smaller one may show later."""
 
-PATIENCE_SECONDS = 5.0
+RECHECK_SECONDS = 5.0
 """After this long a follower looks for itself, come what may: its job may be gone, which is no event."""
 
 
@@ -98,7 +98,7 @@ class Follower:
     async def wait(self) -> None:
         """Return when something may have happened since the last call."""
         with suppress(TimeoutError):
-            await asyncio.wait_for(self.changed.wait(), PATIENCE_SECONDS)
+            await asyncio.wait_for(self.changed.wait(), RECHECK_SECONDS)
         self.changed.clear()
 
 

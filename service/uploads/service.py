@@ -9,7 +9,7 @@ from starlette.requests import ClientDisconnect
 
 from service.auth.quotas import require_room, require_upload
 from service.clock import now
-from service.connections.patience import Stalled, Stopped
+from service.connections.body_timeout import Stalled, Stopped
 from service.context import Context
 from service.disk import require_space
 from service.files.admission import largest_mb, shown_name, too_large

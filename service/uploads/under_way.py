@@ -17,7 +17,7 @@ from fastapi import Depends, Request
 from service.problems import Problem
 from service.uploads.digest import RunningDigest
 
-PATIENCE_SECONDS = 10.0
+HOLD_TIMEOUT_SECONDS = 10.0
 """How long a later request waits for an earlier one to let go; only one that is storing the whole file takes so long."""
 
 MAX_DIGESTS = 1000
@@ -48,7 +48,7 @@ class UnderWay:
     @asynccontextmanager
     async def hold(self, upload_id: str) -> AsyncIterator[Hold]:
         """Be the only request at an upload; an earlier one is asked to let go. Raises a 423 problem if it does not."""
-        with anyio.move_on_after(PATIENCE_SECONDS):
+        with anyio.move_on_after(HOLD_TIMEOUT_SECONDS):
             while (earlier := self._holds.get(upload_id)) is not None:
                 earlier.let_go()
                 await earlier.released.wait()

@@ -14,7 +14,7 @@ from raw_http import connect, problem, request, until_closed
 from raw_upload import TUS, Media, create, line, standing
 from running import Running, eventually
 
-from service.connections.census import Census, most_connections
+from service.connections.connection_limit import ConnectionLimit, most_connections
 
 Start = Callable[..., Running]
 MOST = 20
@@ -183,30 +183,30 @@ class Somebody:
 
 
 def test_an_address_that_takes_all_makes_room_for_others_and_for_itself() -> None:
-    census = Census(8)
+    connection_limit = ConnectionLimit(8)
     greedy = [Somebody("a") for _ in range(6)]
     for one in greedy:
-        assert census.admit(one)
-        census.wait(one)
+        assert connection_limit.admit(one)
+        connection_limit.wait(one)
     others = [Somebody("b"), Somebody("c")]
     for one in others:
-        assert census.admit(one)
-        census.wait(one)
+        assert connection_limit.admit(one)
+        connection_limit.wait(one)
     newcomer = Somebody("d")
-    assert census.admit(newcomer)
+    assert connection_limit.admit(newcomer)
     assert [one.gone for one in greedy] == [True] + [False] * 5, "the one that waited longest"
     assert not any(one.gone for one in others)
 
 
 def test_an_address_that_is_busy_with_its_share_gets_no_more_of_the_others() -> None:
-    census = Census(8)
-    assert all(census.admit(Somebody("a")) for _ in range(6))
+    connection_limit = ConnectionLimit(8)
+    assert all(connection_limit.admit(Somebody("a")) for _ in range(6))
     idle = Somebody("b")
-    assert census.admit(idle)
-    census.wait(idle)
-    assert not census.admit(Somebody("a")), "there is room, but not for them"
+    assert connection_limit.admit(idle)
+    connection_limit.wait(idle)
+    assert not connection_limit.admit(Somebody("a")), "there is room, but not for them"
     assert not idle.gone
-    assert census.admit(Somebody("c"))
+    assert connection_limit.admit(Somebody("c"))
 
 
 def test_files_bound_the_connections() -> None:

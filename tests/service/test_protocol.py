@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from uvicorn.server import ServerState
 
-from service.connections.census import Census
+from service.connections.connection_limit import ConnectionLimit
 from service.connections.protocol import Config, Protocol
 from service.connections.sliced_reading import FINE_SLICE_BYTES, SLICE_BYTES
 
@@ -38,7 +38,7 @@ async def taken(sent: bytes, requests: int) -> list[list[bytes]]:
         await send({"type": "http.response.start", "status": 204, "headers": []})
         await send({"type": "http.response.body", "body": b""})
 
-    config = Config(app, Census(10), 60, 60, ws="none", lifespan="off", log_config=None)
+    config = Config(app, ConnectionLimit(10), 60, 60, ws="none", lifespan="off", log_config=None)
     server = await asyncio.get_running_loop().create_server(lambda: Protocol(config, ServerState(), {}), "127.0.0.1", 0)
     async with server:
         reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
@@ -77,7 +77,7 @@ async def refused(between: Any) -> Answer:
         await send({"type": "http.response.start", "status": 415, "headers": [(b"content-length", b"0")]})
         await send({"type": "http.response.body", "body": b""})
 
-    config = Config(app, Census(10), 60, 60, ws="none", lifespan="off", log_config=None)
+    config = Config(app, ConnectionLimit(10), 60, 60, ws="none", lifespan="off", log_config=None)
 
     def accept() -> Protocol:
         protocols.append(Protocol(config, ServerState(), {}))

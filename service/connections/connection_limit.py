@@ -35,7 +35,7 @@ class Connected(Interface):
         """End: no request is under way."""
 
 
-class Census:
+class ConnectionLimit:
     """All connections of a server."""
 
     def __init__(self, most: int):

@@ -35,7 +35,7 @@ class Stopped(Interrupted):
         super().__init__(503, "service_stopping", detail, headers={"Retry-After": "5", "Connection": "close"})
 
 
-class Patience:
+class BodyTimeout:
     """Ends bodies that do not come on, and at the service's end all of them; whatever request is cut short there is told
     so."""
 
@@ -79,7 +79,7 @@ class Patience:
 class _Body:
     """A request's body as it comes in."""
 
-    def __init__(self, patience: Patience, receive: Receive):
+    def __init__(self, patience: BodyTimeout, receive: Receive):
         self._patience = patience
         self._receive = receive
         self._left = patience.most
