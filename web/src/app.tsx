@@ -1,19 +1,19 @@
 /** The page around the pages: where one is, and where one can go. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { Footer } from './components/footer';
-import { later } from './components/later';
+import { Footer } from './widgets/footer';
+import { later } from './widgets/lazy';
 import { noCharacter, noPortrait, useDraft } from './drafts';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
 import { LostPage } from './pages/lost';
 import { SignInPage } from './pages/signin';
-import { StudioPage } from './pages/studio';
+import { StudioPage } from './kinds/portrait/studio';
 import { historyLink, keysLink, type Route, studioLink, useRoute, webhooksLink } from './route';
 import { onLocked } from './session';
 import { strings } from './strings';
 
-const CharacterStudio = later(() => import('./pages/character'));
+const CharacterStudio = later(() => import('./kinds/character/studio'));
 const SharedPage = later(() => import('./pages/shared'));
 const KeysPage = later(() => import('./pages/keys'));
 const WebhooksPage = later(() => import('./pages/webhooks'));

@@ -2,9 +2,9 @@
 
 import { useState } from 'preact/hooks';
 import type { MotionJoints } from './api';
-import { type Choices as CharacterChoices, usual as usualCharacter } from './character/choices';
-import { type Choices as PortraitChoices, usual as usualPortrait } from './components/choices';
-import type { Performance } from './components/performances';
+import { type Choices as CharacterChoices, usual as usualCharacter } from './kinds/character/choices';
+import { type Choices as PortraitChoices, usual as usualPortrait } from './kinds/portrait/choices';
+import type { Performance } from './kinds/portrait/performances';
 import { USUAL_MOTION } from './names';
 import type { Motion } from './order';
 

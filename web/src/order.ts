@@ -1,7 +1,7 @@
 /** Sending an order: the files first, then the job. */
 
 import { type CharacterOptions, createJob, type Job, type MotionName, type PortraitOptions } from './api';
-import type { Performance } from './components/performances';
+import type { Performance } from './kinds/portrait/performances';
 import { stem } from './format';
 import { randomKey } from './key';
 import { AUTO, motionName } from './names';

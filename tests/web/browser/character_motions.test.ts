@@ -80,7 +80,7 @@ const checks = async (): Promise<number> =>
 
 describe('the joints of a motion', () => {
   it('are those that the engine knows', async () => {
-    const { groups, required } = await import('@web/character/motionjoints');
+    const { groups, required } = await import('@web/kinds/character/motionjoints');
     expect(Object.values(groups).flat().sort()).toEqual([...names[0]].sort());
     expect([...required].sort()).toEqual([...names[1]].sort());
   });

@@ -1,8 +1,8 @@
-import { another, changesOf, isChanged, isEverybody, notesFor, type Wishes, wishesOf } from '@web/character/changes';
-import { choicesOf, optionsOf, usual } from '@web/character/choices';
-import { enlarged, frameBetween, movedFrame } from '@web/character/framing';
-import { jointsOf, labelOf, limbs, middleOf, needed, placedJoints, sharesOf, skeletonIn, swapped } from '@web/character/skeleton';
-import { fewer, type MaskStroke, outline, simplified } from '@web/character/strokes';
+import { another, changesOf, isChanged, isEverybody, notesFor, type Wishes, wishesOf } from '@web/kinds/character/changes';
+import { choicesOf, optionsOf, usual } from '@web/kinds/character/choices';
+import { enlarged, frameBetween, movedFrame } from '@web/kinds/character/framing';
+import { jointsOf, labelOf, limbs, middleOf, needed, placedJoints, sharesOf, skeletonIn, swapped } from '@web/kinds/character/skeleton';
+import { fewer, type MaskStroke, outline, simplified } from '@web/kinds/character/strokes';
 import { toSegment } from '@web/stage/place';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';

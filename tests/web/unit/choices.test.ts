@@ -1,6 +1,6 @@
 import type { PortraitOptions } from '@web/api';
-import { choicesOf, optionsOf, usual } from '@web/components/choices';
-import { revisionOptions, sameFrames, wishesOf } from '@web/corrections/changes';
+import { choicesOf, optionsOf, usual } from '@web/kinds/portrait/choices';
+import { revisionOptions, sameFrames, wishesOf } from '@web/kinds/portrait/corrections/changes';
 import { describe, expect, it } from 'vitest';
 
 describe('options', () => {

@@ -1,6 +1,6 @@
-import { nearestFeature, shares } from '@web/landmarks/moving';
-import { features, lines, membersOf, POINTS, type Points, steps } from '@web/landmarks/scheme';
-import { canonical, faceInBox, facePlaced } from '@web/landmarks/template';
+import { nearestFeature, shares } from '@web/kinds/portrait/landmarks/moving';
+import { features, lines, membersOf, POINTS, type Points, steps } from '@web/kinds/portrait/landmarks/scheme';
+import { canonical, faceInBox, facePlaced } from '@web/kinds/portrait/landmarks/template';
 import { begun, canRedo, canUndo, type History, step } from '@web/stage/history';
 import { boxAround, middle, moved, resized } from '@web/stage/moving';
 import { nearest, type Point } from '@web/stage/place';

@@ -1,4 +1,4 @@
-import { readMask, readParts } from '@web/character/maskfile';
+import { readMask, readParts } from '@web/kinds/character/maskfile';
 import { describe, expect, it } from 'vitest';
 
 const read = (how: (pixels: Uint8ClampedArray) => void, ...pixels: number[][]): number[] => {

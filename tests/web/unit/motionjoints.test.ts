@@ -1,4 +1,4 @@
-import { commonPrefix, groups, jointName, missing, moved, moverOf, required } from '@web/character/motionjoints';
+import { commonPrefix, groups, jointName, missing, moved, moverOf, required } from '@web/kinds/character/motionjoints';
 import { describe, expect, it } from 'vitest';
 
 const found = { Hips: 'pelvis', LeftArm: 'arm_l', Neck: 'neck' };

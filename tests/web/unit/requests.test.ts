@@ -1,4 +1,4 @@
-import { carriedOver } from '@web/components/moods';
+import { carriedOver } from '@web/kinds/portrait/moods';
 import { isLoopback } from '@web/share/host';
 import { curlOf, htmlOf, pythonOf } from '@web/share/requests';
 import { execFileSync } from 'node:child_process';

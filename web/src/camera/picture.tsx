@@ -1,8 +1,8 @@
 /** A picture taken with the camera: of one's face, or of somebody whole. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { Trouble } from '../components/trouble';
-import { Window } from '../components/window';
+import { Trouble } from '../widgets/trouble';
+import { Window } from '../widgets/dialog';
 import { strings } from '../strings';
 import { useCamera } from './stream';
 import { Viewfinder } from './viewfinder';

@@ -1,8 +1,8 @@
 /** A performance of one's own, recorded with the camera. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { Trouble } from '../components/trouble';
-import { Window } from '../components/window';
+import { Trouble } from '../widgets/trouble';
+import { Window } from '../widgets/dialog';
 import { clock } from '../format';
 import { strings } from '../strings';
 import { LONGEST_SECONDS, useRecording } from './recording';

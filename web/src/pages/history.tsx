@@ -2,10 +2,10 @@
 
 import type { ComponentChildren } from 'preact';
 import type { Wanted } from '../api';
-import { Heading } from '../components/heading';
-import { SearchField } from '../components/search';
-import { Trouble } from '../components/trouble';
-import { Work } from '../components/work';
+import { Heading } from '../widgets/heading';
+import { SearchField } from '../widgets/search';
+import { Trouble } from '../widgets/trouble';
+import { Work } from '../works/work';
 import { useWorks } from '../jobs';
 import { historyLink, MOST_WORDS, replaceAddress, statuses, studioLink } from '../route';
 import { strings } from '../strings';

@@ -2,15 +2,15 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { cancelJob, deleteJob, type Job, type Problem } from '../api';
-import { Heading } from '../components/heading';
-import { later } from '../components/later';
-import { Picture } from '../components/picture';
-import { type Pose, Redo, Versions } from '../components/redo';
-import { Rename } from '../components/rename';
-import { Result } from '../components/result';
-import { Stages } from '../components/stages';
-import { Sure } from '../components/sure';
-import { Trouble } from '../components/trouble';
+import { Heading } from '../widgets/heading';
+import { later } from '../widgets/lazy';
+import { Picture } from '../widgets/picture';
+import { type Pose, Redo, Versions } from '../result/revise';
+import { Rename } from '../widgets/rename';
+import { Result } from '../kinds/portrait/result';
+import { Stages } from '../result/stages';
+import { Sure } from '../widgets/confirm';
+import { Trouble } from '../widgets/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
 import { LONGEST_TITLE, performanceName, pictureUrl, workName } from '../names';
@@ -18,7 +18,7 @@ import { characterLink, studioLink } from '../route';
 import { strings } from '../strings';
 import { useTitle } from '../titles';
 
-const CharacterResult = later(() => import('../components/character_result'));
+const CharacterResult = later(() => import('../kinds/character/result'));
 const words = strings.job;
 
 /** The kinds that can be made again with something changed. */

@@ -2,10 +2,10 @@
 
 import { useId, useState } from 'preact/hooks';
 import { closeSession, createKey, getOwnKey, type Key, listKeys, type NewKey, type OwnKey, revokeKey } from '../api';
-import { Copyable } from '../components/copyable';
-import { Heading } from '../components/heading';
-import { Sure } from '../components/sure';
-import { Trouble } from '../components/trouble';
+import { Copyable } from '../widgets/copyable';
+import { Heading } from '../widgets/heading';
+import { Sure } from '../widgets/confirm';
+import { Trouble } from '../widgets/trouble';
 import { ago, count, moment, size } from '../format';
 import { useDoing, useLoaded } from '../loading';
 import { strings } from '../strings';

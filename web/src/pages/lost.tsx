@@ -1,6 +1,6 @@
 /** An address at which there is no page. */
 
-import { Heading } from '../components/heading';
+import { Heading } from '../widgets/heading';
 import { strings } from '../strings';
 
 const words = strings.lost;

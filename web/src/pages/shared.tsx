@@ -1,10 +1,10 @@
 /** What a public link opens, for whoever was given it. */
 
 import { getShared, type Shared } from '../api';
-import { Heading } from '../components/heading';
-import { later } from '../components/later';
-import { Player } from '../components/player';
-import { Trouble } from '../components/trouble';
+import { Heading } from '../widgets/heading';
+import { later } from '../widgets/lazy';
+import { Player } from '../result/player';
+import { Trouble } from '../widgets/trouble';
 import { moment, size } from '../format';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';

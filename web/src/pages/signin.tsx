@@ -2,8 +2,8 @@
 
 import { useId, useState } from 'preact/hooks';
 import { openSession } from '../api';
-import { Heading } from '../components/heading';
-import { Trouble } from '../components/trouble';
+import { Heading } from '../widgets/heading';
+import { Trouble } from '../widgets/trouble';
 import { useDoing } from '../loading';
 import { strings } from '../strings';
 

@@ -2,9 +2,9 @@
 
 import { useState } from 'preact/hooks';
 import { listWebhooks, type NewWebhook } from '../api';
-import { Copyable } from '../components/copyable';
-import { Heading } from '../components/heading';
-import { Trouble } from '../components/trouble';
+import { Copyable } from '../widgets/copyable';
+import { Heading } from '../widgets/heading';
+import { Trouble } from '../widgets/trouble';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { DeliveryLog } from '../webhooks/log';

@@ -2,8 +2,8 @@
 
 import { useId, useState } from 'preact/hooks';
 import { createLink, type Job, listLinks, type PublicLink, revokeLink } from '../api';
-import { Copyable } from '../components/copyable';
-import { Trouble } from '../components/trouble';
+import { Copyable } from '../widgets/copyable';
+import { Trouble } from '../widgets/trouble';
 import { moment } from '../format';
 import { useDoing, useLoaded } from '../loading';
 import { strings } from '../strings';

@@ -1,7 +1,7 @@
 /** A window in which something is edited over a picture: tools above, words and what to do with it below. */
 
 import type { ComponentChildren } from 'preact';
-import { Window } from '../components/window';
+import { Window } from '../widgets/dialog';
 import type { History, Step } from './history';
 import { HistoryTools, StageFooter, ZoomTools } from './tools';
 import '../styles/stage.css';

@@ -2,8 +2,8 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { later } from '../components/later';
-import { Trouble } from '../components/trouble';
+import { later } from '../widgets/lazy';
+import { Trouble } from '../widgets/trouble';
 import { strings } from '../strings';
 import { useSkeletonLines, useSurroundings, useWideView } from './around';
 import { Looking } from './looking';

@@ -3,7 +3,7 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Vector3 } from 'three';
-import { PlayButton } from '../components/transport';
+import { PlayButton } from '../result/transport';
 import { strings } from '../strings';
 import { Emerging } from './emerging';
 import { hang } from './hanging';

@@ -10,9 +10,9 @@ import {
   type Webhook,
   type WebhookSecret,
 } from '../api';
-import { Copyable } from '../components/copyable';
-import { Sure } from '../components/sure';
-import { Trouble } from '../components/trouble';
+import { Copyable } from '../widgets/copyable';
+import { Sure } from '../widgets/confirm';
+import { Trouble } from '../widgets/trouble';
 import { ago, moment } from '../format';
 import { useDoing } from '../loading';
 import { strings } from '../strings';

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { type Delivery, type DeliveryDetail, getDelivery, listDeliveries, replayDelivery } from '../api';
-import { Trouble } from '../components/trouble';
+import { Trouble } from '../widgets/trouble';
 import { ago, count, moment } from '../format';
 import { useDoing, useLoaded } from '../loading';
 import { jobLink } from '../route';

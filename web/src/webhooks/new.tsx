@@ -2,7 +2,7 @@
 
 import { useId, useState } from 'preact/hooks';
 import { createWebhook, type NewWebhook, type WebhookEvent } from '../api';
-import { Trouble } from '../components/trouble';
+import { Trouble } from '../widgets/trouble';
 import { useDoing } from '../loading';
 import { strings } from '../strings';
 

@@ -1,0 +1,30 @@
+/** The place for a motion's file. */
+
+import { Dropzone } from '../../widgets/dropzone';
+import { isMotion, motionTypes } from '../../media';
+import { strings } from '../../strings';
+
+const words = strings.character;
+
+interface Props {
+  file: File | null;
+  onFile: (file: File) => void;
+}
+
+export function MotionDrop({ file, onFile }: Props) {
+  return (
+    <Dropzone
+      media="motion"
+      file={file}
+      accept={motionTypes}
+      accepts={isMotion}
+      words={{
+        drop: words.motionDrop,
+        browse: words.motionBrowse,
+        chosen: words.motionChosen,
+        wrong: words.wrongMotion,
+      }}
+      onFile={onFile}
+    />
+  );
+}

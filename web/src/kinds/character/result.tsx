@@ -1,0 +1,89 @@
+/** A finished character: the video, the character itself to take along, and what the run has to say. */
+
+import { type Artifact, characterOptions, getJob, getReport, getSkeleton, type Job } from '../../api';
+import { size } from '../../format';
+import { useLoaded } from '../../loading';
+import { strings } from '../../strings';
+import { peopleOf } from '../../viewer/people';
+import { later } from '../../widgets/lazy';
+import { Left, Took, Warnings } from '../../result/actions';
+import { Player } from '../../result/player';
+import type { Pose } from '../../result/revise';
+
+const Viewer = later(() => import('../../viewer/panel'));
+const words = strings.character;
+
+interface Props {
+  job: Job;
+  /** The character is to be made again in a pose that was set by hand. */
+  onPose: (pose: Pose) => void;
+}
+
+export default function CharacterResult({ job, onPose }: Props) {
+  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const { artifacts } = job;
+  const several = peopleOf(job, null).length > 1;
+  const skeleton = useLoaded(async (signal) => (several ? getSkeleton(job, signal) : null), job.id).value;
+  const film = Object.entries(artifacts).find(([name]) => name.startsWith('animation.'));
+  const shown = film && !film[1].content_type.endsWith('/zip') && <Film job={job} artifact={film[1]} />;
+  return (
+    <div class="result">
+      {artifacts['character.glb'] ? (
+        <Viewer
+          job={job}
+          renew={(signal) => getJob(job.id, signal)}
+          first="wall"
+          pose={characterOptions(job).pose ?? undefined}
+          onPose={onPose}
+          film={shown || undefined}
+        />
+      ) : (
+        shown
+      )}
+      <Left job={job} filesOpen={!film}>
+        {peopleOf(job, skeleton).map(({ name, number }) => (
+          <Download key={name} job={job} name={`${name}.glb`} label={several ? words.glbOf(number) : words.glb} primary />
+        ))}
+        <Download job={job} name="character.usdz" label={words.usdz} />
+        <Download job={job} name="character.vrm" label={words.vrm1} />
+        <Download job={job} name="lit.png" label={words.litPicture} />
+        {film && <Download job={job} name={film[0]} label={words.video} />}
+      </Left>
+      <Warnings report={report.value} />
+      <Took job={job} />
+    </div>
+  );
+}
+
+function Film({ job, artifact }: { job: Job; artifact: Artifact }) {
+  if (artifact.content_type.startsWith('image/')) {
+    return (
+      <figure class="still">
+        <img src={artifact.url} alt={words.result} />
+      </figure>
+    );
+  }
+  return (
+    <Player
+      label={words.player}
+      alt={words.result}
+      result={artifact.url}
+      poster={job.artifacts['poster.jpg']?.url}
+      driver={null}
+      chosen={null}
+      start={0}
+      hasSound={false}
+    />
+  );
+}
+
+/** Nothing where the job left no file of that name. */
+function Download({ job, name, label, primary }: { job: Job; name: string; label: string; primary?: boolean }) {
+  const file = job.artifacts[name];
+  if (!file) return null;
+  return (
+    <a class={primary ? 'button primary' : 'button'} href={file.url} download={name}>
+      {label} <small>{size(file.size)}</small>
+    </a>
+  );
+}

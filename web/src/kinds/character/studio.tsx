@@ -1,0 +1,113 @@
+/** The start page of characters: a picture of somebody, a motion, and off it goes. */
+
+import { useEffect } from 'preact/hooks';
+import type { CharacterOptions, MotionJoints } from '../../api';
+import { CharacterFields, type Choices, KeepField, optionsOf, VideoFields } from './choices';
+import { Motions } from './motions';
+import { Capture } from '../../studio/capture';
+import { useDropsAnywhere } from '../../studio/drops';
+import { Demo } from '../../studio/demo';
+import { Dropzone } from '../../widgets/dropzone';
+import { Launch } from '../../studio/launch';
+import { Making } from '../../studio/kind_links';
+import { Recent } from '../../works/recent';
+import { Samples } from '../../studio/samples';
+import type { CharacterDraft, Draft } from '../../drafts';
+import { isMotion, isPicture, pictureTypes } from '../../media';
+import { characterOrder, type Motion, namesOf } from '../../order';
+import { figureSamples } from '../../samples';
+import { useSending } from '../../sending';
+import { strings } from '../../strings';
+
+const words = strings.character;
+
+/** What is said of the motion, where there is something to say. */
+const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
+  ...(Object.keys(joints).length && { motion_joints: joints }),
+  ...(clip !== null && { motion_clip: clip }),
+});
+
+export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft> }) {
+  const [{ photo, motion, joints, clip, choices }, alter] = draft;
+  const setPhoto = (photo: File): void => alter({ photo });
+  const sending = useSending();
+  // another motion has other joints, and other animations
+  const move = (motion: Motion): void => alter({ motion, joints: {}, clip: null });
+  useDropsAnywhere(async (file) => {
+    if (await isPicture(file)) setPhoto(file);
+    else if (await isMotion(file)) move({ by: 'file', file });
+  });
+  useEffect(() => {
+    document.title = `${strings.make.character} · ${strings.name}`;
+  }, []);
+
+  const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
+  const start = (event: Event): void => {
+    event.preventDefault();
+    if (order) sending.begin(order());
+  };
+  const change = (part: Partial<Choices>): void => alter({ choices: { ...choices, ...part } });
+  return (
+    <>
+      <form class="studio" onSubmit={start}>
+        <header>
+          <div>
+            <Making kind="character" />
+            <h1>{words.title}</h1>
+            <p>{words.lead}</p>
+          </div>
+          <Demo
+            still="/samples/woman-in-red-still.jpg"
+            moving="/samples/woman-in-red-walk.mp4"
+            alt={strings.demo.character}
+            width={400}
+            height={532}
+          />
+        </header>
+        <div class="beside">
+          <section class="panel" aria-labelledby="photo-title">
+            <h2 id="photo-title">{words.photo}</h2>
+            <p class="hint">{words.photoHint}</p>
+            <Samples names={figureSamples} chosen={photo} onChoose={setPhoto} />
+            <Dropzone
+              media="image"
+              file={photo}
+              accept={pictureTypes}
+              accepts={isPicture}
+              words={{
+                drop: strings.studio.portraitDrop,
+                browse: strings.studio.portraitBrowse,
+                chosen: words.photoChosen,
+                wrong: strings.studio.wrongPicture,
+              }}
+              onFile={setPhoto}
+            />
+            <Capture media="image" of="body" onFile={setPhoto} />
+          </section>
+        </div>
+        <section class="panel" aria-labelledby="motion-title">
+          <h2 id="motion-title">{words.motion}</h2>
+          <p class="hint">{words.motionHint}</p>
+          <Motions
+            chosen={motion}
+            onChoose={move}
+            joints={joints}
+            onJoints={(joints) => alter({ joints })}
+            clip={clip}
+            onClip={(clip) => alter({ clip })}
+          />
+          <details class="choices">
+            <summary>{strings.studio.options}</summary>
+            <div class="fields paired">
+              <KeepField value={choices} onChange={change} />
+              <VideoFields value={choices} onChange={change} />
+              <CharacterFields value={choices} onChange={change} />
+            </div>
+          </details>
+        </section>
+        <Launch sending={sending} missing={photo ? '' : words.needPhoto} chosen={order && namesOf(order())} label={words.start} />
+      </form>
+      <Recent />
+    </>
+  );
+}

@@ -1,0 +1,106 @@
+/** The options of a portrait, and what of them is worth sending. */
+
+import { useId } from 'preact/hooks';
+import type { Part, PortraitOptions } from '../../api';
+import { strings } from '../../strings';
+import { Check } from '../../widgets/checkbox';
+
+export const parts: readonly Part[] = ['eyes', 'brows', 'mouth', 'head'];
+
+export interface Choices {
+  strength: number;
+  follow: readonly Part[];
+  sound: boolean;
+  /** Whether the end leads back to the beginning. */
+  loop: boolean;
+}
+
+export const usual: Choices = { strength: 1, follow: parts, sound: false, loop: false };
+
+/** The options to send: what differs from the usual, so that the service's own defaults hold elsewhere. */
+export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions {
+  return {
+    ...(choices.strength !== usual.strength && { strength: choices.strength }),
+    ...(choices.follow.length < parts.length && { follow: [...choices.follow] }),
+    ...(choices.sound && hasSound && { sound: true }),
+    ...(choices.loop && { loop: true }),
+  };
+}
+
+/** What a job was made with. */
+export function choicesOf(options: PortraitOptions): Choices {
+  return {
+    strength: options.strength ?? usual.strength,
+    follow: options.follow ? parts.filter((part) => options.follow?.includes(part)) : usual.follow,
+    sound: options.sound ?? usual.sound,
+    loop: options.loop ?? usual.loop,
+  };
+}
+
+interface Props {
+  value: Choices;
+  mayHaveSound: boolean;
+  onChange: (choices: Choices) => void;
+}
+
+/** The choices, folded away until somebody looks for them. */
+export function FoldedChoices(props: Props) {
+  return (
+    <details class="choices">
+      <summary>{strings.studio.options}</summary>
+      <div class="fields">
+        <ChoiceFields {...props} />
+      </div>
+    </details>
+  );
+}
+
+export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
+  const strength = useId();
+  const words = strings.studio;
+  const toggle = (part: Part, on: boolean): void =>
+    onChange({ ...value, follow: parts.filter((p) => (p === part ? on : value.follow.includes(p))) });
+
+  return (
+    <>
+      <div class="field">
+        <label for={strength}>
+          {words.strength} <output>{Math.round(value.strength * 100)}%</output>
+        </label>
+        <input
+          id={strength}
+          type="range"
+          min="0"
+          max="1.5"
+          step="0.05"
+          value={value.strength}
+          aria-describedby={`${strength}-hint`}
+          aria-valuetext={`${Math.round(value.strength * 100)}%`}
+          onInput={(event) => onChange({ ...value, strength: event.currentTarget.valueAsNumber })}
+        />
+        <small id={`${strength}-hint`}>{words.strengthHint}</small>
+      </div>
+      <fieldset class="field">
+        <legend>{words.follow}</legend>
+        <div class="checks">
+          {parts.map((part) => (
+            <Check
+              key={part}
+              label={strings.parts[part]}
+              checked={value.follow.includes(part)}
+              // one part has to stay: nothing would move otherwise
+              disabled={value.follow.length === 1 && value.follow.includes(part)}
+              onChange={(on) => toggle(part, on)}
+            />
+          ))}
+        </div>
+      </fieldset>
+      <div class="field">
+        <Check label={words.loop} checked={value.loop} onChange={(loop) => onChange({ ...value, loop })} />
+        {mayHaveSound && (
+          <Check label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
+        )}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,177 @@
+/** Everything about a portrait that can be put right by hand, and the order to make it again. */
+
+import { useMemo, useRef, useState } from 'preact/hooks';
+import { foundFaces, getLandmarks, getReport, type Job, portraitOptions, type PortraitChanges, type Problem, reviseJob } from '../../../api';
+import { Check } from '../../../widgets/checkbox';
+import { ChoiceFields } from '../choices';
+import { later } from '../../../widgets/lazy';
+import { SelectField } from '../../../widgets/select';
+import { FormatField, RateField, SizeField } from '../../../studio/video_fields';
+import { randomKey } from '../../../key';
+import type { Points } from '../landmarks/scheme';
+import { faceInBox } from '../landmarks/template';
+import { asProblem, useLoaded } from '../../../loading';
+import { AUTO, isFileId, performanceUrl } from '../../../names';
+import { jobLink } from '../../../route';
+import { strings } from '../../../strings';
+import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
+import { NeutralFrame } from './neutral';
+import { DriverFaceField, TrimField } from './performance';
+import { FaceChoice, usePicture } from './picture';
+import '../../../styles/corrections.css';
+
+const LandmarkEditor = later(() => import('../landmarks/editor'));
+const words = strings.redo;
+const crops = ['none', 'bust', 'face'] as const;
+
+interface Props {
+  job: Job;
+  onProblem: (problem: Problem | null) => void;
+}
+
+export default function CorrectionPanel({ job, onProblem }: Props) {
+  const made = portraitOptions(job);
+  const asMade = useMemo(() => wishesOf(made), [job.id]);
+  const [wishes, setWishes] = useState<Wishes>(asMade);
+  const [editing, setEditing] = useState(false);
+  const [sending, setSending] = useState(false);
+  const key = useRef(randomKey());
+  const report = useLoaded((signal) => getReport(job, signal), job.id).value;
+  const found = useLoaded((signal) => getLandmarks(job, signal), job.id).value;
+  const picture = usePicture(job, found?.size ?? null);
+  const faces = report?.inputs.faces ?? foundFaces(job);
+  const mayPlace = job.error?.correctable?.includes('landmarks') ?? false;
+
+  /** Where the editor begins: with what was placed, with what was found for this face, or in this face's box. */
+  const before = useMemo<Points | null>(() => {
+    if (wishes.landmarks) return wishes.landmarks;
+    if (wishes.face === (made.face_index ?? 0)) return found?.landmarks ?? null;
+    const box = faces[wishes.face];
+    return box ? faceInBox(box) : null;
+  }, [wishes.landmarks, wishes.face, found, report]);
+
+  const wish = (part: Partial<Wishes>): void => {
+    key.current = randomKey(); // another wish is another order
+    setWishes((known) => {
+      const next = { ...known, ...part };
+      if (sameFrames(known, next)) return next;
+      return { ...next, neutral: sameFrames(asMade, next) ? asMade.neutral : null }; // its number would be another frame's
+    });
+  };
+  const send = async (options: PortraitChanges): Promise<void> => {
+    setSending(true);
+    onProblem(null);
+    try {
+      const revised = await reviseJob(job.id, options, key.current);
+      location.hash = jobLink(revised.id);
+    } catch (error) {
+      onProblem(asProblem(error));
+      setSending(false);
+    }
+  };
+  const place = (landmarks: Points): void => {
+    setEditing(false);
+    wish({ landmarks: landmarks.map(([x, y]) => [rounded(x), rounded(y)]) });
+  };
+
+  const hint = (): string => {
+    if (wishes.landmarks) return words.landmarksPlaced;
+    if (faces.length > 1) return words.faces(faces.length);
+    return mayPlace ? words.placeHint : words.landmarksHint;
+  };
+
+  return (
+    <form
+      class="corrections"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void send(revisionOptions(wishes));
+      }}
+    >
+      <section class="panel" aria-label={words.picture}>
+        <h3>{words.picture}</h3>
+        {picture && (
+          <FaceChoice
+            picture={picture}
+            faces={wishes.landmarks ? [] : faces}
+            chosen={wishes.face}
+            landmarks={wishes.landmarks ?? (wishes.face === (made.face_index ?? 0) ? (found?.landmarks ?? null) : null)}
+            onChoose={(face) => wish({ face, landmarks: null })}
+          />
+        )}
+        {picture === false && <p class="hint">{words.noPicture}</p>}
+        <div class="actions">
+          {picture && (
+            <button type="button" class={mayPlace ? 'button primary' : 'button'} onClick={() => setEditing(true)}>
+              {mayPlace && !wishes.landmarks ? words.place : words.landmarks}
+            </button>
+          )}
+          {wishes.landmarks && (
+            <button type="button" class="button quiet" onClick={() => wish({ landmarks: null })}>
+              {words.landmarksBack}
+            </button>
+          )}
+        </div>
+        <p class="hint" role="status">
+          {hint()}
+        </p>
+      </section>
+      <section class="panel" aria-label={words.motion}>
+        <h3>{words.motion}</h3>
+        <ChoiceFields value={wishes} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
+        <div class="field">
+          <div class="checks">
+            <Check label={words.solid} checked={wishes.solid} onChange={(solid) => wish({ solid })} />
+          </div>
+          <small>{words.solidHint}</small>
+        </div>
+        {job.inputs.driver && job.inputs.driver !== AUTO && (
+          <>
+            <DriverFaceField
+              faces={Math.max(report?.inputs.driver_faces?.length ?? 1, asMade.driverFace + 1)}
+              value={wishes.driverFace}
+              onChange={(driverFace) => wish({ driverFace })}
+            />
+            <TrimField value={wishes.trim} onChange={(trim) => wish({ trim })} />
+          </>
+        )}
+        {job.inputs.driver && sameFrames(wishes, asMade) && (
+          <NeutralFrame
+            video={performanceUrl(job, report?.inputs.driver_chosen)}
+            report={made.reactive ? null : report} // a profile's counts the frames of all its states
+            start={made.trim?.[0] ?? 0}
+            value={wishes.neutral}
+            onChange={(neutral) => wish({ neutral })}
+          />
+        )}
+      </section>
+      <section class="panel framing" aria-label={words.framing}>
+        <h3>{words.framing}</h3>
+        <SelectField
+          label={words.crop}
+          value={wishes.crop}
+          choices={crops}
+          nameOf={(crop) => words.crops[crop]}
+          onChange={(crop) => wish({ crop })}
+        />
+        <SizeField value={wishes.size} own={words.sizeOwn} onChange={(size) => wish({ size })} />
+        <RateField value={wishes.rate} own={words.rateOwn} onChange={(rate) => wish({ rate })} />
+        {!made.reactive && <FormatField value={wishes.format} onChange={(format) => wish({ format })} />}
+      </section>
+      <button type="submit" class="button primary large" disabled={sending}>
+        {words.send}
+      </button>
+      {editing && picture && (
+        <LandmarkEditor
+          url={picture.url}
+          size={picture.size}
+          found={before}
+          onDone={place}
+          onClose={() => setEditing(false)}
+        />
+      )}
+    </form>
+  );
+}
+
+const rounded = (value: number): number => Math.round(value * 100) / 100;

@@ -1,0 +1,75 @@
+/** Makes a video at hand a driver of one's own, so that its emotions are found. It is sent as orders are: with a pause. */
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { createDriver, type Problem } from '../../api';
+import { stem } from '../../format';
+import { asProblem } from '../../loading';
+import { driverName } from '../../names';
+import type { Sending } from '../../order';
+import { usePausing } from '../../pausing';
+import { strings } from '../../strings';
+import { GIVEN_UP, uploadFile } from '../../upload';
+import { SendingBar } from '../../studio/sending_bar';
+import { Trouble } from '../../widgets/trouble';
+
+interface Props {
+  file: File;
+  /** The names that drivers have. */
+  taken: string[];
+  /** Something else is being sent: two at once would take the same upload from one another. */
+  disabled: boolean;
+  onKeeping: (on: boolean) => void;
+  /** There is a driver more: of this name, or of no interest any more. */
+  onKept: (name: string | null) => void;
+}
+
+const words = strings.studio;
+
+export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
+  const [step, setStep] = useState<Sending | null>(null);
+  const { valve, paused, pause } = usePausing();
+  const [problem, setProblem] = useState<Problem | null>(null);
+  const stopper = useRef<AbortController | null>(null);
+  const arrived = useRef<string | null>(null);
+  useEffect(() => {
+    arrived.current = null;
+    setProblem(null);
+    return () => stopper.current?.abort();
+  }, [file]);
+
+  const keep = async (): Promise<void> => {
+    const { signal } = (stopper.current = new AbortController());
+    setProblem(null);
+    pause(false);
+    setStep({ step: 'video', fraction: 0 });
+    onKeeping(true);
+    try {
+      const progress = (bytes: number): void => setStep({ step: 'video', fraction: file.size ? bytes / file.size : 1 });
+      arrived.current ??= await uploadFile(file, progress, valve, signal);
+      setStep({ step: 'ordering' });
+      const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);
+      onKept(signal.aborted ? null : name);
+    } catch (error) {
+      const problem = asProblem(error);
+      if (signal.aborted || problem.code === 'unknown_file') arrived.current = null; // what had arrived is gone
+      if (!signal.aborted) setProblem(problem);
+    } finally {
+      setStep(null);
+      onKeeping(false);
+    }
+  };
+
+  return (
+    <div class="keep">
+      {step ? (
+        <SendingBar step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
+      ) : (
+        <button type="button" class="button" disabled={disabled} onClick={() => void keep()}>
+          {words.keep}
+        </button>
+      )}
+      <p class="hint">{words.keepHint}</p>
+      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+    </div>
+  );
+}

@@ -1,0 +1,153 @@
+/** The performances on offer, to choose one from: ours, the user's own, or a video at hand. */
+
+import { useState } from 'preact/hooks';
+import { deleteDriver, type Driver, renameDriver } from '../../api';
+import { isVideo, videoTypes } from '../../media';
+import { AUTO, ofDriver } from '../../names';
+import { plain, strings } from '../../strings';
+import { Capture } from '../../studio/capture';
+import { Card, shownOf, SymbolCard, symbols } from './performance_card';
+import { Dropzone } from '../../widgets/dropzone';
+import { Keep } from './keep_driver';
+import { KeptList } from '../../studio/kept_list';
+
+/** By `reactive` there is no one performance: the portrait is to show many, on demand. */
+export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
+
+interface Props {
+  drivers: Driver[];
+  chosen: Performance | null;
+  onChoose: (performance: Performance) => void;
+  /** Something is being sent. */
+  sending: boolean;
+  /** A video is being kept, or no longer. */
+  onKeeping: (on: boolean) => void;
+  /** There is a driver more, or less, or one has another name. */
+  onKept: () => void;
+}
+
+const STRENGTHS = ['normal', 'strong'] as const;
+type Strength = (typeof STRENGTHS)[number];
+
+const words = strings.studio;
+
+export function Performances({ drivers, chosen, onChoose, sending, onKeeping, onKept }: Props) {
+  const [strength, setStrength] = useState<Strength>('normal');
+  const name = chosen?.by === 'name' ? chosen.name : null;
+  const choose = (name: string): void => onChoose({ by: 'name', name });
+  const ours = drivers.filter((driver) => driver.source === 'built-in');
+  const own = drivers.filter((driver) => driver.source === 'own');
+  const cards = (members: Driver[]) =>
+    members.flatMap(shownOf).map((shown) => (
+      <Card key={shown.value} {...shown} checked={shown.value === name} onChoose={() => choose(shown.value)} />
+    ));
+  const change = (strength: Strength): void => {
+    setStrength(strength);
+    const before = ours.find((driver) => driver.name === name);
+    const now = ours.find((driver) => driver.state === before?.state && driver.strength === strength);
+    if (now) choose(now.name); // the same, played the other way
+  };
+
+  return (
+    <>
+      {ours.length > 0 && (
+        <fieldset class="performances">
+          <legend>{words.performances}</legend>
+          <div class="strengths" role="radiogroup" aria-label={words.strengths}>
+            {STRENGTHS.map((one) => (
+              <label key={one}>
+                <input type="radio" name="strength" checked={one === strength} onChange={() => change(one)} />
+                <span>{words.strengthNames[one]}</span>
+              </label>
+            ))}
+          </div>
+          <div class="cards">
+            <SymbolCard
+              value={AUTO}
+              symbol={symbols.stars}
+              label={words.auto}
+              hint={words.autoHint}
+              checked={name === AUTO}
+              onChoose={() => choose(AUTO)}
+            />
+            <SymbolCard
+              value="reactive"
+              symbol={symbols.touch}
+              label={words.reactive}
+              hint={words.reactiveHint}
+              checked={chosen?.by === 'reactive'}
+              onChoose={() => onChoose({ by: 'reactive' })}
+            />
+            {cards(ours.filter((driver) => driver.strength === strength))}
+          </div>
+        </fieldset>
+      )}
+      {own.length > 0 && (
+        <fieldset class="performances">
+          <legend>{words.yours}</legend>
+          <div class="cards">{cards(own)}</div>
+          {own.map((driver) => (
+            <Search key={driver.name} driver={driver} />
+          ))}
+        </fieldset>
+      )}
+      <KeptList
+        items={own.map(({ name, created_at }) => ({ id: created_at ?? name, name, label: plain(name) }))}
+        rename={renameDriver}
+        remove={deleteDriver}
+        onRenamed={(before, now) => {
+          if (name !== null && ofDriver(name, before)) choose(now + name.slice(before.length));
+          onKept();
+        }}
+        onRemoved={(gone) => {
+          if (name !== null && ofDriver(name, gone)) choose(AUTO);
+          onKept();
+        }}
+      />
+      <h3>{words.ownVideo}</h3>
+      <Dropzone
+        media="video"
+        file={chosen?.by === 'file' ? chosen.file : null}
+        accept={videoTypes}
+        accepts={isVideo}
+        words={{
+          drop: words.videoDrop,
+          browse: words.videoBrowse,
+          chosen: words.videoChosen,
+          wrong: words.wrongVideo,
+        }}
+        onFile={(file) => onChoose({ by: 'file', file })}
+      />
+      {chosen?.by === 'file' && (
+        <Keep
+          file={chosen.file}
+          taken={drivers.map((driver) => driver.name)}
+          disabled={sending}
+          onKeeping={onKeeping}
+          onKept={(kept) => {
+            if (kept !== null) onChoose({ by: 'name', name: kept });
+            onKept();
+          }}
+        />
+      )}
+      <Capture media="video" onFile={(file) => onChoose({ by: 'file', file })} />
+    </>
+  );
+}
+
+/** How far the search for emotions in one's own driver is, where there is something to say. */
+function Search({ driver }: { driver: Driver }) {
+  const name = plain(driver.name);
+  if (driver.moments_status === 'pending') {
+    return (
+      <p class="hint" role="status" aria-busy="true">
+        {words.searching(name)}
+      </p>
+    );
+  }
+  if (driver.moments_status === 'failed') return <p class="hint">{words.notSearched(name)}</p>;
+  if (driver.moments_status === 'ready' && !driver.moments?.length) {
+    return <p class="hint">{words.nothingFound(name)}</p>;
+  }
+  return null;
+}

@@ -1,0 +1,70 @@
+/** A finished job: its video beside the performance, downloads, and what the run has to say. */
+
+import { type Artifact, getReport, type Job, portraitOptions } from '../../api';
+import { size } from '../../format';
+import { useLoaded } from '../../loading';
+import { performanceUrl } from '../../names';
+import { strings } from '../../strings';
+import { Left, Took, Warnings } from '../../result/actions';
+import { Living } from './reactive_player';
+import { Moods } from './moods';
+import { Player } from '../../result/player';
+
+const words = strings.job;
+
+/** The animation, where it has a format that browsers show: a video or a moving picture, not a zip of frames. */
+function animation(job: Job): [string, Artifact] | null {
+  const shown = ([name, artifact]: [string, Artifact]): boolean =>
+    name.startsWith('animation.') && /^(video|image)\//.test(artifact.content_type);
+  return Object.entries(job.artifacts).find(shown) ?? null;
+}
+
+export function Result({ job }: { job: Job }) {
+  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const found = animation(job);
+  const profile = job.artifacts['profile.json'];
+  const bundle = job.artifacts['profile.zip'];
+  const main = bundle ? (['profile.zip', bundle] as const) : found;
+
+  return (
+    <div class="result">
+      {profile ? (
+        <Living profile={profile.url} poster={job.artifacts['poster.jpg']?.url} />
+      ) : found ? (
+        <Animation job={job} artifact={found[1]} chosen={report.value?.inputs.driver_chosen ?? null} />
+      ) : (
+        <p>{words.otherKind}</p>
+      )}
+      <Left job={job} filesOpen={!found}>
+        {main && (
+          <a class="button primary" href={main[1].url} download={main[0]}>
+            {profile ? words.downloadProfile : words.download} <small>{size(main[1].size)}</small>
+          </a>
+        )}
+      </Left>
+      {!profile && <Moods job={job} />}
+      <Warnings report={report.value} />
+      <Took job={job} />
+    </div>
+  );
+}
+
+function Animation({ job, artifact, chosen }: { job: Job; artifact: Artifact; chosen: string | null }) {
+  if (artifact.content_type.startsWith('image/')) {
+    return (
+      <figure class="still">
+        <img src={artifact.url} alt={words.resultAlt} />
+      </figure>
+    );
+  }
+  return (
+    <Player
+      result={artifact.url}
+      poster={job.artifacts['poster.jpg']?.url}
+      driver={performanceUrl(job, chosen)}
+      chosen={chosen}
+      start={portraitOptions(job).trim?.[0] ?? 0}
+      hasSound={portraitOptions(job).sound === true}
+    />
+  );
+}

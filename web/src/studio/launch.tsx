@@ -1,0 +1,59 @@
+/** The end of a form that orders something: what an earlier page left, what went wrong, how far it is, or the button. */
+
+import { namesOf } from '../order';
+import type { useSending } from '../sending';
+import { strings } from '../strings';
+import { SendingBar } from './sending_bar';
+import { Trouble } from '../widgets/trouble';
+
+const words = strings.studio;
+
+interface Props {
+  sending: ReturnType<typeof useSending>;
+  /** What is still to be chosen; empty where nothing is. */
+  missing: string;
+  /** What the order will be called, once all is chosen. */
+  chosen: { picture: string; performance: string } | null;
+  label: string;
+}
+
+export function Launch({ sending, missing, chosen, label }: Props) {
+  const { waiting } = sending;
+  const left = waiting && namesOf(waiting);
+  return (
+    <div class="launch">
+      {waiting && left && (
+        <div class="waiting" role="status">
+          <p>{words.waiting(left.picture, left.performance)}</p>
+          <div class="actions">
+            <button type="button" class="button primary" onClick={() => sending.begin(waiting)}>
+              {words.goOn}
+            </button>
+            <button type="button" class="button quiet" onClick={sending.forget}>
+              {words.forget}
+            </button>
+          </div>
+        </div>
+      )}
+      {sending.problem && (
+        <Trouble code={sending.problem.code} detail={sending.problem.detail}>
+          <button type="button" class="button" onClick={sending.retry}>
+            {strings.retry}
+          </button>
+        </Trouble>
+      )}
+      {sending.step ? (
+        <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
+      ) : (
+        <div class="go">
+          <p id="missing" class="hint" aria-live="polite">
+            {missing || (chosen && words.chosen(chosen.picture, chosen.performance))}
+          </p>
+          <button type="submit" class="button primary large" disabled={missing !== ''} aria-describedby="missing">
+            {label}
+          </button>
+        </div>
+      )}
+    </div>
+  );
+}

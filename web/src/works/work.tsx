@@ -1,0 +1,92 @@
+/** A work among others: its newest version at large, its name to be changed, and its other versions folded away. */
+
+import { useState } from 'preact/hooks';
+import { type Job, listRevisions } from '../api';
+import { differences } from '../differences';
+import { useLoaded } from '../loading';
+import { LONGEST_TITLE, workName } from '../names';
+import { jobLink } from '../route';
+import { strings } from '../strings';
+import { useTitle } from '../titles';
+import { Details, Poster, State } from './entry';
+import { Rename } from '../widgets/rename';
+import { Trouble } from '../widgets/trouble';
+
+const words = strings.history;
+
+export function Work({ job, versions }: { job: Job; versions: number }) {
+  const [titled, rename] = useTitle(job);
+  const name = workName(titled);
+  return (
+    <li class="work">
+      <div class="entry">
+        <Poster job={job} />
+        <Rename name={name} label={words.titleOf(name)} longest={LONGEST_TITLE} onRename={rename}>
+          <a class="name" href={jobLink(job.id)} title={name} aria-describedby={`of-${job.id}`}>
+            {name}
+          </a>
+        </Rename>
+        <Details id={`of-${job.id}`} job={job} />
+      </div>
+      {versions > 1 && <Others job={titled} number={versions - 1} />}
+    </li>
+  );
+}
+
+/** The versions beside the one that is shown. */
+function Others({ job, number }: { job: Job; number: number }) {
+  const [open, setOpen] = useState(false);
+  return (
+    <details class="others" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+      <summary>
+        {words.others(number)}
+        <span class="unseen"> {words.of(workName(job))}</span>
+      </summary>
+      {open && <Tree job={job} number={number} />}
+    </details>
+  );
+}
+
+function Tree({ job, number }: { job: Job; number: number }) {
+  const tree = useLoaded((signal) => listRevisions(job.id, signal), `${job.id} ${number}`);
+  if (tree.problem) return <Trouble code={tree.problem.code} detail={tree.problem.detail} />;
+  if (!tree.value) return <div class="later" aria-busy="true" />;
+  const all = tree.value;
+  const place = all.findIndex((version) => version.id === job.id);
+  return (
+    <>
+      {place >= 0 && (
+        <p>
+          <strong>{words.above(place + 1)}</strong> <span>{changesOf(all[place]!, all)}</span>
+        </p>
+      )}
+      <ol reversed>
+        {all
+          .map((version, place) => ({ version, place }))
+          .reverse()
+          .filter(({ version }) => version.id !== job.id)
+          .map(({ version, place }) => (
+            <li key={version.id}>
+              <a href={jobLink(version.id)}>
+                <Poster job={version} />
+                <span>
+                  <strong>{words.version(place + 1)}</strong>
+                  <span>{changesOf(version, all)}</span>
+                  <State job={version} />
+                </span>
+              </a>
+            </li>
+          ))}
+      </ol>
+    </>
+  );
+}
+
+/** What a version changed of the one that it revises; nothing where that was erased. */
+function changesOf(version: Job, all: readonly Job[]): string {
+  if (version.revision_of === null) return words.first;
+  const before = all.find((one) => one.id === version.revision_of);
+  if (!before) return '';
+  const changes = differences(version, before);
+  return changes.length ? words.changed(changes.join(', ')) : words.same;
+}
