@@ -126,10 +126,11 @@ def read_video(
     if damage.frames < 2 and trim is None:
         raise too_short()
     if warn is not None:
-        _report(clip, damage, end, warn)
+        report_damage(clip, damage, end, warn)
 
 
-def _report(clip: Clip, damage: Damage, end: float, warn: Warn) -> None:
+def report_damage(clip: Clip, damage: Damage, end: float, warn: Warn) -> None:
+    """Say what was amiss with a clip that was read up to `end` seconds, as `read_video` does."""
     broke_off = damage.errors > 0 and damage.frames - damage.last_error < clip.rate.fps / 2
     if end >= clip.timetable.seconds and (clip.timetable.cut or broke_off):
         warn("video_truncated", f"The video breaks off: the {damage.frames} frames before that were used.")
