@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
+from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts, draw_in_order
 from engine.face_animation.driver import DriverTrack, track_driver
 from engine.face_animation.fine_details import RatioImages, keep_ratio_images
 from engine.face_animation.layers import Layers, separate_layers
 from engine.face_animation.neutral import choose_neutral_frame
 from engine.face_animation.registration import register_track
-from engine.face_animation.render import ALL_PARTS, Parts, Renderer, draw_in_order
 from engine.face_animation.rig import Rig, rig_target
-from engine.face_animation.second_look import glance_at_driver, look_again
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.tracking_refinement import observe_driver, refine_tracking
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.portrait.options import PortraitOptions
@@ -41,14 +41,14 @@ class Acting:
     def frames(self, parts: Parts = ALL_PARTS, refined: bool = True, step: int = 1) -> Iterator[NDArray[np.uint8]]:
         """Every `step`-th frame of the animation; the others are not drawn."""
         given = self.track, self.neutral
-        misfit = None
+        residuals = None
         if self.looked:
-            glances, strip = glance_at_driver(*given), keep_ratio_images(*given)
-            misfit = look_again(*given, glances, strip, self.target, self.rig.details, self.options)
-        renderer = Renderer(*given, self.target, self.layers, self.rig, self.options, misfit, parts)
+            observations, strip = observe_driver(*given), keep_ratio_images(*given)
+            residuals = refine_tracking(*given, observations, strip, self.target, self.rig.details, self.options)
+        animation = FaceAnimation(self.target, self.layers, self.rig, *given, self.options, residuals, parts)
         ratios = RatioImages(*given, outliers=refined, refined=refined)
-        moments = zip(renderer.motions(), ratios, strict=True)
-        yield from draw_in_order(renderer, (moment for moment in moments if moment[0].frame % step == 0))
+        moments = zip(animation.motions(), ratios, strict=True)
+        yield from draw_in_order(animation, (moment for moment in moments if moment[0].frame % step == 0))
 
 
 def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) -> tuple[TargetFace, Layers, Rig]:

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts
 from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import keep_ratio_images
 from engine.face_animation.layers import Layers, separate_layers
 from engine.face_animation.neutral import choose_neutral_frame
 from engine.face_animation.registration import register_track
-from engine.face_animation.render import ALL_PARTS, Parts, Renderer
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.composite import doubled, over, warp_layer
@@ -49,12 +49,12 @@ def main() -> None:
     frame = round(SECONDS * track.fps)
 
     def drawn(parts: Parts) -> Picture:
-        renderer = Renderer(track, neutral, target, layers, rig, options.acting(), parts=parts)
-        motion = next(one for one in renderer.motions() if one.frame == frame)
-        return renderer.draw(motion, ratios[frame])
+        animation = FaceAnimation(target, layers, rig, track, neutral, options.acting(), parts=parts)
+        motion = next(one for one in animation.motions() if one.frame == frame)
+        return animation.draw(motion, ratios[frame])
 
-    renderer = Renderer(track, neutral, target, layers, rig, options.acting())
-    motion = next(one for one in renderer.motions() if one.frame == frame)
+    animation = FaceAnimation(target, layers, rig, track, neutral, options.acting())
+    motion = next(one for one in animation.motions() if one.frame == frame)
     moved = rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
 
     _write("method-control-points", _dots(target, rig, 0 * motion.offsets), _dots(target, rig, motion.offsets))

@@ -18,9 +18,9 @@ from engine.face_animation.expression_transfer import carry_expression, local_ma
 from engine.face_animation.eyes import gaze
 from engine.face_animation.head_motion import HeadMotion, split_motion, turns
 from engine.face_animation.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.lids_and_lips import lid_ratio, meet
 from engine.face_animation.lips_and_skin import keep_lips_off_skin, lips_room
-from engine.face_animation.misfit import Misfit
 from engine.geometry.rigid import Similarity
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance
@@ -60,9 +60,9 @@ def carry_motion(
     control: ControlPoints,
     proxy: HeadProxy | None,
     options: ActingOptions,
-    misfit: Misfit | None = None,
+    residuals: LandmarkResiduals | None = None,
 ) -> Iterator[ControlMotion]:
-    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `misfit`.
+    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `residuals`.
 
     Parameters
     ----------
@@ -101,9 +101,9 @@ def carry_motion(
             frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
         offsets, depths = (np.stack(each) for each in zip(*frames, strict=True))
         placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
-        if misfit is not None:
+        if residuals is not None:
             faces = np.stack([track.in_crop(frame) for frame in range(some.start, some.stop)])
-            placed += correct[:, None] * misfit.corrections(faces, placed)
+            placed += correct[:, None] * residuals.corrections(faces, placed)
         keep_inside(placed, target, control.usable[:MESH_SIZE])
         offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
         for k in range(len(offsets)):

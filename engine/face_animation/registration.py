@@ -40,7 +40,7 @@ UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
 SMOOTHING = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
 BELIEVED, LARGEST = 9.0, 12.0
-"""Pixels of the crop up to which the measured rest is believed, and from which on it is a misfit of the flow. On
+"""Pixels of the crop up to which the measured rest is believed, and from which on it is a residuals of the flow. On
 cheeks that a mouth stretches or lifts, tracker and skin part by up to 11 in 99 of 100 places."""
 EASED = 3.0
 """Frames over which belief comes and goes (width of a Gaussian): a rest that noise takes past the limit and back would make

@@ -23,6 +23,11 @@ class TargetFace:
     place: NDArray[np.float64]
     people: NDArray[np.float32] | None = None
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the result, pixels."""
+        return self.rgb.shape[1], self.rgb.shape[0]
+
     def face_boxes(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """The box (4,) of the face that acts and those of the others (K, 4), in pixels of the result: x, y, width, height."""
         low, high = self.mesh[:, :2].min(axis=0), self.mesh[:, :2].max(axis=0)
@@ -31,6 +36,5 @@ class TargetFace:
         boxes = np.hstack([corners, self.faces[:, 2:] * scale]).astype(np.float32)
         middles = boxes[:, :2] + boxes[:, 2:] / 2
         own = np.linalg.norm(middles - (low + high) / 2, axis=1) < np.linalg.norm(high - low) / 2
-        width, height = self.rgb.shape[1::-1]
-        seen = ((middles > 0) & (middles < [width, height])).all(axis=1)
+        seen = ((middles > 0) & (middles < self.size)).all(axis=1)
         return np.concatenate([low, high - low]).astype(np.float32), boxes[seen & ~own]

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,20 +11,13 @@ from numpy.typing import NDArray
 
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
-from engine.face_animation.driver import DriverTrack, track_driver
-from engine.face_animation.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
-from engine.face_animation.layers import Layers, separate_layers
-from engine.face_animation.loop import close_loop
-from engine.face_animation.misfit import Misfit
-from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
-from engine.face_animation.registration import register_track
-from engine.face_animation.render import render
-from engine.face_animation.rig import Rig, rig_target
-from engine.face_animation.second_look import Glances, glance_at_driver, look_again
+from engine.face_animation.animation import FaceAnimation
+from engine.face_animation.driver import DriverTrack
+from engine.face_animation.neutral import choose_neutral_frame, warn_of_unrest
+from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
 from engine.perception.landmarks import fiducials
-from engine.perception.models import matting_model
 from engine.portrait.choice import choose_driver
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import in_pixels, look_for_face
@@ -34,16 +25,16 @@ from engine.run import Beside, Run, write_report
 
 STAGES = {
     "find_face": 1.0,
-    "track_driver": 12.0,
+    "track_driver": 12.0,  # section 4: the face and the points around it, in every frame
     "register_driver": 3.0,
-    "ratio_images": 3.0,
+    "ratio_images": 3.0,  # section 6: creases
     "glance_at_driver": 0.5,
     "separate_layers": 1.0,
-    "rig_target": 0.5,
+    "rig_target": 0.5,  # section 4: the warp, as far as it is the target's
     "look_again": 1.0,
-    "animate": 12.0,
+    "animate": 12.0,  # sections 4 to 6: equation 1, the warp, creases, the inside of the mouth
 }
-"""The stages and their usual share of the time."""
+"""The stages and their usual share of the time; `engine.face_animation` holds what they do."""
 
 
 def animate_portrait(
@@ -58,40 +49,39 @@ def animate_portrait(
         options.driver_face_index if isinstance(driver, Path) else 0
     )  # candidates are compared by their largest face
     follows = options.fps, options.trim, index, run
-    tracking = follow(driver, *follows) if isinstance(driver, Path) else None
-    prepared = prepare_target(face or look_for_face(image, options, run), out, run)
-    target = prepared.face
+    tracking = follow_driver(driver, *follows) if isinstance(driver, Path) else None
+    target = first_impression(face or look_for_face(image, options, run), out, run)
+    prepared = prepare_target(target, run)
     choice: dict[str, object] = {}
     if isinstance(driver, Candidates):
         chosen = choose_driver(target, driver, run)
         driver, choice = chosen.path, {"driver_chosen": chosen.name, "driver_scores": chosen.scores}
-    performed = analyse_driver(
-        tracking or follow(driver, *follows),
+    performance = analyse_driver(
+        tracking or follow_driver(driver, *follows),
         lambda track: choose_neutral_frame(track, target.mesh, options.neutral_frame),
         run,
         loop=options.loop,
     )
-    track, neutral = performed.track, performed.neutral
-    warn_of_unrest(performed.choice, run.warn)
-    height, width = target.rgb.shape[:2]
-    misfit = performed.look_again(target, prepared.details(), options, run)
+    track, neutral = performance.track, performance.neutral
+    warn_of_unrest(performance.choice, run.warn)
+    residuals = performance.residuals_on(prepared, options.acting(), run)
     layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
-        acting, keep_alpha = options.acting(), options.format != "mp4"
-        frames = render(track, neutral, performed.ratios, target, layers, rig, acting, misfit, keep_alpha)
-        _write_animation(frames, (width, height), track, neutral, options, driver, out, run)
+        follows_so, keeps_alpha = options.acting(), options.format != "mp4"
+        animation = FaceAnimation(target, layers, rig, track, neutral, follows_so, residuals, keep_alpha=keeps_alpha)
+        _write_animation(animation.frames(performance.ratios), target, track, neutral, options, driver, out, run)
     write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(
         out / "report.json",
         "portrait",
         run,
         inputs={
-            "size": [width, height],
+            "size": list(target.size),
             "fps": track.fps,
             "frames": len(track),
             "faces": in_pixels(target.faces),
             "neutral_frame": neutral,
-            "neutral_frame_reason": performed.choice.reason,
+            "neutral_frame_reason": performance.choice.reason,
             "driver_size": list(track.size),
             "driver_faces": in_pixels(track.faces),
             "animation": options.animation,
@@ -101,74 +91,16 @@ def animate_portrait(
     )
 
 
-@dataclass(frozen=True)
-class PreparedTarget:
-    """A target's `face`, and what is made of it on another core meanwhile: the region that `details` go to, the `layers`
-    and the `rig`."""
-
-    face: TargetFace
-    details: Beside[DetailRegion]
-    layers: Beside[Layers]
-    rig: Beside[Rig]
-
-
-def prepare_target(looking: Beside[TargetFace], out: Path, run: Run) -> PreparedTarget:
-    """Everything that depends on the picture alone; leaves `preview.jpg` and `thumbnail.jpg`."""
-    face = looking()
-    for early in write_first_impression(out, face.rgb, face.alpha, run.mark_synthetic):
+def first_impression(looking: Beside[TargetFace], out: Path, run: Run) -> TargetFace:
+    """The target, once its face is found; leaves `preview.jpg` and `thumbnail.jpg`."""
+    target = looking()
+    for early in write_first_impression(out, target.rgb, target.alpha, run.mark_synthetic):
         run.publish(early)
-    model = matting_model(os.environ)
-    details = run.beside("detail_region", detail_region, face.rgb, face.mesh)
-    layers = run.beside("separate_layers", separate_layers, face, model, model and model.file.sha256)
-    return PreparedTarget(face, details, layers, run.beside("rig_target", rig_target, face, layers, details))
-
-
-@dataclass(frozen=True)
-class Performed:
-    """A driver's performance: its `track` on the skin, the `choice` of its neutral frame, its `ratios`, the `glances` at it."""
-
-    track: DriverTrack
-    choice: NeutralFrame
-    ratios: RatioStrip
-    glances: Glances
-
-    @property
-    def neutral(self) -> int:
-        """The neutral frame's index."""
-        return self.choice.frame
-
-    def look_again(self, target: TargetFace, details: DetailRegion, options: PortraitOptions, run: Run) -> Misfit:
-        """What is amiss where a target acts this out."""
-        seen = self.track, self.neutral, self.glances, self.ratios
-        return run.stage("look_again", look_again, *seen, target, details, options.acting(), run.tick, run.idle_cores)
-
-
-def follow(
-    driver: Path, fps: float | None, trim: tuple[float, float] | None, face_index: int, run: Run
-) -> Beside[DriverTrack]:
-    """Begin to follow one of the driver's faces, which nothing else has to wait for."""
-    given = driver, fps, trim, run.limits, face_index
-    return run.beside("track_driver", track_driver, *given, run.tick, run.warn, shared=True)
-
-
-def analyse_driver(
-    tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], NeutralFrame], run: Run, loop: bool = False
-) -> Performed:
-    """Everything that depends on the driver alone, but for the choice of its neutral frame."""
-    track = tracking.once()
-    choice = neutral_of(track)
-    neutral = choice.frame
-    registered = run.stage("register_driver", register_track, track, neutral, run.tick, track.meshes, shared=True)
-    track = replace(track, meshes=registered.meshes)
-    if loop:
-        track = close_loop(track)
-    glances = run.beside("glance_at_driver", glance_at_driver, track, neutral, shared=True)
-    ratios = run.stage("ratio_images", keep_ratio_images, track, neutral, run.tick, shared=True)
-    return Performed(track, choice, ratios, glances())
+    return target
 
 
 def _write_animation(
-    frames: Iterator[NDArray[np.uint8]], size: tuple[int, int], track: DriverTrack, neutral: int,
+    frames: Iterator[NDArray[np.uint8]], target: TargetFace, track: DriverTrack, neutral: int,
     options: PortraitOptions, driver: Path, out: Path, run: Run,
 ) -> None:  # fmt: skip
     sound = driver if options.sound and track.has_sound else None
@@ -176,7 +108,7 @@ def _write_animation(
         run.warn("driver_has_no_sound", "The driver has no sound to keep.")
     with VideoWriter(
         out / options.animation,
-        size,
+        target.size,
         track.fps,
         options.format,
         sound=sound,

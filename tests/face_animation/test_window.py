@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from made_clip import OPENS
 
+from engine.face_animation.animation import FaceAnimation, Window
 from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import keep_ratio_images
 from engine.face_animation.layers import separate_layers
-from engine.face_animation.render import Renderer, Window
 from engine.face_animation.rig import rig_target
 from engine.media.limits import Limits
 from engine.portrait.options import PortraitOptions
@@ -23,13 +23,13 @@ def test_a_window_of_a_frame_is_that_part_of_it(woman_white: Path, mouth_opens: 
     layers = separate_layers(target)
     track = track_driver(mouth_opens, None, OPENS, Limits())
     ratios = keep_ratio_images(track, 0)
-    renderer = Renderer(track, 0, target, layers, rig_target(target, layers), options.acting())
-    motion = list(renderer.motions())[-1]
-    whole = renderer.draw(motion, ratios.ratio(motion.frame)).astype(int)
-    face = renderer.face(motion)
+    animation = FaceAnimation(target, layers, rig_target(target, layers), track, 0, options.acting())
+    motion = list(animation.motions())[-1]
+    whole = animation.draw(motion, ratios.ratio(motion.frame)).astype(int)
+    face = animation.face(motion)
     (left, top), (right, bottom) = face.min(axis=0).astype(int), face.max(axis=0).astype(int)
     window = Window(int(left) - 5, int(top) - 9, int(right) + 5, int(bottom) + 9)
-    part = renderer.draw(motion, ratios.ratio(motion.frame), window).astype(int)
+    part = animation.draw(motion, ratios.ratio(motion.frame), window).astype(int)
     assert part.shape[:2] == window.shape
     apart = np.abs(part - whole[window.pixels]).max(axis=2)
     assert (apart > 1).mean() < 0.001, "rounding at a few edges alone"

@@ -11,11 +11,11 @@ import pytest
 from made_clip import face, unpacked, write_frames
 from numpy.typing import NDArray
 
+from engine.face_animation.animation import FaceAnimation
 from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import RatioImages
 from engine.face_animation.layers import Layers, separate_layers
 from engine.face_animation.registration import register_track
-from engine.face_animation.render import render
 from engine.face_animation.rig import rig_target
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
@@ -107,7 +107,7 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     moved = np.zeros(rgb.shape[:2])
     for frame, low, high in zip(
         *(
-            render(track, 0, RatioImages(track, 0), target, some, rig, options.acting())
+            FaceAnimation(target, some, rig, track, 0, options.acting()).frames(RatioImages(track, 0))
             for some in (layers, black, white)
         ),
         strict=True,

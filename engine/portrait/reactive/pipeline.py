@@ -12,20 +12,26 @@ from numpy.typing import NDArray
 
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
+from engine.face_animation.animation import FaceAnimation, draw_in_order
 from engine.face_animation.fine_details import RatioStrip
 from engine.face_animation.head_proxy import build_head_proxy
+from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.layers import Layers
-from engine.face_animation.misfit import Misfit
 from engine.face_animation.motion import carry_motion
 from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
-from engine.face_animation.render import Renderer, draw_in_order
 from engine.face_animation.rig import Rig
+from engine.face_animation.stages import (
+    DriverPerformance,
+    analyse_driver,
+    follow_driver,
+    prepare_target,
+)
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Given
 from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
 from engine.portrait.options import PortraitOptions
-from engine.portrait.pipeline import STAGES, Performed, analyse_driver, follow, prepare_target, write_landmarks
+from engine.portrait.pipeline import STAGES, first_impression, write_landmarks
 from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
 from engine.portrait.reactive.bundle import player, write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
@@ -44,7 +50,7 @@ class Act:
     """One state's performance on the target: its poses, and the ways out of them."""
 
     state: State
-    performed: Performed
+    performance: DriverPerformance
     poses: tuple[Pose, ...]
     exits: Exits
     rest: NDArray[np.float32]
@@ -67,31 +73,31 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
         run.warn("profile_is_silent", "A reactive profile has no sound.")
     if without_effect := _without_effect(options, states):
         run.warn("options_without_effect", f"A profile like this has no use for {', '.join(without_effect)}.")
-    prepared = prepare_target(look_for_face(image, options, run), out, run)
+    target = first_impression(look_for_face(image, options, run), out, run)
+    prepared = prepare_target(target, run)
     fps = options.fps or float(FPS)
-    performed = [_analyse(state, prepared.face, fps, options, run) for state in states]
-    misfits = [one.look_again(prepared.face, prepared.details(), options, run) for one in performed]
+    performances = [_analyse(state, target, fps, options, run) for state in states]
+    residuals = [one.residuals_on(prepared, options.acting(), run) for one in performances]
     layers, rig = prepared.layers(), prepared.rig()
-    acts = plan_acts(states, performed, misfits, prepared.face, rig, options)
-    _draw(acts, prepared.face, layers, rig, options, fps, out, run)
-    profile = _describe(acts, prepared.face, fps)
+    acts = plan_acts(states, performances, residuals, target, rig, options)
+    _draw(acts, target, layers, rig, options, fps, out, run)
+    profile = _describe(acts, target, fps)
     (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
     write_bundle(out / "profile.zip", out, profile)
-    told = performed[-1 if states[-1].own else 0]  # the one whose neutral frame can be chosen, if there is one
-    write_landmarks(out / "landmarks.json", prepared.face, told.track, told.neutral)
-    height, width = prepared.face.rgb.shape[:2]
+    told = performances[-1 if states[-1].own else 0]  # the one whose neutral frame can be chosen, if there is one
+    write_landmarks(out / "landmarks.json", target, told.track, told.neutral)
     write_report(
         out / "report.json",
         "portrait",
         run,
         inputs={
-            "size": [width, height],
+            "size": list(target.size),
             "fps": fps,
             "frames": sum(len(act.poses) for act in acts),
-            "faces": in_pixels(prepared.face.faces),
+            "faces": in_pixels(target.faces),
             "driver_faces": [
                 box
-                for state, one in zip(states, performed, strict=True)
+                for state, one in zip(states, performances, strict=True)
                 if state.own
                 for box in in_pixels(one.track.faces)
             ],
@@ -99,7 +105,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
             "bridges": {act.state.name: len(act.exits.frames) for act in acts},
             "animation": options.animation,
         },
-        quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performed])))},
+        quality={"driver_face_share": float(np.mean(np.concatenate([one.track.found for one in performances])))},
     )
 
 
@@ -111,10 +117,10 @@ def _without_effect(options: PortraitOptions, states: Sequence[State]) -> list[s
     return [name for name in ("loop", *of_one_s_own) if getattr(options, name) != usual[name].default]
 
 
-def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> Performed:
+def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOptions, run: Run) -> DriverPerformance:
     """A driver's analysis, the same that a portrait driven by it alone would make where the frame rates agree."""
     if not state.own:
-        tracking = follow(state.video, options.fps, None, 0, run)
+        tracking = follow_driver(state.video, options.fps, None, 0, run)
         return analyse_driver(tracking, lambda track: NeutralFrame(round(_frame(state, track.fps)), "chosen"), run)
     trim = options.trim
     if trim is None and probe_video(state.video, run.limits).seconds > MOST_SECONDS:
@@ -122,12 +128,12 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
         run.warn(
             "driver_shortened", f"The first {MOST_SECONDS:.0f} seconds of the driver are used: trim chooses others."
         )
-    tracking = follow(state.video, fps, trim, options.driver_face_index, run)
-    performed = analyse_driver(
+    tracking = follow_driver(state.video, fps, trim, options.driver_face_index, run)
+    performance = analyse_driver(
         tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run
     )
-    warn_of_unrest(performed.choice, run.warn)
-    return performed
+    warn_of_unrest(performance.choice, run.warn)
+    return performance
 
 
 def _frame(state: State, fps: float) -> float:
@@ -137,8 +143,8 @@ def _frame(state: State, fps: float) -> float:
 
 def plan_acts(
     states: Sequence[State],
-    performed: Sequence[Performed],
-    misfits: Sequence[Misfit | None],
+    performances: Sequence[DriverPerformance],
+    residuals: Sequence[LandmarkResiduals | None],
     target: TargetFace,
     rig: Rig,
     options: PortraitOptions,
@@ -146,15 +152,17 @@ def plan_acts(
     """The poses of all states, and the ways out of them, before anything is drawn."""
     proxy = build_head_proxy(rig.control.points, target.mesh) if options.head_3d else None
     poses, rests = [], []
-    for state, one, misfit in zip(states, performed, misfits, strict=True):
-        motions = list(carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options.acting(), misfit))
+    for state, one, corrected in zip(states, performances, residuals, strict=True):
+        motions = list(
+            carry_motion(one.track, one.neutral, target.mesh, rig.control, proxy, options.acting(), corrected)
+        )
         rests.append(motions[one.neutral].depth)
         poses.append(excursion(motions, rests[-1], one.track.fps, state.loops))
     steps = [longest_step(one, state.loops) for state, one in zip(states, poses, strict=True)]
     pace = Stride(max(step.head for step in steps), max(step.furthest for step in steps))
     return [
         Act(state, one, acted, find_exits(acted, step, pace), rest)
-        for state, one, acted, step, rest in zip(states, performed, poses, steps, rests, strict=True)
+        for state, one, acted, step, rest in zip(states, performances, poses, steps, rests, strict=True)
     ]
 
 
@@ -163,20 +171,19 @@ def _draw(
     out: Path, run: Run,
 ) -> None:  # fmt: skip
     """All clips, their bridges, all of it in one animation, and the poster."""
-    height, width = target.rgb.shape[:2]
-    size = (width, height)
+    size = target.size
     mark = run.mark_synthetic
     with VideoWriter(out / options.animation, size, fps, synthetic=mark) as whole:
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
-                track, neutral, ratios = act.performed.track, act.performed.neutral, act.performed.ratios
-                renderer = Renderer(track, neutral, target, layers, rig, options.acting())
+                track, neutral, ratios = act.performance.track, act.performance.neutral, act.performance.ratios
+                animation = FaceAnimation(target, layers, rig, track, neutral, options.acting())
                 name = out / clip_name(act.state)
                 clip = files.enter_context(VideoWriter(name, size, fps, entries=(0,), synthetic=mark))
                 segments = act.exits.segments()
                 total = len(act.poses) + sum(one.opens + one.length + HOLD for one in segments)
                 done = 0
-                for frame in draw_in_order(renderer, _with_ratios(act.poses, ratios)):
+                for frame in draw_in_order(animation, _with_ratios(act.poses, ratios)):
                     if done == 0 and act.state.name == IDLE:
                         write_still(out / "poster.jpg", frame, mark)
                     clip.write(frame)
@@ -188,7 +195,7 @@ def _draw(
                 entries = [one.start - 1 for one in segments if one.opens]
                 name = out / bridges_name(act.state)
                 bridges = files.enter_context(VideoWriter(name, size, fps, entries=entries, synthetic=mark))
-                for frame in draw_in_order(renderer, _with_ratios(act.bridges(), ratios)):
+                for frame in draw_in_order(animation, _with_ratios(act.bridges(), ratios)):
                     bridges.write(frame)
                     done += 1
                     run.tick(done / total, f"{act.state.name}: frame {done} of {total}")
@@ -212,7 +219,6 @@ def bridges_name(state: State) -> str:
 
 
 def _describe(acts: Sequence[Act], target: TargetFace, fps: float) -> Profile:
-    height, width = target.rgb.shape[:2]
     states, transitions = {}, {}
     for act in acts:
         state = act.state
@@ -231,6 +237,6 @@ def _describe(acts: Sequence[Act], target: TargetFace, fps: float) -> Profile:
         )
     triggers = [TriggerPart.model_validate(one) for one in default_triggers([act.state for act in acts])]
     return Profile(
-        size=(width, height), fps=fps, poster="poster.jpg", initial=IDLE,
+        size=target.size, fps=fps, poster="poster.jpg", initial=IDLE,
         states=states, transitions=transitions, triggers=triggers,
     )  # fmt: skip

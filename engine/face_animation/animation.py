@@ -1,4 +1,9 @@
-"""The frames of the animation, one by one: everything that a frame needs is prepared once."""
+"""The one door: a target's face and a tracked driver go in, drawn frames come out.
+
+What this needs of the target is made by `stages.prepare_target`, of the driver by `stages.analyse_driver`. Everything that
+a frame needs is prepared once. From the back: the background plate; the person as a layer with face, hair and neck,
+warped; creases; lids and gaze; the inside of the mouth.
+"""
 
 from __future__ import annotations
 
@@ -14,25 +19,23 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.driver import DriverTrack
-from engine.face_animation.eyes import closing, draw_eye, prepare_eyes
+from engine.face_animation.eyes_and_lids import EyesAndLids
 from engine.face_animation.fine_details import shade
 from engine.face_animation.head_proxy import build_head_proxy
-from engine.face_animation.hidden_regions import match_palette, transfer_mouth, uncovered
+from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.layers import Layers
-from engine.face_animation.lid_skin import draw_lid, lid_skins
-from engine.face_animation.misfit import Misfit
 from engine.face_animation.motion import ControlMotion, carry_motion
+from engine.face_animation.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
-from engine.face_animation.teeth import draw_teeth, shown_teeth
 from engine.imaging.composite import doubled, over, warp_layer
 from engine.imaging.fold_edges import smooth_folds
 from engine.perception.landmarks import MESH_SIZE
 
-AHEAD = 2
+FRAMES_AHEAD = 2
 """Frames in the making for each thread: keeps all cores busy, holds little memory."""
 
-FOLD = 8.0
+FOLD_DISTANCE = 8.0
 """Pixels of the enlarged picture by which neighbours are apart where lips or lids fold over the skin beside them."""
 
 
@@ -66,34 +69,50 @@ class Window(NamedTuple):
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
 
-class Renderer:
-    """A target ready to act out a driver: what all frames share."""
+class FaceAnimation:
+    """A target's face ready to act out a driver.
+
+    Parameters
+    ----------
+    target, layers, rig : the picture with its face, cut into layers, and made ready to move.
+    track, neutral : the driver, registered, and its frame that shows what the target shows.
+    options : how the target follows it. residuals : what is corrected, see `tracking_refinement`.
+    mouth : what is seen between the lips; by default the driver's mouth.
+    keep_alpha : whether the frames of a cut-out target stay transparent.
+    """
 
     def __init__(
         self,
-        track: DriverTrack,
-        neutral: int,
         target: TargetFace,
         layers: Layers,
         rig: Rig,
+        track: DriverTrack,
+        neutral: int,
         options: ActingOptions,
-        misfit: Misfit | None = None,
+        residuals: LandmarkResiduals | None = None,
         parts: Parts = ALL_PARTS,
+        mouth: MouthInterior | None = None,
         keep_alpha: bool = False,
     ):
-        self._track, self._neutral, self._target, self._rig, self._misfit = track, neutral, target, rig, misfit
-        self._options, self._parts = options, parts
+        self._target, self._rig, self._track, self._neutral = target, rig, track, neutral
+        self._options, self._residuals = options, residuals
         opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
         self._person = doubled(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and keep_alpha
-        self._eyes = prepare_eyes(target.rgb, target.mesh) if parts.eyes else (None, None)
-        self._lids = lid_skins(target.rgb, target.mesh) if parts.eyes else []
-        self._teeth = shown_teeth(target.rgb, target.mesh) if parts.hidden else None
-        self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
+        self._eyes = EyesAndLids(target) if parts.eyes else None
+        self._mouth = (mouth or DriverMouth(target, track, neutral)) if parts.hidden else None
         self._landing = rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
+
+    def frames(self, ratios: Iterable[NDArray[np.float32]]) -> Iterator[NDArray[np.uint8]]:
+        """The target acting out the whole driver: one (H, W, 3) uint8 frame for each of its frames, (H, W, 4) where alpha
+        is kept.
+
+        `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame. Memory does not grow with the length.
+        """
+        return draw_in_order(self, zip(self.motions(), ratios, strict=True))
 
     def motions(self) -> Iterator[ControlMotion]:
         """Where the control points go, frame by frame (section 4)."""
@@ -102,7 +121,7 @@ class Renderer:
     def carry(self, track: DriverTrack, neutral: int) -> Iterator[ControlMotion]:
         """Where a track of the driver, or of some of its frames, carries the control points."""
         proxy = build_head_proxy(self._rig.control.points, self._target.mesh) if self._options.head_3d else None
-        return carry_motion(track, neutral, self._target.mesh, self._rig.control, proxy, self._options, self._misfit)
+        return carry_motion(track, neutral, self._target.mesh, self._rig.control, proxy, self._options, self._residuals)
 
     def face(self, motion: ControlMotion) -> NDArray[np.float32]:
         """(478, 2) where a motion puts the face's points, pixels."""
@@ -111,7 +130,7 @@ class Renderer:
     def draw(
         self, motion: ControlMotion, ratio: NDArray[np.float32], window: Window | None = None
     ) -> NDArray[np.uint8]:
-        """One frame, or a `window` of it that holds the face: the warp, the plate behind, the creases, the eyes, the mouth's inside."""
+        """One frame, or a `window` of it that holds the face; `ratio` (*CROP,) float32 is the driver's ratio image there."""
         window = window or Window(0, 0, *self._plate.shape[1::-1])
         corner = np.array([window.left, window.top], np.float32)
         moved = self._rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
@@ -119,55 +138,27 @@ class Renderer:
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
         layer = warp_layer(self._person, origin)
         frame = over(layer, np.ascontiguousarray(self._plate[window.pixels]))
-        smooth_folds(frame, origin, FOLD, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
+        smooth_folds(frame, origin, FOLD_DISTANCE, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = self.face(motion) - corner
         if self._creases > 0:
             shade(frame, self._rig.details, self._landing, ratio, origin, 2, face, self._creases)
-        for side, eye in enumerate(self._eyes):
-            if eye is not None:
-                draw_lid(frame, self._lids[side], face, side, closing(eye, face, side))
-                draw_eye(frame, eye, face, side, motion.look[side])
-        inside = uncovered(face, self._palette)
-        if self._teeth is not None:
-            draw_teeth(frame, self._teeth, face, 1 - inside)
-        if self._parts.hidden and inside > 0:
-            transfer_mouth(
-                frame, face, self._track.crop(motion.frame), self._track.in_crop(motion.frame), self._palette
-            )
+        if self._eyes is not None:
+            self._eyes.draw(frame, face, motion.look)
+        if self._mouth is not None:
+            self._mouth.draw(frame, face, motion.frame)
         return np.dstack([frame, layer[..., 3]]) if self._keep_alpha else frame
 
 
-def render(
-    track: DriverTrack,
-    neutral: int,
-    ratios: Iterable[NDArray[np.float32]],
-    target: TargetFace,
-    layers: Layers,
-    rig: Rig,
-    options: ActingOptions,
-    misfit: Misfit | None = None,
-    keep_alpha: bool = False,
-) -> Iterator[NDArray[np.uint8]]:
-    """The target acting out the driver: one (H, W, 3) uint8 frame for each frame of the driver.
-
-    `ratios` are the driver's ratio images, one (*CROP,) float32 for each frame; `misfit` corrects what a second look
-    found amiss. A cut-out target gives (H, W, 4) where its alpha is to be kept. Frames are drawn side by side on all cores and
-    given in order; memory does not grow with the length.
-    """
-    renderer = Renderer(track, neutral, target, layers, rig, options, misfit, keep_alpha=keep_alpha)
-    yield from draw_in_order(renderer, zip(renderer.motions(), ratios, strict=True))
-
-
 def draw_in_order(
-    renderer: Renderer, poses: Iterable[tuple[ControlMotion, NDArray[np.float32]]]
+    animation: FaceAnimation, poses: Iterable[tuple[ControlMotion, NDArray[np.float32]]]
 ) -> Iterator[NDArray[np.uint8]]:
-    """A frame for each pose, drawn side by side on all cores: what `Renderer.draw` makes of motion and ratio image."""
+    """A frame for each pose, drawn side by side on all cores: what `draw` makes of motion and ratio image."""
     threads = os.cpu_count() or 1
     waiting: deque[Future[NDArray[np.uint8]]] = deque()
     with ThreadPoolExecutor(threads, thread_name_prefix="render") as pool:
         for motion, ratio in poses:
-            waiting.append(pool.submit(renderer.draw, motion, ratio))
-            if len(waiting) > AHEAD * threads:
+            waiting.append(pool.submit(animation.draw, motion, ratio))
+            if len(waiting) > FRAMES_AHEAD * threads:
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()

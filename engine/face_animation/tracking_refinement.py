@@ -1,6 +1,6 @@
-"""A second look: what a tracker sees in the made face is held against what it sees in the driver's.
+"""A second look: what a tracker sees in the drawn face is held against what it sees in the driver's.
 
-Control points go where they should, and still the made face may look otherwise: a nose that was carried to the side
+Control points go where they should, and still the drawn face may look otherwise: a nose that was carried to the side
 keeps the shading of a nose seen from the front, and seems turned by less. So a few frames are drawn, tracked, and
 compared with the driver's own, both in the same crop and by the same eye: its errors cancel. What is left corrects
 all frames, each by those that it resembles.
@@ -19,25 +19,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
+from engine.face_animation.animation import FaceAnimation, Window
 from engine.face_animation.appearance import CROP, crop_place
 from engine.face_animation.driver import DriverTrack
 from engine.face_animation.fine_details import DetailRegion, RatioStrip
+from engine.face_animation.landmark_residuals import LandmarkResiduals, fit_residuals, flat, no_residuals
 from engine.face_animation.layers import uncut
-from engine.face_animation.misfit import Misfit, fit_misfit, flat, no_misfit
-from engine.face_animation.render import Renderer, Window
 from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
 
-LOOKS = 24
-"""Frames that are looked at, besides the neutral one."""
-MOST_FRAMES = 1024
-"""Among this many, evenly spread over the driver, they are chosen."""
+OBSERVED_FRAMES = 24
+"""How many frames are looked at, besides the neutral one."""
+CANDIDATE_FRAMES = 1024
+"""Among how many at most, evenly spread over the driver, they are chosen."""
 
 
 @dataclass(frozen=True)
-class Glances:
+class DriverObservations:
     """The driver's face where it is looked at: in `frames` (K,), the neutral one first; `seen` (K, 478, 2) float32 is
     what a tracker sees there by itself, pixels of the crop, NaN where it sees no face."""
 
@@ -45,48 +45,48 @@ class Glances:
     seen: NDArray[np.float32]
 
 
-def glance_at_driver(track: DriverTrack, neutral: int) -> Glances:
+def observe_driver(track: DriverTrack, neutral: int) -> DriverObservations:
     """Look at the driver's most different faces, without what was seen before or after."""
     frames = _most_different(track, neutral)
-    return Glances(np.array(frames), _see(lambda k: track.crop(frames[k]), len(frames)))
+    return DriverObservations(np.array(frames), _see(lambda k: track.crop(frames[k]), len(frames)))
 
 
-def look_again(
+def refine_tracking(
     track: DriverTrack,
     neutral: int,
-    glances: Glances,
+    observations: DriverObservations,
     ratios: RatioStrip,
     target: TargetFace,
     details: DetailRegion,
     options: ActingOptions,
     tick: Callable[[float], None] = lambda fraction: None,
     cores: Callable[[], int] = lambda: 1,
-) -> Misfit:
-    """What is amiss on the target where the driver was glanced at.
+) -> LandmarkResiduals:
+    """The residuals on the target where the driver was observed.
 
     Of the target its face alone matters: the picture acts as a whole, before the person is cut out of it.
 
     Parameters
     ----------
     ratios : the driver's, one for each frame. details : where its creases go to.
-    options : how the target moves.
+    options : how the target follows.
     cores : how many may look: more than are idle would only be in the way of what works beside.
 
     Returns
     -------
-    Nothing amiss anywhere if the tracker sees no face on the target itself.
+    No residuals if the tracker sees no face on the target itself.
     """
-    frames = glances.frames.tolist()
+    frames = observations.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
     layers = uncut(target)
-    renderer = Renderer(track, neutral, target, layers, rig_target(target, layers, details), options)
-    motions = [replace(motion, frame=frames[motion.frame]) for motion in renderer.carry(some, frames.index(neutral))]
-    placed = [renderer.face(motion) for motion in motions]
+    animation = FaceAnimation(target, layers, rig_target(target, layers, details), track, neutral, options)
+    motions = [replace(motion, frame=frames[motion.frame]) for motion in animation.carry(some, frames.index(neutral))]
+    placed = [animation.face(motion) for motion in motions]
     places = [crop_place(face) for face in placed]
 
     def made(k: int) -> NDArray[np.uint8]:
         window = _seen_by(places[k], target.rgb.shape[:2])
-        drawn = renderer.draw(motions[k], ratios.ratio(frames[k]), window)[..., :3]
+        drawn = animation.draw(motions[k], ratios.ratio(frames[k]), window)[..., :3]
         place = places[k].copy()
         place[:, 2] += place[:, :2] @ (window.left, window.top)
         crop = cv2.warpAffine(drawn, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
@@ -94,10 +94,10 @@ def look_again(
 
     meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
     faces = np.stack([track.in_crop(frame) for frame in frames])
-    amiss = (_see(made, len(frames), tick, cores()) - meant) - (glances.seen - faces)
-    amiss -= amiss[0]  # at rest nothing is
-    known = np.asarray(np.isfinite(amiss).all(axis=(1, 2)))
-    return fit_misfit(faces[known], amiss[known]) if known[0] else no_misfit()
+    measured = (_see(made, len(frames), tick, cores()) - meant) - (observations.seen - faces)
+    measured -= measured[0]  # at rest there is none
+    known = np.asarray(np.isfinite(measured).all(axis=(1, 2)))
+    return fit_residuals(faces[known], measured[known]) if known[0] else no_residuals()
 
 
 def _seen_by(place: NDArray[np.float64], shape: tuple[int, int]) -> Window:
@@ -111,11 +111,11 @@ def _seen_by(place: NDArray[np.float64], shape: tuple[int, int]) -> Window:
 
 def _most_different(track: DriverTrack, neutral: int) -> list[int]:
     """The frames whose faces differ most from each other, beginning with the neutral one."""
-    step = -(-len(track) // MOST_FRAMES)
+    step = -(-len(track) // CANDIDATE_FRAMES)
     among = [neutral, *range(0, len(track), step)]
     faces = flat(np.stack([track.in_crop(frame) for frame in among]))
     chosen, apart = [0], ((faces - faces[0]) ** 2).mean(axis=1)
-    while len(chosen) <= LOOKS and apart.max() > 0:
+    while len(chosen) <= OBSERVED_FRAMES and apart.max() > 0:
         chosen.append(int(apart.argmax()))
         apart = np.minimum(apart, ((faces - faces[chosen[-1]]) ** 2).mean(axis=1))
     return [among[k] for k in chosen]

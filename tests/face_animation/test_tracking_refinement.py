@@ -13,16 +13,25 @@ from made_face import driver as made_driver
 from made_face import in_crop, opened, placed, smiling
 from numpy.typing import NDArray
 
+from engine.face_animation.animation import FaceAnimation
 from engine.face_animation.appearance import CROP, crop_place
 from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import detail_region, keep_ratio_images
+from engine.face_animation.landmark_residuals import (
+    CORRECTED_SHARE,
+    CORRECTED_SHARE_AT_LIPS,
+    CROP_EYE_DISTANCE,
+    MAX_RESIDUAL,
+    RIDGE,
+    LandmarkResiduals,
+    fit_residuals,
+    no_residuals,
+)
 from engine.face_animation.layers import separate_layers
 from engine.face_animation.lids_and_lips import LIDS, LIPS
-from engine.face_animation.misfit import LIPS_SHARE, MOST, SCATTER, SHARE, UNIT, Misfit, fit_misfit, no_misfit
 from engine.face_animation.registration import register_track
-from engine.face_animation.render import Renderer
 from engine.face_animation.rig import rig_target
-from engine.face_animation.second_look import LOOKS, glance_at_driver, look_again
+from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, observe_driver, refine_tracking
 from engine.media.limits import Limits
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
@@ -37,52 +46,52 @@ CHIN = 152
 
 def amiss(x: float, y: float) -> NDArray[np.float64]:
     """Nothing at rest; all points off by so many eye distances when the mouth is open."""
-    return np.stack([np.zeros((478, 2)), np.tile((x * UNIT, y * UNIT), (478, 1))])
+    return np.stack([np.zeros((478, 2)), np.tile((x * CROP_EYE_DISTANCE, y * CROP_EYE_DISTANCE), (478, 1))])
 
 
-def corrected(misfit: Misfit, face: NDArray, placed: NDArray) -> NDArray[np.float32]:
+def corrected(residuals: LandmarkResiduals, face: NDArray, placed: NDArray) -> NDArray[np.float32]:
     """The correction of one frame, (478, 2)."""
-    return misfit.corrections(face[None], placed[None, :, :2])[0]
+    return residuals.corrections(face[None], placed[None, :, :2])[0]
 
 
 def test_a_frame_that_was_looked_at_loses_its_share_of_what_was_amiss() -> None:
     """The two faces are far apart, so that each weight is what was amiss over 1 + the ridge."""
-    misfit = fit_misfit(FACES, amiss(0.02, -0.01))
-    found = corrected(misfit, FACES[1], OPEN)[CHIN]
-    assert found == pytest.approx(-SHARE / (1 + SCATTER) * 60 * np.array([0.02, -0.01]), abs=0.02)
-    assert np.abs(corrected(misfit, FACES[0], REST)).max() < 0.02
+    residuals = fit_residuals(FACES, amiss(0.02, -0.01))
+    found = corrected(residuals, FACES[1], OPEN)[CHIN]
+    assert found == pytest.approx(-CORRECTED_SHARE / (1 + RIDGE) * 60 * np.array([0.02, -0.01]), abs=0.02)
+    assert np.abs(corrected(residuals, FACES[0], REST)).max() < 0.02
 
 
 def test_a_face_unlike_all_is_left_alone() -> None:
     other = smiling(placed(60, (150, 150), yaw=25), 0.4)
-    assert np.abs(corrected(fit_misfit(FACES, amiss(0.05, 0)), in_crop(other)[:, :2], other)).max() < 0.05
+    assert np.abs(corrected(fit_residuals(FACES, amiss(0.05, 0)), in_crop(other)[:, :2], other)).max() < 0.05
 
 
 def test_corrections_are_upright_and_as_large_as_the_face() -> None:
     """On a head that lies on its side and is twice as large, right is down, and twice as far."""
-    misfit = fit_misfit(FACES, amiss(0.02, 0))
-    one = corrected(misfit, FACES[1], OPEN)
+    residuals = fit_residuals(FACES, amiss(0.02, 0))
+    one = corrected(residuals, FACES[1], OPEN)
     lying = opened(placed(120, (150, 150)), 0.5)[:, :2] @ np.array([[0, 1], [-1, 0]])
-    two = corrected(misfit, FACES[1], lying)
+    two = corrected(residuals, FACES[1], lying)
     np.testing.assert_allclose(two[CHIN], 2 * one[CHIN] @ np.array([[0, 1], [-1, 0]]), atol=1e-4)
 
 
 def test_no_more_is_believed_than_a_tracker_can_tell() -> None:
-    found = corrected(fit_misfit(FACES, amiss(10 * MOST, 0)), FACES[1], OPEN)[CHIN]
-    assert found == pytest.approx((-SHARE / (1 + SCATTER) * 60 * MOST, 0), abs=0.02)
+    found = corrected(fit_residuals(FACES, amiss(10 * MAX_RESIDUAL, 0)), FACES[1], OPEN)[CHIN]
+    assert found == pytest.approx((-CORRECTED_SHARE / (1 + RIDGE) * 60 * MAX_RESIDUAL, 0), abs=0.02)
 
 
 def test_frames_are_corrected_together_as_each_by_itself() -> None:
     rng = np.random.default_rng(3)
-    misfit = fit_misfit(FACES, rng.normal(0, 0.03 * UNIT, (2, 478, 2)))
+    residuals = fit_residuals(FACES, rng.normal(0, 0.03 * CROP_EYE_DISTANCE, (2, 478, 2)))
     placed = np.stack([REST[:, :2], OPEN[:, :2]])
-    together = misfit.corrections(FACES, placed)
+    together = residuals.corrections(FACES, placed)
     for k in range(2):
-        np.testing.assert_allclose(together[k], corrected(misfit, FACES[k], placed[k]), atol=1e-5)
+        np.testing.assert_allclose(together[k], corrected(residuals, FACES[k], placed[k]), atol=1e-5)
 
 
 def test_nothing_known_corrects_nothing() -> None:
-    assert not corrected(no_misfit(), FACES[1], OPEN).any()
+    assert not corrected(no_residuals(), FACES[1], OPEN).any()
 
 
 @pytest.mark.parametrize("pairs", [LIPS, LIDS], ids=["lips", "lids"])
@@ -90,28 +99,28 @@ def test_what_is_closed_stays_closed(pairs) -> None:
     """A tracker that finds closed lips or lids apart moves both by the same; on open ones each by its own."""
     top, bottom = np.array(pairs).T
     wrong = amiss(0, 0)
-    wrong[1, top, 1], wrong[1, bottom, 1] = 0.02 * UNIT, -0.02 * UNIT
-    misfit = fit_misfit(FACES, wrong)
+    wrong[1, top, 1], wrong[1, bottom, 1] = 0.02 * CROP_EYE_DISTANCE, -0.02 * CROP_EYE_DISTANCE
+    residuals = fit_residuals(FACES, wrong)
     closed = REST.copy()
     closed[bottom] = closed[top]
-    still = corrected(misfit, FACES[1], closed)
+    still = corrected(residuals, FACES[1], closed)
     np.testing.assert_allclose(still[top], still[bottom], atol=1e-6)
-    moved = corrected(misfit, FACES[1], OPEN)
+    moved = corrected(residuals, FACES[1], OPEN)
     middle = len(top) // 2 if pairs is LIPS else 3
-    share = LIPS_SHARE if pairs is LIPS else SHARE
-    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * share / (1 + SCATTER) * 1.2, abs=0.1)
+    share = CORRECTED_SHARE_AT_LIPS if pairs is LIPS else CORRECTED_SHARE
+    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * share / (1 + RIDGE) * 1.2, abs=0.1)
 
 
 def test_the_neutral_frame_is_glanced_at_first_and_the_others_differ(tmp_path: Path) -> None:
     meshes = [opened(REST, 0.02 * k) for k in range(60)]
-    glances = glance_at_driver(made_driver(tmp_path, meshes), 7)
-    assert glances.frames[0] == 7 and 59 in glances.frames
-    assert len(set(glances.frames.tolist())) == len(glances.frames) == LOOKS + 1
-    assert np.isnan(glances.seen).all()  # the pictures are plain skin
+    observations = observe_driver(made_driver(tmp_path, meshes), 7)
+    assert observations.frames[0] == 7 and 59 in observations.frames
+    assert len(set(observations.frames.tolist())) == len(observations.frames) == OBSERVED_FRAMES + 1
+    assert np.isnan(observations.seen).all()  # the pictures are plain skin
 
 
 def test_a_driver_that_never_moves_is_glanced_at_once(tmp_path: Path) -> None:
-    assert glance_at_driver(made_driver(tmp_path, [REST] * 30), 4).frames.tolist() == [4]
+    assert observe_driver(made_driver(tmp_path, [REST] * 30), 4).frames.tolist() == [4]
 
 
 def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, mouth_opens) -> None:
@@ -123,20 +132,20 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     rig = rig_target(target, layers)
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 2), Limits())
     track = replace(track, meshes=register_track(track, 0).meshes)
-    ratios, glances = keep_ratio_images(track, 0), glance_at_driver(track, 0)
-    misfit = look_again(track, 0, glances, ratios, target, rig.details, options.acting())
-    plain = Renderer(track, 0, target, layers, rig, options.acting())
-    better = Renderer(track, 0, target, layers, rig, options.acting(), misfit)
+    ratios, observations = keep_ratio_images(track, 0), observe_driver(track, 0)
+    residuals = refine_tracking(track, 0, observations, ratios, target, rig.details, options.acting())
+    plain = FaceAnimation(target, layers, rig, track, 0, options.acting())
+    better = FaceAnimation(target, layers, rig, track, 0, options.acting(), residuals)
     meant = [plain.face(motion) for motion in plain.motions()]
     left = {}
     with FaceTracker(alone=True) as tracker:
-        for name, renderer in (("plain", plain), ("better", better)):
+        for name, animation in (("plain", plain), ("better", better)):
             apart = []
-            for motion in renderer.motions():
+            for motion in animation.motions():
                 frame, place = motion.frame, crop_place(meant[motion.frame])
-                if frame in glances.frames[1:]:
+                if frame in observations.frames[1:]:
                     continue
-                picture = renderer.draw(motion, ratios.ratio(frame))
+                picture = animation.draw(motion, ratios.ratio(frame))
                 crop = cv2.warpAffine(picture, place, CROP[::-1], borderMode=cv2.BORDER_REPLICATE)
                 ours, theirs = tracker(np.asarray(crop, np.uint8))[0], tracker(track.crop(frame))[0]
                 carried = meant[frame] @ place[:, :2].T + place[:, 2]
@@ -153,5 +162,5 @@ def test_where_the_tracker_sees_no_face_nothing_is_corrected(woman_white, mouth_
     target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
     target = replace(target, rgb=np.full_like(target.rgb, 128))
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 0.3), Limits())
-    given = track, 0, glance_at_driver(track, 0), keep_ratio_images(track, 0)
-    assert len(look_again(*given, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0
+    given = track, 0, observe_driver(track, 0), keep_ratio_images(track, 0)
+    assert len(refine_tracking(*given, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0
