@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from engine import character, portrait
-from engine.character import motion_check
+from engine import character, motion_check, portrait
 from engine.kind import Kind
 from engine.portrait import moments
 

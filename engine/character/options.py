@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from engine.motion.options import JointName, MotionClip, MotionJoints
 from engine.render.camera_moves import Move
 
 Side = Annotated[int, Field(ge=64, le=4096)]
@@ -15,21 +16,6 @@ Angle = Annotated[float, Field(ge=-180, le=180)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 Part = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg"]
-JointName = Annotated[str, Field(max_length=40)]
-MotionJoints = Annotated[
-    dict[JointName, Annotated[str, Field(max_length=200)] | None],
-    Field(
-        max_length=100,
-        description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
-    ),
-]
-MotionClip = Annotated[
-    str | None,
-    Field(
-        max_length=200,
-        description="Which of a GLB's animations is played, by its name; by default the first in which something moves.",
-    ),
-]
 BodyPart = Literal["head", "torso", "left_arm", "right_arm", "left_leg", "right_leg", "arms", "legs"]
 
 

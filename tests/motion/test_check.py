@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton, told_by
 
-from engine.character.motion_check import KIND, MotionOptions
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.check import check_motion
@@ -20,6 +19,7 @@ from engine.motion.library import built_in
 from engine.motion.reading import motion_clips, read_motion
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
+from engine.motion_check import KIND, MotionOptions
 from engine.run import Run
 
 

@@ -16,9 +16,7 @@ KINDS = "tiny_kind:KIND,tiny_kind:SHORT,tiny_kind:BRIEF"
 def busy(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterator[tuple[Running, dict[str, Any]]]:
     """A service whose only slot has a job that lasts, and that job."""
     data = tmp_path_factory.mktemp("busy") / "data"
-    with Running(
-        data, kinds=f"{KINDS},engine.character.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5
-    ) as running:
+    with Running(data, kinds=f"{KINDS},engine.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5) as running:
         long = running.submit(picture, seconds=3000)
         running.until_at_rest(long["id"])
         yield running, long

@@ -12,13 +12,13 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
-from engine.character.options import MotionClip, MotionJoints
 from engine.kind import Given, Input, Kind, Needs
+from engine.motion.options import MotionClip, MotionJoints
 from engine.run import Run, write_report
 
 STAGES = {"read": 4.0, "map_joints": 1.0}
-MOST_CLIPS = 1000
-"""Animations of a file that are told."""
+MAX_NAMES_TOLD = 1000
+"""Animations, and skeletons, of a file that are told of."""
 
 
 class MotionOptions(BaseModel):
@@ -56,8 +56,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     document = {
         **figures,
         "loops": checked.loops,
-        "clips": list(motion_clips(path)[:MOST_CLIPS]),
-        "skeletons": list(motion.skeletons[:MOST_CLIPS]),
+        "clips": list(motion_clips(path)[:MAX_NAMES_TOLD]),
+        "skeletons": list(motion.skeletons[:MAX_NAMES_TOLD]),
         "joints": [
             {"name": name, "parent": parent} for name, parent in zip(checked.joints, checked.parents, strict=True)
         ],

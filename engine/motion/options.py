@@ -1,0 +1,23 @@
+"""What a user may choose about a motion, whatever is moved by it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+JointName = Annotated[str, Field(max_length=40)]
+MotionJoints = Annotated[
+    dict[JointName, Annotated[str, Field(max_length=200)] | None],
+    Field(
+        max_length=100,
+        description='Which joint of the motion\'s file moves which of the character\'s, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.',
+    ),
+]
+MotionClip = Annotated[
+    str | None,
+    Field(
+        max_length=200,
+        description="Which of a GLB's animations is played, by its name; by default the first in which something moves.",
+    ),
+]
