@@ -98,7 +98,7 @@ def _pass_on(source: int, target: int, asked: int, passed: threading.Event) -> N
             while True:
                 ready = {key.fd for key, _ in selector.select(0 if ending else None)}
                 text = os.read(source, PIECE) if source in ready else b""
-                rest = _sift(rest + text, target)
+                rest = sift(rest + text, target)
                 if source in ready and not text:
                     break
                 if ending and not text:
@@ -121,7 +121,7 @@ def _told(rest: bytes, target: int) -> bytes:
     return b""
 
 
-def _sift(text: bytes, target: int) -> bytes:
+def sift(text: bytes, target: int) -> bytes:
     """Pass on all but noise; returns the beginning of a line of which that cannot be told yet."""
     *lines, rest = text.split(b"\n")
     kept = b"".join(line + b"\n" for line in lines if not NOISE.match(line))

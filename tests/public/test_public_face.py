@@ -222,7 +222,7 @@ print("after", file=sys.stderr, end="")
 
 
 def test_lines_are_passed_on_as_they_come(tmp_path: Path) -> None:
-    from galatea.noise import _sift
+    from galatea.noise import sift
 
     theirs = b"W0000 00:00:1795655370.648436    1615 a_calculator.cc:114] Feedback manager\n"
     with (tmp_path / "heard").open("wb", 0) as heard:
@@ -238,7 +238,7 @@ def test_lines_are_passed_on_as_they_come(tmp_path: Path) -> None:
             b"\n",
             b"Im",
         ):
-            rest = _sift(rest + piece, heard.fileno())
+            rest = sift(rest + piece, heard.fileno())
         assert rest == b"" and (tmp_path / "heard").read_bytes() == b"a prompt> \nIm"
 
 
