@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta, timezone
@@ -10,6 +12,7 @@ import pytest
 from sqlalchemy import select, text
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
+from service import tables
 from service.database.sessions import Database
 from service.ids import is_id, new_id
 from service.tables.base import moment_in
@@ -30,6 +33,13 @@ def file(created_at: datetime | None = None) -> File:
     return File(
         id=new_id(), owner="local", name="a", content_type="image/png", size=1, sha256="0" * 64, created_at=moment
     )
+
+
+def test_the_database_knows_all_tables_whoever_opens_it() -> None:
+    program = "from service.database.sessions import Base; print(*Base.metadata.tables)"
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert {"artifacts", "drivers", "jobs", "keys", "webhooks"} <= set(told.split())
+    assert len(told.split()) == len(set(tables.__all__) - {"Base"})
 
 
 def test_many_may_bring_it_up_to_date_at_once(database_url: str) -> None:

@@ -12,6 +12,7 @@ from running import ROOT, Running, eventually
 
 from service.catalogue.registry import load_kinds
 from service.kinds.schemas import KindOut
+from service.libraries.library import LIBRARIES
 from service.settings import Settings
 
 
@@ -31,6 +32,20 @@ def test_the_openapi_document_names_every_operation_of_the_contract(running: Run
     assert "ProblemDocument" in document["components"]["schemas"]
     references = set(re.findall(r'"#/components/schemas/(\w+)"', running.client.get("/v1/openapi.json").text))
     assert references <= set(document["components"]["schemas"])
+
+
+def test_every_library_has_the_same_endpoints(running: Running) -> None:
+    paths = running.client.get("/v1/openapi.json").json()["paths"]
+    for library in LIBRARIES.values():
+        assert set(paths[library.address]) == {"get", "post"}
+        assert set(paths[f"{library.address}/{{name}}"]) == {"get", "patch", "delete"}
+        inspections = [
+            operation["operationId"]
+            for path, item in paths.items()
+            for operation in item.values()
+            if path.startswith(f"{library.address}/{{name}}/") and "202" in operation["responses"]
+        ]
+        assert len(inspections) == 1 and inspections[0].endswith(f"_{library.noun}")
 
 
 def test_kinds_describe_their_inputs_and_options(running: Running) -> None:
