@@ -162,9 +162,9 @@ def _files(settings: Settings) -> Iterator[Finding]:
 
 
 def _performances(settings: Settings) -> Iterator[Finding]:
-    from service.catalogue import built_in as library
+    from service.catalogue import built_in
 
-    yield Finding("ok", f"built-in performances: {', '.join(library.names('performances'))}")
+    yield Finding("ok", f"built-in performances: {', '.join(built_in.names('performances'))}")
 
 
 def _folder(settings: Settings) -> Iterator[Finding]:

@@ -23,7 +23,7 @@ from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
 from engine.unknown_options import explained
-from service.catalogue import built_in as library
+from service.catalogue import built_in
 from service.settings import MEGABYTE, Settings
 from shell.cli_error import CliError
 from shell.option_flags import flag_of, form_of, given_options, option_flags
@@ -86,10 +86,10 @@ def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
 
 def _names_of(item: Input) -> Callable[[click.Context, click.Parameter, str], list[CompletionItem]]:
     """What a shell offers where the input is asked for: what is built in, and files."""
-    built_in = (*library.names(item.library), *([AUTO] if item.auto else [])) if item.library is not None else ()
+    names = (*built_in.names(item.library), *([AUTO] if item.auto else [])) if item.library is not None else ()
 
     def complete(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-        found = [CompletionItem(name) for name in built_in if name.startswith(begun)]
+        found = [CompletionItem(name) for name in names if name.startswith(begun)]
         return [*found, CompletionItem(begun, type="dir" if item.many else "file")]
 
     return complete
@@ -103,13 +103,13 @@ def _input(item: Input, given: str | None) -> Given | None:
         return tuple(sorted(one for one in path.iterdir() if one.is_file() and not one.name.startswith(".")))
     if path.is_file():
         return (path,) if item.many else path
-    offered = library.names(item.library) if item.library is not None else ()
+    offered = built_in.names(item.library) if item.library is not None else ()
     if item.auto and given == AUTO:
-        return Candidates({name: library.item(item.library or "", name) for name in offered})
+        return Candidates({name: built_in.item(item.library or "", name) for name in offered})
     if given in offered:
-        return library.item(item.library or "", given)
-    built_in = f", nor a built-in one of this name ({', '.join(offered)})" if item.library is not None else ""
-    raise CliError(f"{item.name}: there is no file {given}{built_in}")
+        return built_in.item(item.library or "", given)
+    nor_named = f", nor a built-in one of this name ({', '.join(offered)})" if item.library is not None else ""
+    raise CliError(f"{item.name}: there is no file {given}{nor_named}")
 
 
 def _name(given: str | None) -> str | None:

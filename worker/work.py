@@ -21,7 +21,7 @@ from engine.media.limits import Limits
 from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run, Turn
 from engine.store import StageStore
-from service.catalogue import built_in as library
+from service.catalogue import built_in
 
 
 class Wire:
@@ -103,7 +103,7 @@ def local(source: Any) -> Any:
         return tuple(local(one) for one in source)
     if isinstance(source, dict) and "candidates" in source:
         return Candidates({name: local(one) for name, one in source["candidates"].items()})
-    return library.item(source["library"], source["name"]) if isinstance(source, dict) else Path(source)
+    return built_in.item(source["library"], source["name"]) if isinstance(source, dict) else Path(source)
 
 
 def files_of(given: Given) -> tuple[Path, ...]:

@@ -6,7 +6,7 @@ import pytest
 from running import Running
 
 from engine.performances import STATES
-from service.catalogue import built_in as library
+from service.catalogue import built_in
 from service.libraries.library import DRIVERS
 
 
@@ -148,7 +148,7 @@ def test_auto_offers_the_library_and_ones_own_drivers_to_the_job(
     assert job["status"] == "succeeded", job["error"]
     assert job["inputs"]["driver"] == "auto"
     report = running.client.get(job["artifacts"]["report.json"]["url"]).json()
-    installed = {name: library.item(DRIVERS.library, name).stat().st_size for name in DRIVERS.built_in}
+    installed = {name: built_in.item(DRIVERS.name, name).stat().st_size for name in DRIVERS.built_in}
     assert report["inputs"]["candidates"] == {**installed, "own": len(video)}
 
     # a revision chooses from the same files, the driver's deletion notwithstanding
