@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts, draw_in_order
-from engine.face_animation.driver import DriverTrack, track_driver
+from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import RatioImages, keep_ratio_images
 from engine.face_animation.layers import Layers, separate_layers
 from engine.face_animation.neutral import choose_neutral_frame
@@ -21,6 +21,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import observe_driver, refine_tracking
 from engine.media.image import write_image
 from engine.media.limits import Limits
+from engine.perception.face_track.track import FaceTrack
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 
@@ -29,7 +30,7 @@ from engine.portrait.target import find_target_face
 class Acting:
     """Everything that `render` needs."""
 
-    track: DriverTrack
+    track: FaceTrack
     neutral: int
     target: TargetFace
     layers: Layers
@@ -61,7 +62,7 @@ def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) 
     return target, layers, rig_target(target, layers)
 
 
-def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[DriverTrack, int]:
+def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[FaceTrack, int]:
     """A clip as a driver for a target, its meshes on the skin."""
     track = track_driver(path, None, None, Limits())
     chosen = choose_neutral_frame(track, target.mesh, neutral).frame

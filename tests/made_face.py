@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP, CROP_EYES
-from engine.face_animation.driver import DriverTrack
-from engine.face_animation.film_strip import FilmStripWriter
 from engine.geometry.rigid import fit_similarity
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.film_strip import FilmStripWriter
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS
 
@@ -115,7 +115,7 @@ def driver(
     pictures: Sequence[NDArray[np.uint8]] | None = None,
     periphery: NDArray[np.float32] | None = None,
     size: tuple[int, int] = (200, 200),
-) -> DriverTrack:
+) -> FaceTrack:
     """A driver's analysis with these meshes; `pictures` are its crops (uint8, (*CROP, 3)), plain skin if None."""
     eyes = np.array(CROP_EYES)
     places = [
@@ -132,7 +132,7 @@ def driver(
     strip = replace(strip, file=Path(shutil.move(strip.file, folder / "crops.jpegs")))
     points = np.zeros((len(meshes), 0, 2), np.float32) if periphery is None else periphery
     stack = np.array(meshes, np.float32)
-    return DriverTrack(
+    return FaceTrack(
         size=size,
         fps=25.0,
         times=np.arange(len(meshes) + 1) / 25,

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.eyes_and_lids import EyesAndLids
 from engine.face_animation.fine_details import shade
 from engine.face_animation.head_proxy import build_head_proxy
@@ -30,6 +29,7 @@ from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.composite import doubled, over, warp_layer
 from engine.imaging.fold_edges import smooth_folds
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import MESH_SIZE
 
 FRAMES_AHEAD = 2
@@ -86,7 +86,7 @@ class FaceAnimation:
         target: TargetFace,
         layers: Layers,
         rig: Rig,
-        track: DriverTrack,
+        track: FaceTrack,
         neutral: int,
         options: ActingOptions,
         residuals: LandmarkResiduals | None = None,
@@ -118,7 +118,7 @@ class FaceAnimation:
         """Where the control points go, frame by frame (section 4)."""
         return self.carry(self._track, self._neutral)
 
-    def carry(self, track: DriverTrack, neutral: int) -> Iterator[ControlMotion]:
+    def carry(self, track: FaceTrack, neutral: int) -> Iterator[ControlMotion]:
         """Where a track of the driver, or of some of its frames, carries the control points."""
         proxy = build_head_proxy(self._rig.control.points, self._target.mesh) if self._options.head_3d else None
         return carry_motion(track, neutral, self._target.mesh, self._rig.control, proxy, self._options, self._residuals)

@@ -18,15 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.face_animation.appearance import CROP, CROP_EYES
-from engine.face_animation.driver import DriverTrack
-from engine.face_animation.film_strip import FilmStrip, FilmStripWriter
 from engine.face_animation.head_motion import turns
 from engine.face_animation.outliers import Outliers, find_outliers
 from engine.geometry.rigid import fit_similarity
 from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.film_strip import FilmStrip, FilmStripWriter
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 
 BRIGHTENING = 0.01
@@ -164,7 +164,7 @@ class RatioStrip:
 
 
 def keep_ratio_images(
-    track: DriverTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
+    track: FaceTrack, neutral: int, tick: Callable[[float], None] = lambda fraction: None
 ) -> RatioStrip:
     """The refined ratio images of a driver on its neutral frame: the same for every target."""
     with FilmStripWriter(RATIO_QUALITY) as writer:
@@ -178,7 +178,7 @@ def keep_ratio_images(
 class RatioImages:
     """The ratio images of a driver, in order, on its neutral crop."""
 
-    def __init__(self, track: DriverTrack, neutral: int, outliers: bool = True, refined: bool = True):
+    def __init__(self, track: FaceTrack, neutral: int, outliers: bool = True, refined: bool = True):
         self._track = track
         self._rest = track.in_crop(neutral)[:468]
         self._triangles = delaunay(self._rest)
@@ -245,7 +245,7 @@ class RatioImages:
         return np.where(origin[..., 0] > -1000, ratio, 1).astype(np.float32), origin
 
 
-def most_expressive(track: DriverTrack, neutral: int) -> int:
+def most_expressive(track: FaceTrack, neutral: int) -> int:
     """s_ref: the frame whose fiducials are furthest from the neutral's after a similarity (section 6)."""
     rest = fiducials(track.meshes[neutral, :, :2]).astype(float)
     far = []

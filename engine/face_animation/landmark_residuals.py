@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP_EYES
 from engine.face_animation.lids_and_lips import LID_SKIN, LIDS, LIPS
+from engine.perception.face_track.face_crop import CROP_EYES
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
 

@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from engine.face_animation.appearance import between
-from engine.face_animation.driver import DriverTrack
+from engine.perception.face_track.face_crop import between
+from engine.perception.face_track.track import FaceTrack
 
 EASE_SECONDS = 0.6
 """The end eases into the beginning over this long, or half the clip if that is shorter."""
 
 
-def close_loop(track: DriverTrack) -> DriverTrack:
+def close_loop(track: FaceTrack) -> FaceTrack:
     """The same track, its last frames led smoothly to where the first begins, the face's looks with it.
 
     The frame after the last is the first: the weight of the beginning would reach 1 just there.
@@ -23,9 +23,9 @@ def close_loop(track: DriverTrack) -> DriverTrack:
     t = np.arange(1, frames + 1) / (frames + 1)
     weight = (t * t * (3 - 2 * t)).astype(np.float32)
     meshes, places = track.meshes.copy(), track.crop_places.copy()
-    first, crops = track.appearance(0), []
+    first, crops = track.face_crop(0), []
     for frame, share in zip(range(count - frames, count), weight.tolist(), strict=True):
-        look = between(track.appearance(frame), first, share)
+        look = between(track.face_crop(frame), first, share)
         meshes[frame], places[frame] = look.mesh, look.place
         crops.append(look.crop)
     periphery, trust = track.periphery.copy(), track.trust.copy()

@@ -13,7 +13,6 @@ from engine.face_animation.acting_options import ActingOptions, Part
 from engine.face_animation.alignment import align
 from engine.face_animation.contour import keep_inside, rim_distance
 from engine.face_animation.control_points import ControlPoints, carry_fiducials, carry_periphery
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.expression_transfer import carry_expression, local_maps
 from engine.face_animation.eyes import gaze
 from engine.face_animation.head_motion import HeadMotion, split_motion, turns
@@ -22,6 +21,7 @@ from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.lids_and_lips import lid_ratio, meet
 from engine.face_animation.lips_and_skin import keep_lips_off_skin, lips_room
 from engine.geometry.rigid import Similarity
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance
 
@@ -54,7 +54,7 @@ class ControlMotion:
 
 
 def carry_motion(
-    track: DriverTrack,
+    track: FaceTrack,
     neutral: int,
     target: NDArray[np.float32],
     control: ControlPoints,

@@ -7,10 +7,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.hidden_regions import match_palette, transfer_mouth, uncovered
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.teeth import draw_teeth, shown_teeth
+from engine.perception.face_track.track import FaceTrack
 
 
 class MouthInterior(Protocol):
@@ -25,7 +25,7 @@ class DriverMouth:
     """The driver's mouth in the target's colours (section 5), where the target's lips part further than in its picture; up
     to there the teeth that the picture itself shows."""
 
-    def __init__(self, target: TargetFace, track: DriverTrack, neutral: int):
+    def __init__(self, target: TargetFace, track: FaceTrack, neutral: int):
         self._track = track
         self._teeth = shown_teeth(target.rgb, target.mesh)
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))

@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from engine.errors import InputError
-from engine.face_animation.driver import DriverTrack
-from engine.face_animation.expression import lopsided
 from engine.face_animation.eyes import look
 from engine.face_animation.head_motion import turns
-from engine.face_animation.measures import (
+from engine.perception.expression.features import lopsided
+from engine.perception.expression.measures import (
     FACE,
     LIDS,
     MEASURES,
@@ -31,6 +30,7 @@ from engine.face_animation.measures import (
     lowered,
     measure,
 )
+from engine.perception.face_track.track import FaceTrack
 
 LOWERED = 4.0
 """How much lowered lids count, as a share of how far they are usually open."""
@@ -74,7 +74,7 @@ class NeutralFrame:
     reason: Reason
 
 
-def choose_neutral_frame(track: DriverTrack, target: NDArray[np.floating], chosen: int | None) -> NeutralFrame:
+def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen: int | None) -> NeutralFrame:
     """The frame of the driver that shows what the target shows: rest, or the expression that the target wears.
 
     Parameters
@@ -158,7 +158,7 @@ def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> 
 
 
 def _torn(
-    track: DriverTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
+    track: FaceTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
 ) -> NDArray[np.float64]:
     """(N,) square of how far each frame's mouth is torn aside, in `TORN`: from where it is at rest, which is even but for as
     much, or from the target's where that is torn."""

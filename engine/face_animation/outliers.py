@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.face_animation.driver import DriverTrack
 from engine.geometry.rigid import Similarity, fit_similarity
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import fiducials
 
 SIGNIFICANT = 1.1
@@ -51,7 +51,7 @@ class Outliers:
 
 
 def find_outliers(
-    ratio: NDArray[np.float32], origin: NDArray[np.float32], track: DriverTrack, neutral: int, reference: int
+    ratio: NDArray[np.float32], origin: NDArray[np.float32], track: FaceTrack, neutral: int, reference: int
 ) -> Outliers:
     """Judge the components of significant ratios in the reference frame.
 

@@ -17,12 +17,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP, CROP_EYES
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.teeth import PARTED
 from engine.face_animation.unseen_blinks import eye_contrast, shut_by_contrast
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import (
     FACE_OVAL,
     LEFT_EYE,
@@ -64,7 +64,7 @@ class Registration:
 
 
 def register_track(
-    track: DriverTrack,
+    track: FaceTrack,
     neutral: int,
     tick: Callable[[float], None] = lambda fraction: None,
     out: NDArray[np.float32] | None = None,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.driver import DriverTrack, track_driver
+from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
 from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.layers import Layers, separate_layers
@@ -21,6 +21,7 @@ from engine.face_animation.registration import register_track
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import DriverObservations, observe_driver, refine_tracking
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.models import matting_model
 from engine.run import Beside, Run
 
@@ -49,7 +50,7 @@ class DriverPerformance:
     """A driver's performance: its `track` on the skin, the `choice` of its neutral frame, its `ratios`, the `observations`
     of it."""
 
-    track: DriverTrack
+    track: FaceTrack
     choice: NeutralFrame
     ratios: RatioStrip
     observations: DriverObservations
@@ -68,14 +69,14 @@ class DriverPerformance:
 
 def follow_driver(
     driver: Path, fps: float | None, trim: tuple[float, float] | None, face_index: int, run: Run
-) -> Beside[DriverTrack]:
+) -> Beside[FaceTrack]:
     """Begin to follow one of the driver's faces, which nothing else has to wait for."""
     given = driver, fps, trim, run.limits, face_index
     return run.beside("track_driver", track_driver, *given, run.tick, run.warn, shared=True)
 
 
 def analyse_driver(
-    tracking: Beside[DriverTrack], neutral_of: Callable[[DriverTrack], NeutralFrame], run: Run, loop: bool = False
+    tracking: Beside[FaceTrack], neutral_of: Callable[[FaceTrack], NeutralFrame], run: Run, loop: bool = False
 ) -> DriverPerformance:
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
     track = tracking.once()

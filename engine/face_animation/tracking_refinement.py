@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Window
-from engine.face_animation.appearance import CROP, crop_place
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.fine_details import DetailRegion, RatioStrip
 from engine.face_animation.landmark_residuals import LandmarkResiduals, fit_residuals, flat, no_residuals
 from engine.face_animation.layers import uncut
 from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
+from engine.perception.face_track.face_crop import CROP, crop_place
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
 
@@ -45,14 +45,14 @@ class DriverObservations:
     seen: NDArray[np.float32]
 
 
-def observe_driver(track: DriverTrack, neutral: int) -> DriverObservations:
+def observe_driver(track: FaceTrack, neutral: int) -> DriverObservations:
     """Look at the driver's most different faces, without what was seen before or after."""
     frames = _most_different(track, neutral)
     return DriverObservations(np.array(frames), _see(lambda k: track.crop(frames[k]), len(frames)))
 
 
 def refine_tracking(
-    track: DriverTrack,
+    track: FaceTrack,
     neutral: int,
     observations: DriverObservations,
     ratios: RatioStrip,
@@ -109,7 +109,7 @@ def _seen_by(place: NDArray[np.float64], shape: tuple[int, int]) -> Window:
     return Window(*low.astype(int).tolist(), *high.astype(int).tolist())
 
 
-def _most_different(track: DriverTrack, neutral: int) -> list[int]:
+def _most_different(track: FaceTrack, neutral: int) -> list[int]:
     """The frames whose faces differ most from each other, beginning with the neutral one."""
     step = -(-len(track) // CANDIDATE_FRAMES)
     among = [neutral, *range(0, len(track), step)]

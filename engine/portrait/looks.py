@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.expression import expression, frontal
 from engine.geometry.rigid import fit_similarities
 from engine.media.limits import Limits
 from engine.media.video import read_video
+from engine.perception.expression.features import expression, frontal
 from engine.perception.head_pose import canonical_face, head_pose
 from engine.perception.landmarks import RIGID, eye_distance
 from engine.perception.one_face import OneFace

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.neutral import choose_neutral_frame, warn_of_unrest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import fiducials
 from engine.portrait.choice import choose_driver
 from engine.portrait.options import PortraitOptions
@@ -100,7 +100,7 @@ def first_impression(looking: Beside[TargetFace], out: Path, run: Run) -> Target
 
 
 def _write_animation(
-    frames: Iterator[NDArray[np.uint8]], target: TargetFace, track: DriverTrack, neutral: int,
+    frames: Iterator[NDArray[np.uint8]], target: TargetFace, track: FaceTrack, neutral: int,
     options: PortraitOptions, driver: Path, out: Path, run: Run,
 ) -> None:  # fmt: skip
     sound = driver if options.sound and track.has_sound else None
@@ -126,7 +126,7 @@ def _write_animation(
             run.tick((index + 1) / len(track))
 
 
-def write_landmarks(path: Path, target: TargetFace, track: DriverTrack, neutral: int) -> None:
+def write_landmarks(path: Path, target: TargetFace, track: FaceTrack, neutral: int) -> None:
     """The target's 68 points in the pixels of the original picture, for correction by hand."""
     scale = target.place[0, 0]
     points = (fiducials(target.mesh[:, :2]) + 0.5 - target.place[:, 2]) / scale - 0.5

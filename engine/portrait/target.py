@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
-from engine.face_animation.expression import EXPRESSION, expression
 from engine.face_animation.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
+from engine.perception.expression.features import EXPRESSION, expression
 from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
 from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening

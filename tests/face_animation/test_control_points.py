@@ -9,8 +9,8 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.control_points import ControlPoints, carry_periphery, place_control_points
-from engine.face_animation.periphery import fading
 from engine.geometry.rigid import Similarity
+from engine.perception.face_track.periphery import fading
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (240, 200)

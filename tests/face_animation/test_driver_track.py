@@ -13,16 +13,17 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.appearance import CROP, CROP_EYES
-from engine.face_animation.driver import DriverTrack, track_driver
+from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import keep_ratio_images
-from engine.face_animation.held_face import EASE_BACK
 from engine.face_animation.loop import close_loop
-from engine.face_animation.periphery import PeripheryTracker
 from engine.face_animation.registration import register_track
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.held_face import EASE_BACK
+from engine.perception.face_track.periphery import PeripheryTracker
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker, find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.run import Run
@@ -45,7 +46,7 @@ def whole(frames, tmp_path_factory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def track(whole: Path) -> DriverTrack:
+def track(whole: Path) -> FaceTrack:
     return track_driver(whole, None, None, LIMITS)
 
 
@@ -60,7 +61,7 @@ def shifted(frame: NDArray[np.uint8], by: float) -> NDArray[np.uint8]:
     return np.asarray(cv2.warpAffine(frame, matrix, frame.shape[1::-1], borderMode=cv2.BORDER_REPLICATE))
 
 
-def test_every_frame_has_a_mesh_on_its_face(frames, track: DriverTrack, whole: Path) -> None:
+def test_every_frame_has_a_mesh_on_its_face(frames, track: FaceTrack, whole: Path) -> None:
     assert len(track) == len(frames)
     assert track.found.all()
     assert track.size == frames[0].shape[1::-1]
@@ -68,7 +69,7 @@ def test_every_frame_has_a_mesh_on_its_face(frames, track: DriverTrack, whole: P
     assert away.mean() < 0.02 * float(eye_distance(track.meshes[0, :, :2]))
 
 
-def test_crops_show_the_face_in_its_place_and_are_small(track: DriverTrack, frames) -> None:
+def test_crops_show_the_face_in_its_place_and_are_small(track: FaceTrack, frames) -> None:
     eyes = np.array(CROP_EYES)
     for index in (0, len(track) - 1):
         crop, mesh = track.crop(index), track.in_crop(index)
@@ -108,7 +109,7 @@ def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, 
 
 
 @pytest.fixture(scope="module")
-def vanished(frames, tmp_path_factory) -> tuple[DriverTrack, list[str], NDArray[np.float32]]:
+def vanished(frames, tmp_path_factory) -> tuple[FaceTrack, list[str], NDArray[np.float32]]:
     """The face is gone for some frames and comes back further to the right; the warnings; the true shifts."""
     shift = np.array([0.0 if i < BLANK.stop else MOVED for i in range(len(frames))], np.float32)
     acted = [
@@ -130,7 +131,7 @@ def test_where_the_face_is_gone_it_holds(vanished) -> None:
     assert np.linalg.norm(still[0] - track.meshes[BLANK.start - 1, :, :2], axis=-1).mean() < 0.03 * unit
 
 
-def test_when_it_comes_back_it_eases_back(vanished, track: DriverTrack) -> None:
+def test_when_it_comes_back_it_eases_back(vanished, track: FaceTrack) -> None:
     """No step is a jump, and after the easing it is where it is seen."""
     found, _, shift = vanished
     centre = found.meshes[..., :2].mean(axis=1)
@@ -215,7 +216,7 @@ def test_lips_open_most_on_the_same_frame(clip, tmp_path: Path, name: str, start
     assert int(mouth_opening(track.meshes).argmax()) == peak
 
 
-def test_lips_and_lids_keep_their_moments_and_their_depth(track: DriverTrack, whole: Path) -> None:
+def test_lips_and_lids_keep_their_moments_and_their_depth(track: FaceTrack, whole: Path) -> None:
     """Against the unfiltered landmarks: lips peak on the same frame, blinks keep 95 % of their depth."""
     raw = unfiltered(whole)
     assert int(mouth_opening(track.meshes).argmax()) == int(mouth_opening(raw).argmax())
@@ -289,7 +290,7 @@ def covers(frame: NDArray[np.uint8], mesh: NDArray[np.floating], colour: tuple[i
 @pytest.mark.parametrize("shaded", [False, True])
 @pytest.mark.parametrize("colour", [(150, 120, 105), (215, 175, 155), (205, 160, 140)])
 def test_what_covers_a_face_is_none_whatever_its_colour(
-    frames, track: DriverTrack, tmp_path: Path, colour: tuple[int, int, int], shaded: bool
+    frames, track: FaceTrack, tmp_path: Path, colour: tuple[int, int, int], shaded: bool
 ) -> None:
     """A hand has the colours by which a tracker goes on."""
     hidden = slice(12, 24)
@@ -317,6 +318,6 @@ def test_a_face_with_nothing_around_it_to_follow_has_no_points_in_any_frame() ->
     assert points.shape == (4, 0, 2) and trust.shape == (4, 0)
 
 
-def test_a_track_without_points_around_can_be_closed(track: DriverTrack) -> None:
+def test_a_track_without_points_around_can_be_closed(track: FaceTrack) -> None:
     none = replace(track, periphery=track.periphery[:, :0], trust=track.trust[:, :0])
     assert close_loop(none).periphery.shape == (len(track), 0, 2)

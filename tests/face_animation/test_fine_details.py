@@ -12,8 +12,6 @@ import pytest
 from made_face import SKIN, driver, in_crop, painted, placed, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.fine_details import (
     BRIGHTENING,
     DARKEST,
@@ -29,6 +27,8 @@ from engine.face_animation.fine_details import (
     most_expressive,
     shade,
 )
+from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
@@ -48,11 +48,11 @@ def with_crease(depth: float) -> NDArray[np.uint8]:
     return picture
 
 
-def track_of(folder: Path, pictures: list[NDArray[np.uint8]], meshes: list[NDArray] | None = None) -> DriverTrack:
+def track_of(folder: Path, pictures: list[NDArray[np.uint8]], meshes: list[NDArray] | None = None) -> FaceTrack:
     return driver(folder, meshes or [FACE] * len(pictures), pictures)
 
 
-def ratios(track: DriverTrack, outliers: bool = False, refined: bool = True) -> RatioImages:
+def ratios(track: FaceTrack, outliers: bool = False, refined: bool = True) -> RatioImages:
     return RatioImages(track, 0, outliers, refined)
 
 

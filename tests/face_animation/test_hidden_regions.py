@@ -10,7 +10,6 @@ import pytest
 from made_face import DARK, SKIN, in_crop, opened, painted, placed
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP
 from engine.face_animation.hidden_regions import (
     APPEARS,
     LEAST_AREA,
@@ -23,6 +22,7 @@ from engine.face_animation.hidden_regions import (
     relight,
     transfer_mouth,
 )
+from engine.perception.face_track.face_crop import CROP
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 SIZE = (320, 340)

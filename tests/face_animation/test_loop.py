@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from made_face import driver, in_crop, opened, painted, placed
 
-from engine.face_animation.appearance import CROP
 from engine.face_animation.fine_details import keep_ratio_images
 from engine.face_animation.loop import close_loop
+from engine.perception.face_track.face_crop import CROP
 
 
 @pytest.mark.parametrize("count", [2, 3, 10, 100])

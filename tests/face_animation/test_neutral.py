@@ -11,9 +11,7 @@ from made_face import driver, opened, placed, shut, smiling
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.driver import DriverTrack, track_driver
-from engine.face_animation.expression import expression, lopsided
-from engine.face_animation.measures import MEASURES, general_rest, measure
+from engine.face_animation.driver import track_driver
 from engine.face_animation.neutral import (
     choose_neutral_frame,
     probable_rest,
@@ -24,6 +22,9 @@ from engine.face_animation.neutral import (
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
+from engine.perception.expression.features import expression, lopsided
+from engine.perception.expression.measures import MEASURES, general_rest, measure
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.performances import video
@@ -68,19 +69,19 @@ def rest() -> NDArray[np.float32]:
 
 
 @pytest.fixture
-def track(tmp_path: Path, rest: NDArray) -> DriverTrack:
+def track(tmp_path: Path, rest: NDArray) -> FaceTrack:
     return driver(tmp_path, clip(rest))
 
 
-def taken(track: DriverTrack, target: NDArray, chosen: int | None = None) -> int:
+def taken(track: FaceTrack, target: NDArray, chosen: int | None = None) -> int:
     return choose_neutral_frame(track, target, chosen).frame
 
 
-def test_it_is_the_frame_at_rest(track: DriverTrack, rest: NDArray) -> None:
+def test_it_is_the_frame_at_rest(track: FaceTrack, rest: NDArray) -> None:
     assert taken(track, rest) == REST
 
 
-def test_the_target_s_size_and_place_do_not_count(track: DriverTrack) -> None:
+def test_the_target_s_size_and_place_do_not_count(track: FaceTrack) -> None:
     assert taken(track, placed(160, (700, 500))) == REST
 
 
@@ -89,28 +90,28 @@ def test_a_driver_that_moves_in_the_picture_has_the_same(tmp_path: Path, rest: N
     assert taken(driver(tmp_path, moved), rest) == REST
 
 
-def test_a_target_with_an_open_mouth_is_matched_with_an_open_mouth(track: DriverTrack, rest: NDArray) -> None:
+def test_a_target_with_an_open_mouth_is_matched_with_an_open_mouth(track: FaceTrack, rest: NDArray) -> None:
     assert taken(track, opened(rest, 0.2)) in (0, 4, 8, 16)
 
 
-def test_a_turned_target_is_matched_with_a_turned_head(track: DriverTrack) -> None:
+def test_a_turned_target_is_matched_with_a_turned_head(track: FaceTrack) -> None:
     """The paper assumes a frontal target; differences against a turned frame suit a turned one."""
     assert taken(track, placed(50, (100, 100), yaw=20, pitch=8)) % 4 == 3
 
 
-def test_frames_without_a_face_are_not_taken(track: DriverTrack, rest: NDArray) -> None:
+def test_frames_without_a_face_are_not_taken(track: FaceTrack, rest: NDArray) -> None:
     found = np.ones(20, bool)
     found[REST] = False
     assert taken(replace(track, found=found), rest) != REST
 
 
-def test_the_user_s_choice_counts(track: DriverTrack, rest: NDArray) -> None:
+def test_the_user_s_choice_counts(track: FaceTrack, rest: NDArray) -> None:
     choice = choose_neutral_frame(track, rest, 5)
     assert (choice.frame, choice.reason) == (5, "chosen")
 
 
 @pytest.mark.parametrize("chosen", [20, 999])
-def test_a_choice_beyond_the_clip_is_refused(track: DriverTrack, rest: NDArray, chosen: int) -> None:
+def test_a_choice_beyond_the_clip_is_refused(track: FaceTrack, rest: NDArray, chosen: int) -> None:
     with pytest.raises(InputError) as caught:
         choose_neutral_frame(track, rest, chosen)
     assert caught.value.code == "neutral_frame_out_of_range"

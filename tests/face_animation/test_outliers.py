@@ -10,10 +10,10 @@ import pytest
 from made_face import SKIN, driver, in_crop, placed, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP, CROP_EYES
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.fine_details import DARKEST, RatioImages
 from engine.face_animation.outliers import SEARCH, SIGNIFICANT, match_differences
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.track import FaceTrack
 
 FACE = placed(70, (100, 100))
 ACTED = smiling(FACE, 0.2)
@@ -44,7 +44,7 @@ def pictures(shift: tuple[float, float] = (4.0, 2.0)) -> list[NDArray[np.uint8]]
 
 
 @pytest.fixture
-def track(tmp_path: Path) -> DriverTrack:
+def track(tmp_path: Path) -> FaceTrack:
     """Neutral, half-way, smiling."""
     neutral, acted = pictures()
     half = ((neutral.astype(int) + acted) // 2).astype(np.uint8)
@@ -56,7 +56,7 @@ def at(image: NDArray, place: tuple[int, int], reach: int = 9) -> NDArray:
     return image[y - reach : y + reach + 1, x - reach : x + reach + 1]
 
 
-def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: DriverTrack) -> None:
+def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: FaceTrack) -> None:
     raw = RatioImages(track, 0, outliers=False).single(2)
     refined = RatioImages(track, 0, outliers=True).single(2)
     assert at(raw, SHADOW, 14).min() < 1 / SIGNIFICANT - 0.1  # without it, the shadow would be carried over
@@ -65,7 +65,7 @@ def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: DriverTrack) 
     assert at(refined, CREASE).min() == pytest.approx(at(raw, CREASE).min(), abs=0.05)
 
 
-def test_it_is_removed_from_every_frame(track: DriverTrack) -> None:
+def test_it_is_removed_from_every_frame(track: FaceTrack) -> None:
     """Judged once, in the most expressive frame, and propagated by similarities (section 6)."""
     images = RatioImages(track, 0, outliers=True)
     assert at(images.single(1), SHADOW, 14).min() > 0.99

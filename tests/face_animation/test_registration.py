@@ -10,9 +10,9 @@ import pytest
 from made_face import SKIN, driver, opened, placed
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP
-from engine.face_animation.driver import DriverTrack
 from engine.face_animation.registration import register_track
+from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
@@ -36,20 +36,20 @@ def moved(picture: NDArray[np.uint8], shift: NDArray) -> NDArray[np.uint8]:
 
 
 @pytest.fixture(scope="module")
-def slipped(tmp_path_factory) -> DriverTrack:
+def slipped(tmp_path_factory) -> FaceTrack:
     """The skin has moved in the later frames, the tracker's mesh has not."""
     pictures = [skin()] * 6 + [moved(skin(), SHIFT)] * 6
     return driver(tmp_path_factory.mktemp("slipped"), [FACE] * 12, pictures)
 
 
-def test_the_skin_s_shift_is_found(slipped: DriverTrack) -> None:
+def test_the_skin_s_shift_is_found(slipped: FaceTrack) -> None:
     found = register_track(slipped, 0).meshes - slipped.meshes
     scale = float(np.linalg.norm(slipped.crop_places[0][:, 0]))
     np.testing.assert_allclose(found[9, CHEEKS, :2] * scale, np.broadcast_to(SHIFT, (6, 2)), atol=0.4)
     assert np.abs(found[2, CHEEKS, :2] * scale).max() < 0.2
 
 
-def test_lids_lips_and_depth_stay_as_tracked(slipped: DriverTrack) -> None:
+def test_lids_lips_and_depth_stay_as_tracked(slipped: FaceTrack) -> None:
     found = register_track(slipped, 0).meshes
     for contour in (RIGHT_EYE, LIPS_INNER):
         np.testing.assert_allclose(found[:, list(contour)], slipped.meshes[:, list(contour)], atol=1e-3)
@@ -88,13 +88,13 @@ def test_a_true_track_is_left_alone(tmp_path: Path) -> None:
     assert np.abs(found[:, inner, :2]).max() < 0.4
 
 
-def test_it_tells_how_far_it_is(slipped: DriverTrack) -> None:
+def test_it_tells_how_far_it_is(slipped: FaceTrack) -> None:
     seen: list[float] = []
     register_track(slipped, 0, seen.append)
     assert seen == sorted(seen) and seen[-1] == 1.0 and len(seen) == len(slipped)
 
 
-def test_the_contour_stays_as_tracked(slipped: DriverTrack) -> None:
+def test_the_contour_stays_as_tracked(slipped: FaceTrack) -> None:
     """Beyond it the flow sees what lies behind the face, and vertices beside each other would part."""
     found = register_track(slipped, 0).meshes
     np.testing.assert_allclose(found[:, list(FACE_OVAL)], slipped.meshes[:, list(FACE_OVAL)], atol=1e-3)

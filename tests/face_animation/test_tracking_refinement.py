@@ -14,7 +14,6 @@ from made_face import in_crop, opened, placed, smiling
 from numpy.typing import NDArray
 
 from engine.face_animation.animation import FaceAnimation
-from engine.face_animation.appearance import CROP, crop_place
 from engine.face_animation.driver import track_driver
 from engine.face_animation.fine_details import detail_region, keep_ratio_images
 from engine.face_animation.landmark_residuals import (
@@ -33,6 +32,7 @@ from engine.face_animation.registration import register_track
 from engine.face_animation.rig import rig_target
 from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, observe_driver, refine_tracking
 from engine.media.limits import Limits
+from engine.perception.face_track.face_crop import CROP, crop_place
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.portrait.options import PortraitOptions

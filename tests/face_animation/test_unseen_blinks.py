@@ -10,12 +10,12 @@ import pytest
 from made_face import driver, in_crop, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP, CROP_EYES
 from engine.face_animation.driver import track_driver
 from engine.face_animation.lids_and_lips import LID_SKIN, LIDS, lid_ratio
 from engine.face_animation.registration import register_track
 from engine.face_animation.unseen_blinks import eye_contrast
 from engine.media.limits import Limits
+from engine.perception.face_track.face_crop import CROP, CROP_EYES
 from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
 
 FACE = placed(70, (100, 100))

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from benchmarks.moments import Stretch, Tally, is_right, join, judge, labels
 from engine.errors import InputError
 from engine.export.still import THUMBNAIL_BYTES
-from engine.face_animation.measures import MEASURES, measure
 from engine.media.image import read_image
 from engine.media.limits import Limits
+from engine.perception.expression.measures import MEASURES, measure
+from engine.perception.expression.prototypes import show
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.performances import STATES
@@ -24,7 +25,6 @@ from engine.portrait.moments import find_moments
 from engine.portrait.moments.gestures import swings
 from engine.portrait.moments.pipeline import Moment, work
 from engine.portrait.moments.portions import BEARABLE, Portion, find_portions
-from engine.portrait.moments.prototypes import show
 from engine.portrait.moments.rest import own_rest, unrest
 from engine.portrait.moments.watching import FPS, watch
 from engine.run import Run

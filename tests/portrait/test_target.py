@@ -13,10 +13,10 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.expression import expression
 from engine.face_animation.layers import separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
+from engine.perception.expression.features import expression
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.measures import MEASURES
+from engine.perception.expression.measures import MEASURES
 from engine.performances import State
 
 

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.export.still import write_thumbnail
-from engine.face_animation.measures import SPREAD
 from engine.kind import Given
 from engine.media.limits import Limits
 from engine.media.video import read_video
+from engine.perception.expression.measures import SPREAD
 from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
 from engine.portrait.moments.portions import Portion, find_portions

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label, median_filter
 
+from engine.perception.expression.prototypes import show
 from engine.performances import STATES, State
 from engine.performances.catalogue import Strength
 from engine.portrait.moments.gestures import gestures
-from engine.portrait.moments.prototypes import show
 from engine.portrait.moments.rest import unrest
 
 CLEARLY, STILL = 1.0, 0.5

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
-from engine.face_animation.measures import FACE, LIDS, MEASURES, SPREAD, USUAL, general_rest, lowered
+from engine.perception.expression.measures import FACE, LIDS, MEASURES, SPREAD, USUAL, general_rest, lowered
 
 UNLIKE = 0.3
 """How much being unlike a resting face in general counts, against being unlike most of what this person shows."""

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.measures import MEASURES, measure
 from engine.media.limits import Limits
 from engine.media.video import probe_video, read_video
+from engine.perception.expression.measures import MEASURES, measure
 from engine.perception.one_face import OneFace
 
 FPS = 12.0

@@ -7,7 +7,7 @@ import pytest
 from made_face import in_crop, opened, painted, placed, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import CROP, Appearance, appearance, between, crop_place
+from engine.perception.face_track.face_crop import CROP, FaceCrop, between, crop_face, crop_place
 
 REST = placed(60, (150, 120))
 OTHER = opened(smiling(placed(72, (190, 140), roll=12)), 0.35)
@@ -15,13 +15,13 @@ INSIDE = (slice(60, 250), slice(70, 220))
 """Where a face fills the crop."""
 
 
-def look(mesh: NDArray[np.float32]) -> Appearance:
-    return Appearance(mesh, crop_place(mesh), painted(in_crop(mesh), CROP[::-1]))
+def look(mesh: NDArray[np.float32]) -> FaceCrop:
+    return FaceCrop(mesh, crop_place(mesh), painted(in_crop(mesh), CROP[::-1]))
 
 
 def test_a_face_is_cut_out_upright_by_its_eyes() -> None:
     """From a picture that holds it enlarged and rolled."""
-    seen = appearance(painted(OTHER, (400, 360)), OTHER)
+    seen = crop_face(painted(OTHER, (400, 360)), OTHER)
     np.testing.assert_allclose(seen.in_crop(), in_crop(OTHER)[:, :2], atol=1e-3)
     apart = np.abs(seen.crop[INSIDE].astype(int) - look(OTHER).crop[INSIDE])
     assert apart.mean() < 4

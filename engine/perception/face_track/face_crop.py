@@ -1,4 +1,4 @@
-"""A driver's face as it looks: its mesh, and a small picture of it, upright by the eyes."""
+"""A face as it looks in a frame: its mesh, and a small picture of it, upright by the eyes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ EDGE = np.array(
 
 
 @dataclass(frozen=True)
-class Appearance:
+class FaceCrop:
     """`mesh` (478, 3) float32, pixels of the frame; `place` (2, 3) carries these to pixels of `crop`, uint8 (*CROP, 3)."""
 
     mesh: NDArray[np.float32]
@@ -42,14 +42,14 @@ def crop_place(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     return fit_similarity(eyes, np.array(CROP_EYES)).matrix()
 
 
-def appearance(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> Appearance:
+def crop_face(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> FaceCrop:
     """The face at `mesh` in a frame (H, W, 3)."""
     place = crop_place(mesh)
     crop = cv2.warpAffine(rgb, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return Appearance(mesh, place, np.asarray(crop, np.uint8))
+    return FaceCrop(mesh, place, np.asarray(crop, np.uint8))
 
 
-def between(one: Appearance, other: Appearance, share: float) -> Appearance:
+def between(one: FaceCrop, other: FaceCrop, share: float) -> FaceCrop:
     """The face on its way from one look to another, 0 is the one, 1 the other: both are warped to the mesh between them,
     and faded into each other. The inside of the mouth is of the one who opens it more."""
     mesh = (one.mesh + np.float32(share) * (other.mesh - one.mesh)).astype(np.float32)
@@ -68,9 +68,9 @@ def between(one: Appearance, other: Appearance, share: float) -> Appearance:
     inside = open_other / (open_one + open_other) if open_one + open_other > 0 else share
     shares = share + cv2.GaussianBlur(mouth, (0, 0), 1)[..., None] * (inside - share)
     crop = warped[0] + shares * (warped[1] - warped[0])
-    return Appearance(mesh, place, (crop + 0.5).astype(np.uint8))
+    return FaceCrop(mesh, place, (crop + 0.5).astype(np.uint8))
 
 
-def _opening(look: Appearance) -> float:
+def _opening(look: FaceCrop) -> float:
     """How far the mouth is open, square pixels of the crop."""
     return float(cv2.contourArea(look.in_crop()[list(LIPS_INNER)]))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.expression import frontal
 from engine.geometry.rigid import fit_similarities
+from engine.perception.expression.features import frontal
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID, eye_opening
 

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.held_face import EASE_BACK, way_back
 from engine.geometry.rigid import Similarity, fit_similarity
+from engine.perception.face_track.held_face import EASE_BACK, way_back
 from engine.perception.segmentation import selfie_mask
 
 MOST_POINTS = 100

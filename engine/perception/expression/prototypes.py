@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.measures import MEASURES
-from engine.performances import State
+from engine.perception.expression.measures import MEASURES
 
 CLEAR: Mapping[str, float] = {
     "corners_up": 0.085,
@@ -49,6 +49,9 @@ behind (AU 1 with 4) and the mouth is drawn wide (AU 20)."""
 MOST_TURN = 0.45
 """Radians of yaw from rest, beyond which one eye is seen too obliquely to tell a wink."""
 
+Shown = Literal["happy", "surprise", "anger", "fear", "sadness", "wink"]
+"""What a face can show."""
+
 Course = NDArray[np.float64]
 """A value for each frame, (N,)."""
 
@@ -77,7 +80,7 @@ class Movements:
     yaw: Course
 
 
-def show(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> dict[State, Course]:
+def show(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> dict[Shown, Course]:
     """How clearly each frame shows each of the emotions and the wink: 1 and more is clearly.
 
     Parameters
@@ -85,7 +88,7 @@ def show(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> dict[State,
     moved : (N, 12) the measures' differences from rest, without the tracker's single-frame jumps. rest : (12,).
     """
     done = movements(moved, rest)
-    return {state: prototype(done) for state, prototype in PROTOTYPES.items()}
+    return {emotion: prototype(done) for emotion, prototype in PROTOTYPES.items()}
 
 
 def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Movements:
@@ -154,7 +157,7 @@ def wink(done: Movements) -> Course:
     return _all(done.one_eye_shut, 2 - 2.2 * done.other_eye_shut, 4 * (MOST_TURN - np.abs(done.yaw)))
 
 
-PROTOTYPES: Mapping[State, Callable[[Movements], Course]] = {
+PROTOTYPES: Mapping[Shown, Callable[[Movements], Course]] = {
     "happy": happy,
     "surprise": surprise,
     "anger": anger,

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.appearance import Appearance
+from engine.perception.face_track.face_crop import FaceCrop
 from engine.perception.faces import SURE, FaceTracker
 
 LOOK = (80, 72)
@@ -45,14 +45,14 @@ class CoveredFace:
         if self._detector is not None:
             self._detector.__exit__(kind, error, trace)
 
-    def __call__(self, rgb: NDArray[np.uint8], seen: Appearance) -> bool:
+    def __call__(self, rgb: NDArray[np.uint8], seen: FaceCrop) -> bool:
         """Of the face that a tracker says it has `seen` in a frame (H, W, 3); that of the first call is the true one."""
         look = _structure(seen.crop)
         if self._first is None:
             self._first = look
         return float((look * self._first).mean()) < ALIKE and not self._detected(rgb, seen)
 
-    def _detected(self, rgb: NDArray[np.uint8], seen: Appearance) -> bool:
+    def _detected(self, rgb: NDArray[np.uint8], seen: FaceCrop) -> bool:
         if self._detector is None:
             self._detector = FaceTracker(confidence=SURE, alone=True)
         low, high = seen.mesh[:, :2].min(axis=0), seen.mesh[:, :2].max(axis=0)

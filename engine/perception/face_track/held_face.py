@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from engine.face_animation.appearance import Appearance, between
+from engine.perception.face_track.face_crop import FaceCrop, between
 
 EASE_BACK = 8
 """Frames over which what had vanished eases from its held place back to where it was found again."""
@@ -23,11 +23,11 @@ class HeldFace:
 
     def __init__(self) -> None:
         self._waiting = 0
-        self._last: Appearance | None = None
-        self._lost: Appearance | None = None
+        self._last: FaceCrop | None = None
+        self._lost: FaceCrop | None = None
         self._since = 0
 
-    def __call__(self, seen: Appearance | None) -> list[Appearance]:
+    def __call__(self, seen: FaceCrop | None) -> list[FaceCrop]:
         """How it looks in this frame, in which it is `seen` so; the first that is seen comes as often as there were frames
         up to here, and nothing before."""
         if seen is None:
