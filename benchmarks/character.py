@@ -71,7 +71,8 @@ def examine(photo: Path, asked: Mapping[str, Any], folder: Path) -> Measured:
 
 
 def _run(photo: Path, options: CharacterOptions, kept: StageStore, out: Path) -> dict[str, Any]:
-    wake_up({"photo": photo}, options, out, Run(store=kept))
+    with Run(store=kept) as run:
+        wake_up({"photo": photo}, options, out, run)
     report: dict[str, Any] = json.loads((out / "report.json").read_text())
     return report
 

@@ -78,9 +78,9 @@ def _warm(image: Path, clip: Path, folder: Path, repeats: int, frames: int) -> N
     def run(target: StageStore, driver: StageStore, clip: Path = clip) -> tuple[Run, float]:
         out = folder / "out"
         out.mkdir(exist_ok=True)
-        one = Run(store=target, shared=driver)
         started = time.perf_counter()
-        animate_portrait({"image": image, "driver": clip}, PortraitOptions(), out, one)
+        with Run(store=target, shared=driver) as one:
+            animate_portrait({"image": image, "driver": clip}, PortraitOptions(), out, one)
         return one, time.perf_counter() - started
 
     known = StageStore(folder / "target"), StageStore(folder / "driver")

@@ -58,7 +58,7 @@ class Progress:
 
 class Run:
     """One run of a system. Used as a context manager, it is over when its last stage is, those that run beside included;
-    then, and not before, its progress is 1.
+    then, and not before, its progress is 1. Outside of a `with` nothing runs beside: after an error it would go on.
 
     Parameters
     ----------
@@ -100,6 +100,7 @@ class Run:
         self._last_report = (0.0, "")
         self._furthest = 0.0
         self._broken = False
+        self._entered = False
         self._here = _Here()
         self._others: set[Future[Any]] = set()
         self._at_work: set[Beside[Any]] = set()
@@ -136,7 +137,11 @@ class Run:
         What it reports on the way and warns of is heard where it is waited for, and its time is that of the wait.
         Arguments may be stages that were begun so: this one then follows them. It ends early, at its next `tick`,
         where another stage breaks off: then nobody will ask for it.
+
+        Raises `RuntimeError` where the run is not used as a context manager, or is over.
         """
+        if not self._entered:
+            raise RuntimeError(f"the stage {name} cannot run beside others outside of `with Run()`")
         one: Beside[T] = Beside(self, name)
 
         def work() -> T:
@@ -160,12 +165,14 @@ class Run:
         return max(1, (os.cpu_count() or 1) - len(self._at_work - {self._here.beside}))
 
     def __enter__(self) -> Run:
+        self._entered = True
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Left when nothing works beside any more: after an error, when all have come to their next `tick`."""
+        self._entered = False
         self._broken = self._broken or error is not None
         wait_for(tuple(self._others))
         if error is None:

@@ -334,11 +334,11 @@ def _heavy(points: Points, by: float) -> Points:
 
 def test_a_stage_beside_others_is_kept_like_any_other_and_takes_no_notices_of_theirs(store: StageStore) -> None:
     for reused in ([], ["heavy", "light"]):
-        run = Run(store=store)
-        run.plan({"light": 1, "heavy": 1})
-        heavy = run.beside("heavy", _heavy, Points(np.ones(3)), 4.0)
-        light = run.stage("light", _warning, run.warn)
-        np.testing.assert_array_equal(heavy().xy, [4, 4, 4])
+        with Run(store=store) as run:
+            run.plan({"light": 1, "heavy": 1})
+            heavy = run.beside("heavy", _heavy, Points(np.ones(3)), 4.0)
+            light = run.stage("light", _warning, run.warn)
+            np.testing.assert_array_equal(heavy().xy, [4, 4, 4])
         np.testing.assert_array_equal(light.xy, [0])
         assert sorted(run.reused) == reused
         assert [notice.code for notice in run.notices] == ["dark"], "the notice belongs to the other stage"
@@ -356,28 +356,29 @@ def test_a_wait_for_what_works_beside_can_be_canceled() -> None:
         go_on.wait(30)
         return points
 
-    wait = Run(canceled=canceled.is_set).beside("slow", slow, Points(np.ones(1)))
-    threading.Timer(0.1, canceled.set).start()
-    with pytest.raises(Canceled):
-        wait()
-    assert not go_on.is_set()
-    go_on.set()
+    with Run(canceled=canceled.is_set) as run:
+        wait = run.beside("slow", slow, Points(np.ones(1)))
+        threading.Timer(0.1, canceled.set).start()
+        with pytest.raises(Canceled):
+            wait()
+        assert not go_on.is_set()
+        go_on.set()
 
 
 def test_what_goes_wrong_beside_is_raised_where_it_is_waited_for() -> None:
-    run = Run()
-    wait = run.beside("heavy", _heavy, Points(np.ones(3)), -1.0)
-    with pytest.raises(ValueError, match="less than nothing"):
-        wait()
+    with Run() as run:
+        wait = run.beside("heavy", _heavy, Points(np.ones(3)), -1.0)
+        with pytest.raises(ValueError, match="less than nothing"):
+            wait()
 
 
 def test_what_works_beside_warns_where_it_is_waited_for_and_again_when_it_is_reused(store: StageStore) -> None:
     for reused in ([], ["dim"]):
-        run = Run(store=store)
-        wait = run.beside("dim", _warning, run.warn)
-        wait.output.result()
-        assert run.notices == [] and run.reused == reused
-        wait()
+        with Run(store=store) as run:
+            wait = run.beside("dim", _warning, run.warn)
+            wait.output.result()
+            assert run.notices == [] and run.reused == reused
+            wait()
         assert [notice.code for notice in run.notices] == ["dark"]
 
 
@@ -395,13 +396,14 @@ def test_what_works_beside_reports_while_it_is_waited_for() -> None:
         if progress.fraction > 0.5:
             told.set()
 
-    run = Run(on_progress=hear)
-    run.plan({"light": 1, "slow": 3})
-    wait = run.beside("slow", slow, Points(np.ones(1)), run.tick)
-    run.stage("light", _heavy, Points(np.ones(1)), 1.0)
-    assert {one.stage for one in seen} == {"light"}, "nothing is heard of it before"
-    wait()
-    assert (seen[-1].stage, seen[-1].fraction) == ("slow", pytest.approx(0.25 + 0.75 * 0.5))
+    with Run(on_progress=hear) as run:
+        run.plan({"light": 1, "slow": 3})
+        wait = run.beside("slow", slow, Points(np.ones(1)), run.tick)
+        run.stage("light", _heavy, Points(np.ones(1)), 1.0)
+        assert {one.stage for one in seen} == {"light"}, "nothing is heard of it before"
+        wait()
+        last = seen[-1]
+    assert (last.stage, last.fraction) == ("slow", pytest.approx(0.25 + 0.75 * 0.5))
 
 
 def test_what_works_beside_ends_where_another_stage_breaks_off() -> None:
@@ -414,13 +416,13 @@ def test_what_works_beside_ends_where_another_stage_breaks_off() -> None:
             broken.wait(0.01)
         return points
 
-    run = Run()
-    wait = run.beside("endless", endless, Points(np.ones(1)), run.tick)
-    began.wait(30)
-    with pytest.raises(ValueError, match="less than nothing"):
-        run.stage("heavy", _heavy, Points(np.ones(1)), -1.0)
-    with pytest.raises(Canceled):
-        wait.output.result(timeout=20)
+    with Run() as run:
+        wait = run.beside("endless", endless, Points(np.ones(1)), run.tick)
+        began.wait(30)
+        with pytest.raises(ValueError, match="less than nothing"):
+            run.stage("heavy", _heavy, Points(np.ones(1)), -1.0)
+        with pytest.raises(Canceled):
+            wait.output.result(timeout=20)
 
 
 def test_a_run_is_over_when_nothing_works_beside_any_more() -> None:
@@ -453,6 +455,16 @@ def test_what_works_beside_ends_where_the_run_is_left_by_an_error() -> None:
         raise ValueError("between two stages")
     with pytest.raises(Canceled):
         wait.output.result(timeout=0)
+
+
+def test_nothing_runs_beside_a_run_that_nobody_would_end() -> None:
+    """After an error it would go on: whoever forgets the `with` is told at once, not on the day of the error."""
+    with pytest.raises(RuntimeError, match="with Run"):
+        Run().beside("heavy", _heavy, Points(np.ones(1)), 1.0)
+    with Run() as run:
+        pass
+    with pytest.raises(RuntimeError, match="with Run"):
+        run.beside("heavy", _heavy, Points(np.ones(1)), 1.0)
 
 
 def test_cores_are_idle_where_no_stage_works_beside() -> None:

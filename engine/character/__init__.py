@@ -37,7 +37,8 @@ def _rehearse(folder: Path) -> None:
     (folder / "out").mkdir()
     write_image(folder / "photo.png", sample_picture())
     options = CharacterOptions.model_validate({"seconds": 1})
-    _work({"photo": folder / "photo.png"}, options, folder / "out", Run())
+    with Run() as run:
+        _work({"photo": folder / "photo.png"}, options, folder / "out", run)
 
 
 KIND = Kind(

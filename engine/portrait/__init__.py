@@ -43,7 +43,8 @@ def _rehearse(folder: Path) -> None:
         frame = next(iter(read_video(video(name))))
         write_image(folder / f"{name}.png", frame.rgb)
         options = PortraitOptions.model_validate({"trim": (0.0, 0.5)})
-        _work({"image": folder / f"{name}.png", "driver": video("idle")}, options, folder / "out", Run())
+        with Run() as run:
+            _work({"image": folder / f"{name}.png", "driver": video("idle")}, options, folder / "out", run)
 
 
 KIND = Kind(

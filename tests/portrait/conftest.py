@@ -37,9 +37,9 @@ def animation(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Made]:
         key = repr((image, driver, sorted(options.items())))
         if key not in made or again:
             out = tmp_path_factory.mktemp("animated")
-            run = Run(store=store)
             inputs: Mapping[str, Any] = {"image": image, "driver": driver}
-            animate_portrait(inputs, PortraitOptions(**options), out, run)
+            with Run(store=store) as run:
+                animate_portrait(inputs, PortraitOptions(**options), out, run)
             made[key] = Made(out, run)
             if (out / "animation.mp4").exists():
                 made[key].frames = read_frames(out / "animation.mp4")

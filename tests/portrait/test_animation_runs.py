@@ -91,7 +91,7 @@ def test_a_bad_choice_leaves_no_animation(woman, driver, tmp_path: Path) -> None
 def test_a_canceled_run_stops_and_leaves_no_animation(woman, driver, tmp_path: Path, stage: str) -> None:
     reached: list[str] = []
     run = Run(on_progress=lambda p: reached.append(p.stage), canceled=lambda: stage in reached)
-    with pytest.raises(Canceled):
+    with pytest.raises(Canceled), run:
         animate_portrait({"image": woman, "driver": driver}, PortraitOptions(trim=(1.9, 2.3)), tmp_path, run)
     assert reached[-1] == stage
     assert not [p for p in tmp_path.iterdir() if "animation" in p.name]
@@ -102,8 +102,8 @@ def test_limits_of_the_run_hold(woman, driver, tmp_path: Path) -> None:
         (Limits(image_megapixels=0.01), "image_too_large"),
         (Limits(video_seconds=2), "video_too_long"),
     ):
-        with pytest.raises(InputError) as caught:
-            animate_portrait({"image": woman, "driver": driver}, PortraitOptions(), tmp_path, Run(limits=limits))
+        with pytest.raises(InputError) as caught, Run(limits=limits) as run:
+            animate_portrait({"image": woman, "driver": driver}, PortraitOptions(), tmp_path, run)
         assert caught.value.code == code
 
 

@@ -66,7 +66,8 @@ def made(small, media, tmp_path_factory) -> Made:
     progress: list[Progress] = []
     options = PortraitOptions(reactive=("idle",), trim=OPENS, neutral_frame=0)
     inputs = {"image": small("photo_woman_outdoor.jpg", 240), "driver": media("driving/man_mouth_open_d18.mp4")}
-    KIND.work(inputs, options, out, Run(on_progress=progress.append))
+    with Run(on_progress=progress.append) as run:
+        KIND.work(inputs, options, out, run)
     profile = Profile.model_validate_json((out / "profile.json").read_text())
     clips = {name: brightness(out / state.clip) for name, state in profile.states.items()}
     bridges = {name: brightness(out / one.bridges) for name, one in profile.transitions.items() if one.bridges}
@@ -202,7 +203,8 @@ def test_options_of_one_s_own_driver_count_with_one_alone(made: Made, woman: Pat
             "driver_face_index": 2,
         }
     )
-    KIND.work({"image": woman}, options, tmp_path, Run())
+    with Run() as run:
+        KIND.work({"image": woman}, options, tmp_path, run)
     without, with_one = (
         [one["message"] for one in json.loads((out / "report.json").read_text())["warnings"] if one["code"] == CODE]
         for out in (tmp_path, made.out)
