@@ -23,7 +23,7 @@ def data_files() -> dict[str, tuple[str, ...]]:
     performances = [f"videos/{one.name}.{ending}" for one in scored() for ending in ("mp4", "jpg")]
     return {
         "engine.perception": ("canonical_face.npz",),
-        "engine.performances": ("videos/looks.json", *performances),
+        "engine.performances": ("videos/appearances.json", *performances),
         "engine.portrait.reactive": ("page.html", "player/reactive-portrait.js"),
         "service.migrations": ("script.py.mako",),
     }

@@ -18,7 +18,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import fiducials
-from engine.portrait.choice import choose_driver
+from engine.portrait.driver_selection import choose_driver
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import in_pixels, look_for_face
 from engine.run import Beside, Run, write_report

@@ -17,32 +17,32 @@ from engine.kind import Candidates
 from engine.package_data import package_data
 from engine.performances import names
 from engine.performances.catalogue import VIDEOS
-from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
+from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
 from engine.run import Run
 
 WEIGHTS: Mapping[str, float] = {"expression": 0.35, "proportions": 0.25, "light": 0.15, "palette": 0.15, "turn": 0.10}
 """What counts how much. The expression first: what of it the driver never shows, stays on the face all the time."""
 
-PROPORTIONS, LIGHT, PALETTE, TURN = 0.05, 0.4, 20.0, 10.0
+PROPORTIONS_SCALE, LIGHT_SCALE, PALETTE_SCALE, TURN_SCALE = 0.05, 0.4, 20.0, 10.0
 """Differences that bring a score down to 0.6: root mean square in eye distances, slope of the logarithm of luminance,
-colour difference, degrees beyond `MOST_TURN`."""
+colour difference, degrees beyond `MAX_TURN`."""
 
-LIGHTNESS = 0.5
+LIGHTNESS_WEIGHT = 0.5
 """How much a difference in lightness counts against one in hue: exposure says little about a palette."""
 
-MOST_TURN = 25.0
+MAX_TURN = 25.0
 """Degrees that a head can turn with the target's own turn included; see the limits in the documentation."""
 
-USUAL = np.array([0.03, 0.08, 0.02, 0.06, 0.05, 0.06])
-"""By how much the measures of `engine.portrait.looks.EXPRESSION` differ between people who do nothing: no difference
+EXPRESSION_SPREAD = np.array([0.03, 0.08, 0.02, 0.06, 0.05, 0.06])
+"""By how much the measures of `engine.perception.expression.features.EXPRESSION` differ between people who do nothing: no difference
 up to here counts (from the pictures and clips that the project is tried with)."""
 
-ALIKE = 0.01
+TIE_MARGIN = 0.01
 """Scores that differ by less are a draw, which goes to the candidate that is named first."""
 
 
 @dataclass(frozen=True)
-class Chosen:
+class SelectedDriver:
     """The driver taken: its `name` and file; `scores` of every candidate, in all that counts and in `total`, each in
     [0, 1], 1 is a perfect fit."""
 
@@ -51,7 +51,7 @@ class Chosen:
     scores: Mapping[str, Mapping[str, float]]
 
 
-def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> Chosen:
+def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> SelectedDriver:
     """Compare each candidate with the target and take the best.
 
     What a built-in performance looks like ships with it; other videos are looked at once and remembered by content.
@@ -62,60 +62,60 @@ def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> Chose
     InputError : `no_driver_fits`, there is none that can be used.
     """
     with run.timed("choose_driver"):
-        face = looks_of_face(target.rgb, target.mesh)
+        face = appearance_of_face(target.rgb, target.mesh)
     scores: dict[str, dict[str, float]] = {}
     for name, path in candidates.files.items():
         try:
-            looks = known_looks(path) or run.stage(
-                "driver_looks", looks_of_driver, path, run.limits, run.tick, shared=True
+            appearance = known_appearance(path) or run.stage(
+                "driver_looks", appearance_of_driver, path, run.limits, run.tick, shared=True
             )
         except InputError as error:
             run.warn("driver_passed_over", f"The driver “{name}” cannot be used: {error.detail}")
         else:
-            scores[name] = fit(face, looks)
+            scores[name] = fit(face, appearance)
     if not scores:
         raise InputError("no_driver_fits", "None of the drivers can be used: name a video or another performance.")
     best = max(score["total"] for score in scores.values())
-    name = next(name for name, score in scores.items() if score["total"] > best - ALIKE)
-    return Chosen(name, candidates.files[name], scores)
+    name = next(name for name, score in scores.items() if score["total"] > best - TIE_MARGIN)
+    return SelectedDriver(name, candidates.files[name], scores)
 
 
-def fit(target: Looks, driver: Looks) -> dict[str, float]:
+def fit(target: Appearance, driver: Appearance) -> dict[str, float]:
     """How well a driver fits a target: a score for each of `WEIGHTS`, and their weighted mean as `total`."""
     apart = np.sqrt(((target.proportions - driver.proportions) ** 2).sum(axis=1).mean())
-    colour = (target.palette - driver.palette) * (LIGHTNESS, 1, 1)
+    colour = (target.palette - driver.palette) * (LIGHTNESS_WEIGHT, 1, 1)
     scores = {
         "expression": _bell(float(np.sqrt(missing_expression(target, driver).min()))),
-        "proportions": _bell(float(apart) / PROPORTIONS),
-        "light": _bell(float(np.linalg.norm(target.light - driver.light)) / LIGHT),
-        "palette": _bell(float(np.linalg.norm(colour)) / PALETTE),
-        "turn": _bell(max(target.turn + driver.turn - MOST_TURN, 0.0) / TURN),
+        "proportions": _bell(float(apart) / PROPORTIONS_SCALE),
+        "light": _bell(float(np.linalg.norm(target.light - driver.light)) / LIGHT_SCALE),
+        "palette": _bell(float(np.linalg.norm(colour)) / PALETTE_SCALE),
+        "turn": _bell(max(target.turn + driver.turn - MAX_TURN, 0.0) / TURN_SCALE),
     }
     total = sum(WEIGHTS[name] * score for name, score in scores.items())
     return {name: round(value, 4) for name, value in {**scores, "total": total}.items()}
 
 
-def missing_expression(target: Looks, driver: Looks) -> NDArray[np.float64]:
+def missing_expression(target: Appearance, driver: Appearance) -> NDArray[np.float64]:
     """(F,) how far each frame of the driver is from showing the target's expression; 0 where nothing beyond what
     people differ by is missing."""
-    beyond = np.abs(driver.expressions.astype(float) - target.expressions[0]) / USUAL - 1
+    beyond = np.abs(driver.expressions.astype(float) - target.expressions[0]) / EXPRESSION_SPREAD - 1
     return np.asarray((np.maximum(beyond, 0) ** 2).sum(axis=1), float)
 
 
-def known_looks(path: Path) -> Looks | None:
-    """The looks of a built-in performance; None for any other file."""
+def known_appearance(path: Path) -> Appearance | None:
+    """The appearance of a built-in performance; None for any other file."""
     if path.parent != VIDEOS or path.stem not in names():
         return None
-    return library_looks().get(path.stem)
+    return library_appearances().get(path.stem)
 
 
 @cache
-def library_looks() -> Mapping[str, Looks]:
-    """The looks of all built-in performances, as `python -m engine.portrait.library_looks` wrote them down."""
-    document = json.loads(package_data("engine.performances", "videos/looks.json").read_text())
+def library_appearances() -> Mapping[str, Appearance]:
+    """The appearances of all built-in performances, as `python -m engine.portrait.library_appearances` wrote them down."""
+    document = json.loads(package_data("engine.performances", "videos/appearances.json").read_text())
     figure = {name: np.array(document["figure"][name], np.float32) for name in ("proportions", "light", "palette")}
     return {
-        name: Looks(**figure, expressions=np.array(one["expressions"], np.float32), turn=one["turn"])
+        name: Appearance(**figure, expressions=np.array(one["expressions"], np.float32), turn=one["turn"])
         for name, one in document["performances"].items()
     }
 

@@ -25,22 +25,22 @@ from engine.perception.head_pose import canonical_face, head_pose
 from engine.perception.landmarks import RIGID, eye_distance
 from engine.perception.one_face import OneFace
 
-SKIN = (
+BARE_SKIN = (
     *(50, 101, 118, 205, 207, 36, 280, 330, 347, 425, 427, 266),  # cheeks
     *(151, 108, 337, 69, 299, 9),  # forehead
     *(6, 197, 195),  # ridge of the nose
 )
 """Vertices on bare skin, on both sides alike: light and palette are read around them."""
 
-PATCH = 0.06
-"""Radius in eye distances around each of them that is averaged."""
+PATCH_RADIUS = 0.06
+"""Eye distances around each of them within which is averaged."""
 
-FPS, SECONDS = 6.0, 30.0
+SAMPLED_FPS, SAMPLED_SECONDS = 6.0, 30.0
 """How often, and how far into it, a driver is looked at."""
 
 
 @dataclass(frozen=True)
-class Looks:
+class Appearance:
     """proportions (R, 2) : the rigid vertices of the face turned to the front, in eye distances around their mean.
     light (2,) : how the logarithm of the skin's luminance grows to the picture's right and downwards, by eye distance.
     palette (3,) : mean skin colour, CIE L*a*b*.
@@ -55,14 +55,16 @@ class Looks:
     turn: float
 
 
-def looks_of_face(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> Looks:
-    """The looks of one face in a picture; `mesh` (478, 3) pixels."""
+def appearance_of_face(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> Appearance:
+    """The appearance of one face in a picture; `mesh` (478, 3) pixels."""
     pose = head_pose(mesh, (rgb.shape[1], rgb.shape[0]))
     return replace(_gather([(rgb, mesh)]), turn=float(np.degrees(np.hypot(pose.yaw, pose.pitch))))
 
 
-def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fraction: None) -> Looks:
-    """The looks of a driving video, from some of its frames.
+def appearance_of_driver(
+    path: Path, limits: Limits, tick: Callable[[float], None] = lambda fraction: None
+) -> Appearance:
+    """The appearance of the face in a driving video, from some of its frames.
 
     Raises
     ------
@@ -70,8 +72,10 @@ def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = 
     """
     rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]] = []
     with OneFace() as follow:
-        for index, frame in enumerate(read_video(path, fps=FPS, trim=(0.0, SECONDS), limits=limits, longest_side=640)):
-            tick(min(index / (FPS * SECONDS), 1.0))
+        for index, frame in enumerate(
+            read_video(path, fps=SAMPLED_FPS, trim=(0.0, SAMPLED_SECONDS), limits=limits, longest_side=640)
+        ):
+            tick(min(index / (SAMPLED_FPS * SAMPLED_SECONDS), 1.0))
             if (mesh := follow(frame.rgb)) is not None:
                 rows.append(_small(frame.rgb, mesh))
     if not rows:
@@ -83,11 +87,11 @@ def looks_of_driver(path: Path, limits: Limits, tick: Callable[[float], None] = 
     return _gather(rows)
 
 
-def _gather(rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]]) -> Looks:
+def _gather(rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]]) -> Appearance:
     meshes = np.array([mesh for _, mesh in rows], float)
     rigid = np.median(frontal(meshes)[:, list(RIGID), :2], axis=0)
     light, palette = (np.median(values, axis=0) for values in zip(*(_shading(*row) for row in rows), strict=True))
-    return Looks(
+    return Appearance(
         proportions=(rigid - rigid.mean(axis=0)).astype(np.float32),
         light=light.astype(np.float32),
         palette=palette.astype(np.float32),
@@ -101,8 +105,8 @@ def _shading(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[NDArra
     unit = float(eye_distance(mesh[:, :2]))
     linear = (rgb.astype(np.float32) / 255) ** 2.2
     places, colours = [], []
-    for x, y in mesh[list(SKIN), :2]:
-        reach = max(PATCH * unit, 1.0)
+    for x, y in mesh[list(BARE_SKIN), :2]:
+        reach = max(PATCH_RADIUS * unit, 1.0)
         rows = slice(max(int(y - reach), 0), max(int(y + reach) + 1, 1))
         columns = slice(max(int(x - reach), 0), max(int(x + reach) + 1, 1))
         patch = linear[rows, columns]
@@ -111,7 +115,7 @@ def _shading(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[NDArra
             colours.append(patch.mean(axis=(0, 1)))
     if len(places) < 6:  # the face lies mostly outside of the picture
         return np.zeros(2), np.array([50.0, 0.0, 0.0])
-    at = (np.array(places) - mesh[list(SKIN), :2].mean(axis=0)) / unit
+    at = (np.array(places) - mesh[list(BARE_SKIN), :2].mean(axis=0)) / unit
     seen = np.array(colours, np.float32)
     bright = np.log(np.maximum(seen @ np.array([0.2126, 0.7152, 0.0722], np.float32), 1e-3))
     slope = np.linalg.lstsq(np.c_[at, np.ones(len(at))], bright, rcond=None)[0][:2]

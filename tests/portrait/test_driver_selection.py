@@ -1,4 +1,4 @@
-"""`auto`: the driver that fits a picture best, by looks of which the truth is known."""
+"""`auto`: the driver that fits a picture best, by appearances of which the truth is known."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.faces import find_faces
 from engine.performances import names, performance, video
-from engine.portrait.choice import WEIGHTS, choose_driver, fit, library_looks
-from engine.portrait.looks import Looks, looks_of_driver, looks_of_face
+from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
+from engine.portrait.driver_selection import WEIGHTS, choose_driver, fit, library_appearances
 from engine.run import Run
 from galatea import animate
 
@@ -34,17 +34,17 @@ def moment(name: str, frame: int) -> NDArray[np.uint8]:
     return next(islice(read_video(video(name)), frame, None)).rgb
 
 
-def looks(rgb: NDArray[np.uint8]) -> Looks:
-    return looks_of_face(rgb, find_faces(rgb)[0])
+def appearance(rgb: NDArray[np.uint8]) -> Appearance:
+    return appearance_of_face(rgb, find_faces(rgb)[0])
 
 
-def best(face: Looks, among: dict[str, Looks]) -> str:
+def best(face: Appearance, among: dict[str, Appearance]) -> str:
     return max(among, key=lambda name: fit(face, among[name])["total"])
 
 
 @pytest.mark.parametrize("name", names())
 def test_what_is_written_down_of_the_library_is_what_its_videos_show(name: str) -> None:
-    kept, seen = library_looks()[name], looks_of_driver(video(name), Limits())
+    kept, seen = library_appearances()[name], appearance_of_driver(video(name), Limits())
     np.testing.assert_allclose(kept.expressions, seen.expressions, atol=0.02)
     assert kept.turn == pytest.approx(seen.turn, abs=0.5)
     # one figure in one light: what is kept of it holds for every performance
@@ -56,42 +56,49 @@ def test_what_is_written_down_of_the_library_is_what_its_videos_show(name: str) 
     ("name", "state"), [("happy", "happy"), ("surprise-strong", "surprise"), ("sadness-strong", "sadness")]
 )
 def test_a_face_with_an_expression_gets_a_performance_that_shows_it(name: str, state: str) -> None:
-    face = looks(moment(name, performance(name).poster_frame))
-    chosen = best(face, dict(library_looks()))
+    face = appearance(moment(name, performance(name).poster_frame))
+    chosen = best(face, dict(library_appearances()))
     assert performance(chosen).state == state
-    assert fit(face, library_looks()["idle"])["expression"] < 0.7 < fit(face, library_looks()[name])["expression"]
+    assert (
+        fit(face, library_appearances()["idle"])["expression"]
+        < 0.7
+        < fit(face, library_appearances()[name])["expression"]
+    )
 
 
 def test_all_performances_fit_a_neutral_face_alike() -> None:
-    face = looks(moment("idle", 0))
-    totals = [fit(face, one)["total"] for one in library_looks().values()]
+    face = appearance(moment("idle", 0))
+    totals = [fit(face, one)["total"] for one in library_appearances().values()]
     assert min(totals) > 0.95
 
 
 def test_light_from_the_other_side_is_told() -> None:
     face = moment("idle", 0)
-    straight, mirrored = looks(face), looks(np.ascontiguousarray(face[:, ::-1]))
+    straight, mirrored = appearance(face), appearance(np.ascontiguousarray(face[:, ::-1]))
     assert straight.light[0] < -0.1 < 0.1 < mirrored.light[0]
-    driver = library_looks()["idle"]
+    driver = library_appearances()["idle"]
     assert fit(mirrored, driver)["light"] < 0.5 < fit(straight, driver)["light"]
 
 
 def test_a_picture_without_colour_has_a_palette_without() -> None:
     face = moment("idle", 0)
     grey = np.repeat(face.mean(axis=2, keepdims=True), 3, axis=2).astype(np.uint8)
-    assert np.abs(looks(grey).palette[1:]).max() < 0.5 < np.abs(looks(face).palette[1:]).min()
-    assert fit(looks(grey), library_looks()["idle"])["palette"] < fit(looks(face), library_looks()["idle"])["palette"]
+    assert np.abs(appearance(grey).palette[1:]).max() < 0.5 < np.abs(appearance(face).palette[1:]).min()
+    assert (
+        fit(appearance(grey), library_appearances()["idle"])["palette"]
+        < fit(appearance(face), library_appearances()["idle"])["palette"]
+    )
 
 
 def test_a_driver_that_turns_too_far_for_a_turned_face_loses() -> None:
-    driver = library_looks()["idle"]
+    driver = library_appearances()["idle"]
     face = replace(driver, expressions=driver.expressions[:1], turn=20.0)
     assert fit(face, replace(driver, turn=4.0))["turn"] == 1
     assert fit(face, replace(driver, turn=20.0))["turn"] < 0.5
 
 
 def test_scores_are_shares_and_their_weighted_mean() -> None:
-    one, other = library_looks()["idle"], library_looks()["happy"]
+    one, other = library_appearances()["idle"], library_appearances()["happy"]
     scores = fit(replace(one, expressions=one.expressions[:1]), other)
     assert set(scores) == {*WEIGHTS, "total"} and all(0 <= score <= 1 for score in scores.values())
     assert sum(WEIGHTS.values()) == pytest.approx(1)
@@ -102,16 +109,18 @@ CLIPS = ("man_smile_d9", "man_mouth_open_d18", "woman_funny_faces_d6", "man_talk
 
 
 @pytest.fixture(scope="module")
-def drivers(media: Media) -> dict[str, Looks]:
-    real = {name: looks_of_driver(media(f"driving/{name}.mp4"), Limits()) for name in CLIPS}
-    return {**library_looks(), **real}
+def drivers(media: Media) -> dict[str, Appearance]:
+    real = {name: appearance_of_driver(media(f"driving/{name}.mp4"), Limits()) for name in CLIPS}
+    return {**library_appearances(), **real}
 
 
 @pytest.mark.parametrize("name", CLIPS)
-def test_a_person_is_fitted_best_by_a_clip_of_that_person(drivers: dict[str, Looks], media: Media, name: str) -> None:
+def test_a_person_is_fitted_best_by_a_clip_of_that_person(
+    drivers: dict[str, Appearance], media: Media, name: str
+) -> None:
     """Among the library and the clips of other people: the same face in the same light."""
     frame = next(islice(read_video(media(f"driving/{name}.mp4")), 12, None)).rgb
-    assert best(looks(frame), drivers) == name
+    assert best(appearance(frame), drivers) == name
 
 
 def test_the_report_says_what_was_chosen_and_why(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""`python -m engine.portrait.library_looks`: writes down what the built-in performances look like.
+"""`python -m engine.portrait.library_appearances`: writes down what the built-in performances look like.
 
 All show one figure in one light: its proportions, light and palette stand once, as seen in the neutral pose.
 """
@@ -14,21 +14,20 @@ from numpy.typing import NDArray
 from engine.media.limits import Limits
 from engine.performances import names, video
 from engine.performances.catalogue import VIDEOS
-from engine.portrait.looks import Looks, looks_of_driver
+from engine.portrait.appearance import Appearance, appearance_of_driver
 
-FIGURE = "idle"
+FIGURE_PERFORMANCE = "idle"
 """The performance in which the figure itself is measured: it moves least."""
 
 
 def measure() -> dict[str, Any]:
     """The document that is kept beside the videos."""
-    seen = {name: looks_of_driver(video(name), Limits()) for name in names()}
-    figure: Looks = seen[FIGURE]
+    seen = {name: appearance_of_driver(video(name), Limits()) for name in names()}
+    figure: Appearance = seen[FIGURE_PERFORMANCE]
     return {
         "figure": {key: _rounded(getattr(figure, key)) for key in ("proportions", "light", "palette")},
         "performances": {
-            name: {"turn": round(looks.turn, 2), "expressions": _rounded(looks.expressions)}
-            for name, looks in seen.items()
+            name: {"turn": round(one.turn, 2), "expressions": _rounded(one.expressions)} for name, one in seen.items()
         },
     }
 
@@ -38,4 +37,4 @@ def _rounded(values: NDArray[np.float32]) -> Any:
 
 
 if __name__ == "__main__":
-    (VIDEOS / "looks.json").write_text(json.dumps(measure(), separators=(",", ":")) + "\n")
+    (VIDEOS / "appearances.json").write_text(json.dumps(measure(), separators=(",", ":")) + "\n")
