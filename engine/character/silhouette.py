@@ -23,7 +23,7 @@ from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
 from engine.perception.models import MattingModel
-from engine.perception.person import DOUBT, LIKELY, person_mask
+from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
 from engine.perception.segmentation import people_in
 
 HEIGHT = 400
@@ -155,7 +155,7 @@ def _looked_at(figure: Figure) -> tuple[slice, slice]:
 
 
 def _seen(figure: Figure) -> NDArray[np.float32]:
-    """Where the person is (`LIKELY`) by the joints that are seen: along arms, and in hands. The network that cuts people
+    """Where the person is (`LIKELY_BELIEF`) by the joints that are seen: along arms, and in hands. The network that cuts people
     out misses them, the one that finds their joints does not, and by colour a hand is not like the sleeve beside it."""
     seed, beyond = (np.zeros(figure.rgb.shape[:2], np.uint8) for _ in range(2))
     height = float(np.ptp(figure.points[figure.confidence > 0.3, 1], axis=0))
@@ -184,7 +184,7 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
         names = [f"{side}Shoulder", f"{side}Elbow"]
         if min(figure.confidence[[LANDMARKS.index(name) for name in names]]) > JOINT:
             line(np.stack([figure.point(name) for name in names]), FOREARM)
-    return np.asarray(np.maximum(LIKELY * seed, DOUBT * near), np.float32)
+    return np.asarray(np.maximum(LIKELY_BELIEF * seed, DOUBTFUL_BELIEF * near), np.float32)
 
 
 def _limbs(figure: Figure) -> NDArray[np.float32]:

@@ -21,11 +21,11 @@ the face."""
 CROWN = 0.12
 TRUNK = ((0.45, 0.45), (1.3, 1.1), (1.7, 2.2), (1.8, 9.0))
 """Half widths of a trunk, in widths of the face, and how far below the face's middle, in its heights: neck, shoulders, arms."""
-BEHIND = 0.2
+TRUNK_BEHIND_HEAD = 0.2
 """Face heights by which a trunk counts as further away than a head: heads of those who stand in front hide trunks."""
-CLEARLY = 0.5
+CLEAR_MARGIN = 0.5
 """Face heights by which somebody is nearer than all others to be it clearly."""
-SOFT = 0.7
+MASK_BLUR = 0.7
 """Pixels over which one person's mask passes over into another's."""
 
 
@@ -41,12 +41,12 @@ def own_share(
     order = np.argsort(away, axis=0)
     nearest, second = (np.take_along_axis(away, order[k : k + 1], axis=0)[0] for k in (0, 1))
     nobody = resized(people, size) < 0.02
-    markers = np.where(second - nearest > CLEARLY, order[0] + 2, 0).astype(np.int32)
+    markers = np.where(second - nearest > CLEAR_MARGIN, order[0] + 2, 0).astype(np.int32)
     markers[nobody] = 1
     found = cv2.watershed(resized(np.ascontiguousarray(rgb), size), markers.copy())
     whose = np.where(found > 1, found - 2, order[0])  # borders, too, are somebody's
     own = resized((whose == 0).astype(np.float32), rgb.shape[1::-1])
-    return np.asarray(cv2.GaussianBlur((own > 0.5).astype(np.float32), (0, 0), SOFT), np.float32)
+    return np.asarray(cv2.GaussianBlur((own > 0.5).astype(np.float32), (0, 0), MASK_BLUR), np.float32)
 
 
 def _away(face: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float32]:
@@ -60,4 +60,4 @@ def _away(face: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float
     outline = np.concatenate([middle + side, (middle + side * [-1, 1])[::-1]])
     cv2.fillPoly(trunk, [np.rint(outline).astype(np.int32)], (1,))
     far = [cv2.distanceTransform(1 - part, cv2.DIST_L2, 5) / height for part in (head, trunk)]
-    return np.minimum(far[0], far[1] + BEHIND)
+    return np.minimum(far[0], far[1] + TRUNK_BEHIND_HEAD)

@@ -21,14 +21,14 @@ CHEEKS = (*range(8, 14), *range(22, 28))
 BESIDE = 0.08
 """Within this distance, in eye distances, a point lies beside the contour."""
 
-HELD = np.interp(np.arange(len(FACE_OVAL)), (6, 8, 13, 15, 21, 23, 28, 30), (0, 1, 1, 0, 0, 1, 1, 0))
+CONTOUR_WEIGHTS = np.interp(np.arange(len(FACE_OVAL)), (6, 8, 13, 15, 21, 23, 28, 30), (0, 1, 1, 0, 0, 1, 1, 0))
 """How far each vertex of `FACE_OVAL` takes part in keeping points inside: fully from the ears to the jaw."""
 WITHIN, FURTHER = 0.4, 0.6
 """Points up to the first distance from the contour, in eye distances, are kept inside it; those from there to the second
 say how far their side of the face is stretched."""
-LEAST, MOST = 0.1, 1.5
+MIN_KEPT_SHARE, MAX_GAIN = 0.1, 1.5
 """Of its distance from the contour such a point keeps at least this share, and gains at most this over its side."""
-ALONG = 0.3
+CONTOUR_FALLOFF = 0.3
 """Eye distances along the contour over which a point takes it along."""
 EVEN = 2
 """How often the way that the contour goes out is evened out along it."""
@@ -84,25 +84,27 @@ def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: N
     far from it it may lie, where that is `seen` (478,). The contour first goes out to where it leaves room for all.
     """
     oval, unit, at_rest = list(FACE_OVAL), float(eye_distance(rest[:, :2])), rest[None, :, :2].astype(float)
-    edge, share, apart = _nearest(rest, seen, (HELD + np.roll(HELD, -1)) > 0)
+    edge, share, apart = _nearest(rest, seen, (CONTOUR_WEIGHTS + np.roll(CONTOUR_WEIGHTS, -1)) > 0)
     band = _Band(np.arange(len(rest)), edge, share)
     own = band.depth(at_rest, band.inward(at_rest))[0]
     inside = np.flatnonzero((own > 0) & (apart < FURTHER * unit))
     band, own, near = _Band(inside, edge[inside], share[inside]), own[inside], apart[inside] < WITHIN * unit
 
     inward = band.inward(faces)
-    past = np.maximum(LEAST * own - band.depth(faces, inward), 0) * near
-    along = np.linalg.norm(at_rest[0, oval, None] - band.at_spots(at_rest[:, oval])[0], axis=2) / (ALONG * unit)
+    past = np.maximum(MIN_KEPT_SHARE * own - band.depth(faces, inward), 0) * near
+    along = np.linalg.norm(at_rest[0, oval, None] - band.at_spots(at_rest[:, oval])[0], axis=2) / (
+        CONTOUR_FALLOFF * unit
+    )
     out = (past[:, None] * np.exp(-(along**2))).max(axis=2, initial=0)
     for _ in range(EVEN):
         out = (np.roll(out, 1, axis=1) + 2 * out + np.roll(out, -1, axis=1)) / 4
-    faces[:, oval] -= (out * HELD * seen[oval])[..., None] * _inward(faces[:, oval])
+    faces[:, oval] -= (out * CONTOUR_WEIGHTS * seen[oval])[..., None] * _inward(faces[:, oval])
 
     depth = band.depth(faces, inward)
     right = np.linalg.norm(at_rest[0, inside, None] - at_rest[0, list(EARS)], axis=2).argmin(axis=1) == 0
     stretch = np.where(right, *(_stretch(depth / own, side & ~near) for side in (right, ~right)))
-    way = np.clip(depth, LEAST * own, MOST * stretch * own) - depth
-    faces[:, inside] += (way * near * band.at_spots(HELD[None, :, None])[0, :, 0])[..., None] * inward
+    way = np.clip(depth, MIN_KEPT_SHARE * own, MAX_GAIN * stretch * own) - depth
+    faces[:, inside] += (way * near * band.at_spots(CONTOUR_WEIGHTS[None, :, None])[0, :, 0])[..., None] * inward
 
 
 def _stretch(ratios: NDArray[np.floating], chosen: NDArray[np.bool_]) -> NDArray[np.floating]:

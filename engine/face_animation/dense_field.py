@@ -26,7 +26,7 @@ FALLOFF = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
 CELLS = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
-NEAR = 1e-9
+INSIDE_TOLERANCE = 1e-9
 """Pixels and weights by which a point may lie beside a triangle and still counts as inside."""
 
 
@@ -140,10 +140,10 @@ def _locate(control, triangles, x, y, order, corners, weights):  # type: ignore[
             continue
         top = control[a, 1] + min(0.0, by, cy)
         bottom = control[a, 1] + max(0.0, by, cy)
-        for k in range(_below(y, top - NEAR), _below(y, bottom + NEAR)):
+        for k in range(_below(y, top - INSIDE_TOLERANCE), _below(y, bottom + INSIDE_TOLERANCE)):
             px, py = x[k] - control[a, 0], y[k] - control[a, 1]
             wb, wc = (px * cy - py * cx) / area, (bx * py - by * px) / area
-            if min(wb, wc, 1 - wb - wc) >= -NEAR:
+            if min(wb, wc, 1 - wb - wc) >= -INSIDE_TOLERANCE:
                 corners[order[k]] = a, b, c
                 weights[order[k]] = 1 - wb - wc, wb, wc
 

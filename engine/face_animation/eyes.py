@@ -21,13 +21,13 @@ MARGIN = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
 MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
 """Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
-SHUT = 0.1
+SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
 CLOSING = (0.75, 0.3)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
 LASHES = 0.05
 """Width of the line of lashes on a lid that closes, in eye widths."""
-LEAST_WIDTH = 14.0
+MIN_EYE_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
 
 
@@ -87,7 +87,7 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
     low = np.floor(opening.min(axis=0) - MARGIN * width).astype(int)
     high = np.ceil(opening.max(axis=0) + MARGIN * width).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, (rgb.shape[1], rgb.shape[0]))
-    if width < LEAST_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
+    if width < MIN_EYE_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
         return None
     patch = rgb[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     centre = mesh[iris[0], :2] - low
@@ -223,7 +223,7 @@ def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floa
     again where the lids have met, so that nothing shines through their seam."""
     open_by = _open_by(eye, opening)
     moved = max(abs(open_by - 1) / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE)
-    return min(moved, 1.0) * min(max((open_by - SHUT) / SHUT, 0.0), 1.0)
+    return min(moved, 1.0) * min(max((open_by - SHUT_SHARE) / SHUT_SHARE, 0.0), 1.0)
 
 
 def _open_by(eye: Eyeball, opening: NDArray[np.float32]) -> float:

@@ -59,7 +59,7 @@ RIM = 0.4
 GRABBED = 40.0
 """Eye distance, pixels, of the copy in which GrabCut tells the face from hair: the region is feathered by more than a pixel
 of it."""
-UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
+CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels. The paper's pixel distances are meant for faces of about this size."""
 
 
@@ -232,7 +232,7 @@ class RatioImages:
     def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
         """A head that turns in fixed light changes shade over wide areas: no part of the expression."""
         small = cv2.resize(ratio, None, fx=1 / 8, fy=1 / 8, interpolation=cv2.INTER_AREA)
-        wide = cv2.GaussianBlur(small, (0, 0), WIDE * UNIT / 8) ** (1 - self._frontal[frame])
+        wide = cv2.GaussianBlur(small, (0, 0), WIDE * CROP_EYE_DISTANCE / 8) ** (1 - self._frontal[frame])
         return np.asarray(ratio / cv2.resize(wide, ratio.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
     def _ratio(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:

@@ -15,11 +15,11 @@ from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
 EROSION = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
-APPEARS, WHOLE = 1.0, 2.0
+AREA_FROM, AREA_FULLY = 1.0, 2.0
 """Section 5: the inside appears between once and twice the neutral mouth's own inner area ..."""
-PARTS, PARTED = 1.3, 1.7
+GAP_FROM, GAP_FULLY = 1.3, 1.7
 """... and here also between these multiples of the gap between its lips: a smile that becomes an O hardly grows."""
-LEAST_AREA, LEAST_GAP = 0.012, 0.04
+MIN_INNER_AREA, MIN_GAP = 0.012, 0.04
 """Floors of the neutral inner area, in squares of the mouth's width, and of its gap, in widths: a closed mouth has
 almost none."""
 MIDDLE = ((82, 87), (13, 14), (312, 317))
@@ -83,14 +83,14 @@ def match_palette(
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
     outer = mesh[list(LIPS_OUTER), :2].astype(np.float32)
     width = float(np.linalg.norm(mesh[61, :2] - mesh[291, :2]))
-    area = max(float(cv2.contourArea(inner)), LEAST_AREA * width**2)
+    area = max(float(cv2.contourArea(inner)), MIN_INNER_AREA * width**2)
     return MouthPalette(
         gain.astype(np.float32),
         tint.astype(np.float32),
         chroma,
         _brightest(target, mesh),
         area,
-        max(_gap(mesh), LEAST_GAP * width),
+        max(_gap(mesh), MIN_GAP * width),
         float(np.ptp(outer[:, 1])),
     )
 
@@ -113,8 +113,8 @@ def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
 def uncovered(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
     """How much of what is seen in the mouth of a frame's face (478, 2) the target does not show, from 0 to 1."""
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
-    grown = (float(cv2.contourArea(inner)) / palette.area - APPEARS) / (WHOLE - APPEARS)
-    return float(np.clip(max(grown, (_gap(mesh) / palette.gap - PARTS) / (PARTED - PARTS)), 0, 1))
+    grown = (float(cv2.contourArea(inner)) / palette.area - AREA_FROM) / (AREA_FULLY - AREA_FROM)
+    return float(np.clip(max(grown, (_gap(mesh) / palette.gap - GAP_FROM) / (GAP_FULLY - GAP_FROM)), 0, 1))
 
 
 def transfer_mouth(

@@ -34,7 +34,7 @@ BELOW = (
 """What each of them goes on with, down to the jaw's contour."""
 BROW, CHIN = 10, 152
 """Where the face's axis begins and ends."""
-LEAST, MOST = 0.2, 0.3
+MIN_SKIN_SHARE, MAX_SKIN_SHARE = 0.2, 0.3
 """Shares of its usual breadth: skin is never pressed together by more than the first, nor under the nose by more than on
 the driver's face, where that is below the second."""
 NEIGHBOURS = np.array([1, 2, 3, 2, 1]) / 9
@@ -43,10 +43,10 @@ NEIGHBOURS = np.array([1, 2, 3, 2, 1]) / 9
 
 def lips_room(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
-    the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `LEAST` to `MOST`."""
+    the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `MIN_SKIN_SHARE` to `MAX_SKIN_SHARE`."""
     lip, _, nose = ABOVE[4]
     now, usual = ((one[..., lip, :2] - one[..., nose, :2]) @ _down(neutral) for one in (faces, neutral))
-    return np.asarray(np.clip(now / np.maximum(usual, 1e-6), LEAST, MOST), float)
+    return np.asarray(np.clip(now / np.maximum(usual, 1e-6), MIN_SKIN_SHARE, MAX_SKIN_SHARE), float)
 
 
 def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], room: NDArray[np.floating]) -> None:
@@ -57,7 +57,7 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
     ----------
     rest : (478, 2 or 3) the same face at rest. room : (N,) share of its breadth that the skin under the nose keeps.
     """
-    least = np.full_like(room, LEAST)
+    least = np.full_like(room, MIN_SKIN_SHARE)
     for lips, skin, share, way in ((UPPER, ABOVE, room, -1), (LOWER, BELOW, least, 1)):
         columns = np.array(skin)
         out = way * _down(rest)

@@ -36,7 +36,7 @@ CORRECTED_FROM = 0.3
 """Eye distances from the face's rim at which tracked points correct the proxy fully."""
 TURN_TRUSTED, TURN_LOST = 15.0, 30.0
 """Degrees of turn up to which tracked points of the head are trusted, and where no more."""
-MOST_CORRECTED = 0.6
+MAX_CORRECTION = 0.6
 """Largest correction of a point of the head, in eye distances."""
 CHUNK = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""
@@ -157,7 +157,7 @@ def correction(
     turn = np.rad2deg(np.arccos(np.clip(motion.rotation[:, 2, 2], -1, 1)))
     trust = np.clip((TURN_LOST - turn) / (TURN_LOST - TURN_TRUSTED), 0, 1)
     size = np.linalg.norm(carried, axis=-1)
-    limited = np.minimum(1.0, MOST_CORRECTED * unit / np.maximum(size, 1e-6))
+    limited = np.minimum(1.0, MAX_CORRECTION * unit / np.maximum(size, 1e-6))
     kept = (1 - share) + share * beside * trust[:, None] * limited
     return np.asarray(kept[..., None] * carried, float)
 

@@ -32,34 +32,34 @@ from engine.perception.expression.measures import (
 )
 from engine.perception.face_track.track import FaceTrack
 
-LOWERED = 4.0
+LOWERED_LIDS_WEIGHT = 4.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
-ALIKE = 0.5
+SIMILAR_REST = 0.5
 """Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
 is the rest."""
 
-MOST = 2000
+MAX_COMPARED_FRAMES = 2000
 """Frames that are compared with one another: of longer videos as many, evenly spread."""
 
 AS_CALM = 0.5
 """Frames whose mean square difference from what is looked for, in `SPREAD`, is greater than the least by no more than this
 are as good; the head's turn and the gaze choose among them."""
 
-TURN, ASIDE = 0.2, 0.1
+TURN_SCALE, GAZE_SCALE = 0.2, 0.1
 """What counts as much as one `SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
 look, elsewhere than the target's."""
 
-TORN = 0.05
+TORN_MOUTH_SCALE = 0.05
 """The same of a mouth that is torn aside, in eye distances."""
 
-UNEVEN = 0.15
+TORN_MOUTH_FROM = 0.15
 """Eye distances from which on a target's mouth is torn aside: under it, faces that are turned or painted seem so, too."""
 
-WORN = 0.5
+WORN_EXPRESSION = 0.5
 """Beyond this, in standard deviations of `USUAL` past the first, a target wears an expression."""
 
-CALM = 2.0
+CALM_FACE = 2.0
 """Mean square of a calm face's differences from a face at rest, in standard deviations of `USUAL`."""
 
 Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
@@ -96,15 +96,17 @@ def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen:
     rest = probable_rest(values[track.found])
     worn = worn_expression(target)
     face = (
-        _face_unlike(values, rest + worn) + _torn(track, target, values, rest) + LOWERED * lowered(values, rest[LIDS])
+        _face_unlike(values, rest + worn)
+        + _torn(track, target, values, rest)
+        + LOWERED_LIDS_WEIGHT * lowered(values, rest[LIDS])
     )
     face = np.where(track.found, face, np.inf)
-    place = (turns(track.meshes, target) / TURN) ** 2 + _gaze_unlike(track.meshes, target)
+    place = (turns(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
     frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
     taken = values[[frame]]
     if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
         return NeutralFrame(frame, "like_the_target")
-    return NeutralFrame(frame, "at_rest" if unlike_rest(taken)[0] <= CALM else "nearest_to_rest")
+    return NeutralFrame(frame, "at_rest" if unlike_rest(taken)[0] <= CALM_FACE else "nearest_to_rest")
 
 
 def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
@@ -127,11 +129,13 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
     the target, who is taken to be at rest. `moments.rest.own_rest` looks for a habit instead, which may be a smile.
     """
-    seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
+    seen = values[np.unique(np.linspace(0, len(values) - 1, min(MAX_COMPARED_FRAMES, len(values))).astype(int))].astype(
+        float
+    )
     apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
     blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
-    cost = unlike_rest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
-    alike = apart[int(np.argmin(cost))] < ALIKE**2
+    cost = unlike_rest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED_LIDS_WEIGHT * blinking
+    alike = apart[int(np.argmin(cost))] < SIMILAR_REST**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
 
@@ -149,7 +153,7 @@ def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
     shown = (measure(np.asarray(target)[None])[0] - general_rest()) / USUAL
     worn = np.zeros(len(MEASURES))
     worn[MOUTH] = np.maximum(shown[MOUTH] - 1, 0)
-    return np.asarray(np.where(worn > WORN, worn, 0) * USUAL, float)
+    return np.asarray(np.where(worn > WORN_EXPRESSION, worn, 0) * USUAL, float)
 
 
 def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -160,19 +164,19 @@ def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> 
 def _torn(
     track: FaceTrack, target: NDArray[np.floating], values: NDArray[np.floating], rest: NDArray[np.floating]
 ) -> NDArray[np.float64]:
-    """(N,) square of how far each frame's mouth is torn aside, in `TORN`: from where it is at rest, which is even but for as
+    """(N,) square of how far each frame's mouth is torn aside, in `TORN_MOUTH_SCALE`: from where it is at rest, which is even but for as
     much, or from the target's where that is torn."""
     torn = lopsided(track.meshes)
     nearest = np.argsort(np.where(track.found, _face_unlike(values, rest), np.inf))[:5]
     wanted = np.median(torn[nearest], axis=0)
-    wanted *= min(1, TORN / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
+    wanted *= min(1, TORN_MOUTH_SCALE / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
     shown = lopsided(np.asarray(target)[None])[0]
-    if np.linalg.norm(shown, axis=-1).mean() > UNEVEN:
+    if np.linalg.norm(shown, axis=-1).mean() > TORN_MOUTH_FROM:
         wanted = shown
-    return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN) ** 2, float)
+    return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN_MOUTH_SCALE) ** 2, float)
 
 
 def _gaze_unlike(meshes: NDArray[np.floating], target: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) square of how far each frame's eyes look elsewhere than the target's, in `ASIDE`."""
+    """(N,) square of how far each frame's eyes look elsewhere than the target's, in `GAZE_SCALE`."""
     aside = np.linalg.norm(look(meshes) - look(np.asarray(target)[None]), axis=-1).mean(axis=-1)
-    return np.asarray((aside / ASIDE) ** 2, float)
+    return np.asarray((aside / GAZE_SCALE) ** 2, float)

@@ -17,7 +17,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.teeth import PARTED
+from engine.face_animation.teeth import TEETH_SHOW_FROM
 from engine.face_animation.unseen_blinks import eye_contrast, shut_by_contrast
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
@@ -35,7 +35,7 @@ from engine.perception.landmarks import (
 )
 from engine.perception.temporal_filter import steady
 
-UNIT = CROP_EYES[1][0] - CROP_EYES[0][0]
+CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
 SMOOTHING = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
@@ -126,12 +126,12 @@ def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
     lies behind the face, nor beside an open mouth."""
     oval = rest[list(FACE_OVAL)]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
-    t = np.clip(inside / (RIM * UNIT), 0, 1)
+    t = np.clip(inside / (RIM * CROP_EYE_DISTANCE), 0, 1)
     weight = t * t * (3 - 2 * t)
-    if float(mouth_opening(rest)) > PARTED:
+    if float(mouth_opening(rest)) > TEETH_SHOW_FROM:
         lips = rest[list(LIPS_OUTER)]
         beside = np.array([-cv2.pointPolygonTest(lips, (float(x), float(y)), True) for x, y in rest])
-        weight *= np.clip(beside / (BESIDE_LIPS * UNIT), 0, 1)
+        weight *= np.clip(beside / (BESIDE_LIPS * CROP_EYE_DISTANCE), 0, 1)
     weight[[v for v in AS_TRACKED if v < len(weight)]] = 0
     return np.asarray(weight, np.float32)
 

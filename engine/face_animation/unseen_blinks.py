@@ -26,12 +26,12 @@ RING = 4
 """Pixels around the eye's outline in which its skin is seen."""
 DARKEST = 15
 """Percentile of grey within the outline that stands for the iris."""
-SHUT, OPEN = np.array((0.52, 0.62)), np.array((0.64, 0.74))
+SHUT_CONTRAST, OPEN_CONTRAST = np.array((0.52, 0.62)), np.array((0.64, 0.74))
 """Shares of the neutral frame's darkness, and of its edges: below the first an eye is shut, from the second on the tracker
 is believed. Whichever open frame of the real clips is taken as neutral, no open eye falls below the second."""
-LEAST = 0.3
+MIN_DARKNESS = 0.3
 """Eyes of less darkness in the neutral frame, as behind dark glasses, tell nothing."""
-SHORTEST = 0.1
+MIN_BLINK_SECONDS = 0.1
 """Seconds for which an eye is shut at least: a blink takes 0.1 to 0.4, and one that is shorter the tracker does not miss."""
 NARROWEST = 0.2
 """Nor do those that are less open there, height by width; open ones have 0.28 to 0.45."""
@@ -54,14 +54,18 @@ def eye_contrast(
 def shut_by_contrast(meshes: NDArray[np.floating], contrast: NDArray[np.floating], neutral: int, fps: float) -> None:
     """Shut the eyes of meshes (N, 478, 3) that have lost their `contrast` (N, 2, 2) against the neutral frame's, in place:
     the upper lid goes down to the lower one, and the skin above it half the way. As far as an eye is shut for
-    `SHORTEST` at least: what is gone for a moment was blurred by motion, or hidden by the rim of glasses."""
+    `MIN_BLINK_SECONDS` at least: what is gone for a moment was blurred by motion, or hidden by the rim of glasses."""
     upper, lower = np.array(LIDS).T
     rest, at_rest = contrast[neutral], meshes[neutral]
     heights = np.linalg.norm(at_rest[upper] - at_rest[lower], axis=1).reshape(2, -1).max(axis=1)
     widths = np.linalg.norm(at_rest[EYES[:, 0]] - at_rest[EYES[:, INNER_CORNER]], axis=1)
-    tells = (rest[:, 0] >= LEAST) & (heights >= NARROWEST * widths)
-    kept = np.clip((contrast / np.maximum(rest, 1e-6) - SHUT) / (OPEN - SHUT), 0, 1).max(axis=2)
-    lasting = grey_opening(np.where(tells, 1 - kept, 0), size=(max(1, ceil(SHORTEST * fps)), 1), mode="nearest")
+    tells = (rest[:, 0] >= MIN_DARKNESS) & (heights >= NARROWEST * widths)
+    kept = np.clip((contrast / np.maximum(rest, 1e-6) - SHUT_CONTRAST) / (OPEN_CONTRAST - SHUT_CONTRAST), 0, 1).max(
+        axis=2
+    )
+    lasting = grey_opening(
+        np.where(tells, 1 - kept, 0), size=(max(1, ceil(MIN_BLINK_SECONDS * fps)), 1), mode="nearest"
+    )
     closed = np.repeat(lasting, len(LIDS) // 2, axis=1)[..., None]
     way = closed * (meshes[:, lower] - meshes[:, upper])
     meshes[:, [skin for skin, _ in LID_SKIN]] += 0.5 * way

@@ -43,7 +43,7 @@ MIXAMO_JOINTS: dict[str, tuple[tuple[str, float], ...]] = {
 """Joints by their Mixamo names as weighted means of landmarks. The pose has no points in the spine: they are
 placed along the line from hips to neck."""
 
-FAINT = 0.3
+FAINT_CONFIDENCE = 0.3
 """The detector's confidence that does where nobody is found otherwise."""
 
 

@@ -13,9 +13,9 @@ from engine.perception.solutions import solution
 
 SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
-SURE = 0.5
+SURE_CONFIDENCE = 0.5
 """Confidence of a detection by which a picture is said to show several faces."""
-MOST = 20
+MAX_FACES = 20
 """Faces of a picture that are looked for, at most."""
 SEEN_SHARE = 1 / 12
 """Width of a face, as a share of the side of the square that is looked at, from which the full-range detector misses none.
@@ -23,9 +23,9 @@ Lone faces are found down to a half of it, and of the eighteen in a group of 180
 BESIDE = 1 / 3
 """Width of the least face that counts beside the largest one, in its widths: in the usual portrait, whose face takes a
 quarter of the picture or more, nobody is looked for part by part."""
-MOST_PARTS = 30
+MAX_PARTS = 30
 """Parts of one size that are looked at, at most: who is smaller in a large picture is found in a crop of it."""
-LEAST_PART = 450
+MIN_PART_PIXELS = 450
 """Pixels of the least part that is looked at: faces that go unseen in it have eyes less than 16 pixels apart, and are too
 small to be animated."""
 REACHES = (1.25, 0.7)
@@ -75,7 +75,7 @@ class FaceTracker:
 
 def find_faces(
     rgb: NDArray[np.uint8],
-    most: int = MOST,
+    most: int = MAX_FACES,
     confidence: float = 0.3,
     within: tuple[int, int, int, int] | None = None,
 ) -> list[NDArray[np.float32]]:
@@ -94,11 +94,11 @@ def find_faces(
     meshes = _looked_at(rgb, near, [], most, REACHES[:1], confidence)
     side = max(seen.shape[:2])
     with _detector(confidence, far=True) as detector:
-        while len(meshes) < most and len(parts := overlapping_parts(seen.shape, side)) <= MOST_PARTS:
+        while len(meshes) < most and len(parts := overlapping_parts(seen.shape, side)) <= MAX_PARTS:
             boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
             meshes = _looked_at(rgb, boxes, meshes, most, REACHES, confidence)
             least = max((BESIDE * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
-            if side * SEEN_SHARE <= least or side < 2 * LEAST_PART:
+            if side * SEEN_SHARE <= least or side < 2 * MIN_PART_PIXELS:
                 break
             side = -(-side // 2)
     middles = [(mesh, mesh[:, :2].mean(axis=0)) for mesh in meshes]
@@ -168,7 +168,7 @@ def same_face(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
 
 def several_faces(rgb: NDArray[np.uint8]) -> bool:
     """Whether a picture shows more than one face, by a quick look at those that are near."""
-    with _detector(SURE, far=False) as detector:
+    with _detector(SURE_CONFIDENCE, far=False) as detector:
         return len(_detected(detector, rgb, (0, 0, rgb.shape[1], rgb.shape[0]))) > 1
 
 

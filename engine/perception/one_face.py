@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.perception.faces import FaceTracker, find_faces, several_faces
 
-REACH = 0.75
+SAME_FACE_REACH = 0.75
 """A face that is further from where the followed one was last seen, in its own size, is somebody else's."""
 AROUND = 1.5
 """Half side of the part of a frame in which a face is followed that is too small in the whole, in its own size."""
@@ -52,7 +52,7 @@ class OneFace:
         if seen and self._last is None:
             seen = self._choose(rgb, seen)
         mesh = min(seen, key=self._away) if seen else None
-        if mesh is None or (self._among_others and self._away(mesh) > REACH):
+        if mesh is None or (self._among_others and self._away(mesh) > SAME_FACE_REACH):
             return None
         self._last = mesh
         if self._part is not None and self._away_from_middle(mesh) > ASTRAY:
@@ -76,7 +76,7 @@ class OneFace:
         self._among_others = True
         self._begin()
         in_whole = self._see(rgb)
-        if any(self._away(mesh) <= REACH for mesh in in_whole):
+        if any(self._away(mesh) <= SAME_FACE_REACH for mesh in in_whole):
             return in_whole
         self._look_around(self._last, rgb.shape)
         return self._see(rgb)

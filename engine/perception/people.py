@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.mask_distance import grown
-from engine.perception.body import FAINT, LANDMARKS, Body, find_body
+from engine.perception.body import FAINT_CONFIDENCE, LANDMARKS, Body, find_body
 from engine.perception.faces import find_faces
 
-MOST = 12
+MAX_PEOPLE = 12
 """People that are looked for, at most."""
 LIMBS = tuple(
     (f"{side}{a}", f"{side}{b}")
@@ -22,7 +22,7 @@ LIMBS = tuple(
     )
 )
 """The lines along which a body's limbs lie."""
-WIDTH = 0.1
+LIMB_WIDTH = 0.1
 """Width of a limb, as a share of the height from nose to ankles."""
 HEAD = 0.75
 """Radius of the head, in distances between nose and the middle of the shoulders."""
@@ -32,7 +32,7 @@ SAME = 0.15
 """How far from one another two bodies' points are at least, in the median, as a share of their size."""
 WIDE = 1.4
 """Width over height from which a picture is wide."""
-LEAST_SQUARE = 64
+MIN_SQUARE = 64
 """Pixels of a side: in less, no character can be made of anybody, and a strip would be looked at in a thousand squares."""
 COVERED = 0.5
 """Share of a further body's points that may lie on one found before."""
@@ -41,7 +41,7 @@ CLOSER = 0.35
 rocket is not."""
 
 
-def find_people(rgb: NDArray[np.uint8], most: int = MOST) -> list[Body]:
+def find_people(rgb: NDArray[np.uint8], most: int = MAX_PEOPLE) -> list[Body]:
     """The bodies in a picture (H, W, 3) uint8, the largest first."""
     found: list[Body] = []
     remaining = np.ascontiguousarray(rgb).copy()
@@ -63,12 +63,12 @@ def find_people(rgb: NDArray[np.uint8], most: int = MOST) -> list[Body]:
 
 def _faint(rgb: NDArray[np.uint8]) -> Body | None:
     """Somebody who hardly stands out, in camouflage for instance: whom two looks find at the same place."""
-    body = find_body(rgb, FAINT)
+    body = find_body(rgb, FAINT_CONFIDENCE)
     if body is None:
         return None
     x, y, wide, high = person_box(body, rgb.shape)
     box = (x - CLOSER * wide, y - CLOSER * high, (1 + 2 * CLOSER) * wide, (1 + 2 * CLOSER) * high)
-    again = find_body_within(rgb, box, FAINT)
+    again = find_body_within(rgb, box, FAINT_CONFIDENCE)
     size = float(np.ptp(body.points, axis=0).max())
     if again is None or np.median(np.linalg.norm(body.points - again.points, axis=1)) > SAME * size:
         return None
@@ -79,8 +79,10 @@ def person_box(body: Body, shape: tuple[int, ...]) -> NDArray[np.float32]:
     """The box around a body within a picture of a shape (H, W, ...): x, y, width and height, hair and feet included."""
     points = body.points
     reach = HEAD * _neck(body)
-    low = np.minimum(points.min(0), body.landmark("Nose") - [reach, 1.6 * reach]) - WIDTH / 3 * np.ptp(points[:, 1])
-    high = np.maximum(points.max(0), body.landmark("Nose") + reach) + WIDTH / 3 * np.ptp(points[:, 1])
+    low = np.minimum(points.min(0), body.landmark("Nose") - [reach, 1.6 * reach]) - LIMB_WIDTH / 3 * np.ptp(
+        points[:, 1]
+    )
+    high = np.maximum(points.max(0), body.landmark("Nose") + reach) + LIMB_WIDTH / 3 * np.ptp(points[:, 1])
     low, high = np.maximum(low, 0), np.minimum(high, [shape[1], shape[0]])
     return np.concatenate([low, np.maximum(high - low, 1)]).astype(np.float32)
 
@@ -89,7 +91,7 @@ def covered_by(body: Body, shape: tuple[int, int]) -> NDArray[np.bool_]:
     """Where a body surely is (H, W): its limbs, trunk and head."""
     drawn = np.zeros(shape, np.uint8)
     at = {name: tuple(int(value) for value in np.rint(body.landmark(name))) for name in LANDMARKS}
-    width = max(1, round(WIDTH * float(np.ptp(body.points[:, 1]))))
+    width = max(1, round(LIMB_WIDTH * float(np.ptp(body.points[:, 1]))))
     for a, b in LIMBS:
         cv2.line(drawn, at[a], at[b], (1,), width)
     trunk = np.array([at[f"{side}{joint}"] for side, joint in _TRUNK])
@@ -141,7 +143,7 @@ def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
     """Squares that cover a wide picture, one overlapping the next by half: the network makes every picture a small square,
     in which the people of a wide one are tiny."""
     height, width = shape[:2]
-    if width < WIDE * height or height < LEAST_SQUARE:
+    if width < WIDE * height or height < MIN_SQUARE:
         return []
     count = int(np.ceil(2 * (width - height) / height)) + 1
     return [(left, 0, height, height) for left in np.linspace(0, width - height, count)]

@@ -27,10 +27,10 @@ CUT_SIZE = 480
 KEPT = 0.6
 """Belief from which a pixel stays with the person whatever its colour."""
 
-DOUBT = 0.35
+DOUBTFUL_BELIEF = 0.35
 """Belief of what the networks may have missed: colours decide."""
 
-LIKELY = 0.99
+LIKELY_BELIEF = 0.99
 """Belief of what joints tell to be a person's: settled, unless it has the colours of a plain background."""
 
 EDGE = np.ones((9, 9), np.uint8)
@@ -55,7 +55,7 @@ def person_mask(
     ----------
     rgb : (H, W, 3) uint8.
     seed : (H, W) float32, 1 where a person is known to be (a face's region): helps in drawings, where
-        the networks see little. `LIKELY` where joints that were found say so, which may be misplaced; `DOUBT` where one may
+        the networks see little. `LIKELY_BELIEF` where joints that were found say so, which may be misplaced; `DOUBTFUL_BELIEF` where one may
         be, although the networks see nothing.
     alpha : (H, W), the picture's own alpha channel (uint8, or float in [0, 1]). Where it cuts something
         out it is taken as the truth, less the others; a channel that is opaque throughout says nothing.
@@ -88,9 +88,9 @@ def person_mask(
     figure = figure_on_plain_ground(small, belief, sure > SURE)
     if figure is not None:
         belief = figure
-    misplaced = (belief < DOUBT) & (sure > DOUBT) & (sure < 1)
+    misplaced = (belief < DOUBTFUL_BELIEF) & (sure > DOUBTFUL_BELIEF) & (sure < 1)
     if misplaced.any():
-        sure[misplaced & like_plain_background(small, (belief < 1 - SURE) & (sure == 0))] = DOUBT
+        sure[misplaced & like_plain_background(small, (belief < 1 - SURE) & (sure == 0))] = DOUBTFUL_BELIEF
     belief = np.maximum(belief, sure)
     if others is not None:
         apart = resized(others.astype(np.float32), (small.shape[1], small.shape[0]))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.resample import resized, size_within
-from engine.perception.body import FAINT
+from engine.perception.body import FAINT_CONFIDENCE
 from engine.perception.solutions import solution
 
 Mask = NDArray[np.float32]
@@ -30,7 +30,7 @@ def people_in(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
     posed = _pose_mask(small)
     if posed is None and whole:  # who hardly stands out was found by such a look, at this size
-        posed = _pose_mask(rgb, FAINT)
+        posed = _pose_mask(rgb, FAINT_CONFIDENCE)
         posed = None if posed is None else resized(posed, (small.shape[1], small.shape[0]))
     return _together(small, posed, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
 

@@ -29,24 +29,24 @@ LONGEST_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
 LONGEST_SIDE_REACTIVE = 640
 """Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
-LEAST_EYE_DISTANCE = 16.0
+MIN_EYE_DISTANCE = 16.0
 """Pixels; a smaller face has nothing to animate."""
-MOST_TURNED = (35.0, 30.0)
+MAX_TURN = (35.0, 30.0)
 """Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
-MOST_OPEN = 0.6
+MAX_MOUTH_OPENING = 0.6
 """Mouth opening beyond which a target fails: its teeth, or the driver's in their place, would be drawn too long. The
 widest of real portraits is 0.2, of people who speak 0.5, of a shout 0.8."""
-NEUTRAL = (12.0, 12.0, 0.08, 0.03)
+NEUTRAL_LIMITS = (12.0, 12.0, 0.08, 0.03)
 """Degrees of yaw and pitch, mouth opening, and eye distances by which the mouth's corners lie above the middle of the
 lips, up to which a target counts as neutral and frontal. The corners of neutral portraits lie up to 0.012 above it, of
 smiles with closed lips from 0.035; their widths do not tell the two apart."""
 
-CUT = 0.95
+CUT_SHARE = 0.95
 """Share of the face that lies in the result below which it counts as cut."""
-LEAST_INSIDE = 0.5
+MIN_INSIDE_SHARE = 0.5
 """Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
-SHUT = 0.13
+SHUT_EYE_OPENING = 0.13
 """Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.face_animation.eyes`): calm
 people have 0.22 to 0.43, a laugh 0.2."""
 
@@ -93,14 +93,14 @@ def find_target_face(
     scale = float(place[0, 0])
     moved[:, :2] = (mesh[:, :2] + 0.5) * scale + place[:, 2] - 0.5
     moved[:, 2] *= scale
-    if float(eye_distance(moved[:, :2])) < LEAST_EYE_DISTANCE:
+    if float(eye_distance(moved[:, :2])) < MIN_EYE_DISTANCE:
         raise InputError(
             "face_too_small",
-            f"The face is too small: its eyes must be at least {LEAST_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
+            f"The face is too small: its eyes must be at least {MIN_EYE_DISTANCE:.0f} pixels apart. Crop to the face or use a larger picture.",
             ("crop", "size", "face_index"),
             found,
         )
-    if share_inside(moved, size) < CUT:
+    if share_inside(moved, size) < CUT_SHARE:
         warn(
             "face_cut",
             "The picture cuts the face: what lies beyond its edge is not known, and cannot move in. Use a picture, or a crop, that shows all of it.",
@@ -143,7 +143,7 @@ def _with_placed(
 ) -> tuple[list[NDArray[np.float32]], int]:
     """The faces that were found, with the placed one instead of the one that it lies on, or after all of them; and its
     place among them."""
-    if share_inside(placed, size) < LEAST_INSIDE:
+    if share_inside(placed, size) < MIN_INSIDE_SHARE:
         raise InputError(
             "landmarks_invalid",
             "The placed landmarks lie outside of the picture: give them in pixels of the picture as it was uploaded, with more than half of the face inside.",
@@ -183,15 +183,15 @@ def _check_face(
         return
     pose = head_pose(mesh, size)
     yaw, pitch = np.rad2deg(abs(pose.yaw)), np.rad2deg(abs(pose.pitch))
-    if yaw > MOST_TURNED[0] or pitch > MOST_TURNED[1]:
+    if yaw > MAX_TURN[0] or pitch > MAX_TURN[1]:
         raise InputError(
             "face_too_turned",
-            f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MOST_TURNED[0]:.0f} and {MOST_TURNED[1]:.0f} can be animated. Use a more frontal picture.",
+            f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MAX_TURN[0]:.0f} and {MAX_TURN[1]:.0f} can be animated. Use a more frontal picture.",
             ("landmarks", "face_index"),
             found,
         )
     opening = float(mouth_opening(mesh))
-    if opening > MOST_OPEN:
+    if opening > MAX_MOUTH_OPENING:
         raise InputError(
             "mouth_too_open",
             "The mouth is open too wide for another expression to be shown: use a picture with a calmer face, or place the landmarks by hand.",
@@ -201,13 +201,15 @@ def _check_face(
     smile = float(expression(mesh[None])[0, EXPRESSION.index("corners_up")])
     words = "is turned sideways", "looks up or down", "has its mouth open", "smiles"
     if shown := [
-        word for word, value, most in zip(words, (yaw, pitch, opening, smile), NEUTRAL, strict=True) if value > most
+        word
+        for word, value, most in zip(words, (yaw, pitch, opening, smile), NEUTRAL_LIMITS, strict=True)
+        if value > most
     ]:
         warn(
             "target_not_neutral",
             f"The face {' and '.join(shown)}: what the driver does is added to that. A calm face from the front can do more.",
         )
-    if float(eye_opening(mesh).min()) < SHUT:
+    if float(eye_opening(mesh).min()) < SHUT_EYE_OPENING:
         warn(
             "eyes_shut",
             "An eye is shut in the picture and stays so: what is behind the lid is not known. Use a picture with open eyes.",

@@ -27,7 +27,7 @@ from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
-from engine.perception.people import MOST, find_people, person_box
+from engine.perception.people import MAX_PEOPLE, find_people, person_box
 from engine.run import Run
 
 LIMITS = Limits()
@@ -168,12 +168,12 @@ def test_somebody_found_in_a_box_alone_is_cut_out_there(tmp_path: Path) -> None:
     """Of more people than are looked for, one who is not among those found is one of them once a box says so."""
     one = cv2.resize(sample_picture(), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
     wide, high = one.shape[1], one.shape[0]
-    write_image(tmp_path / "many.png", np.concatenate([one] * (MOST + 1), 1))
+    write_image(tmp_path / "many.png", np.concatenate([one] * (MAX_PEOPLE + 1), 1))
     with pytest.raises(InputError) as raised:
         found(tmp_path / "many.png", Choice())
     people = raised.value.found["people"]
     seen = {int((x + across / 2) // wide) for x, _, across, _ in people}
-    left = min(set(range(MOST + 1)) - seen) * wide
+    left = min(set(range(MAX_PEOPLE + 1)) - seen) * wide
     figure = found(tmp_path / "many.png", Choice(box=(left, 0, wide, high)))
     assert len(figure.people) == len(people) + 1 and figure.index == len(people)
     columns = np.flatnonzero((outlined(figure).alpha > 0.5).any(0)) / figure.scale[0]

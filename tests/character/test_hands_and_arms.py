@@ -11,7 +11,7 @@ from engine.character.silhouette import ARM_AND_HAND, FOREARM, NEAR, _seen
 from engine.character.stages import hand_labels
 from engine.character.template_fit import BEFORE, _arms_before_the_trunk
 from engine.perception.body import LANDMARKS
-from engine.perception.person import DOUBT, LIKELY
+from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
 
 TRUNK = {"LeftShoulder": (120, 50), "RightShoulder": (80, 50), "RightHip": (85, 120), "LeftHip": (115, 120)}
 
@@ -31,7 +31,7 @@ HAND = {"LeftWrist": (150, 120), "LeftIndex": (150, 140), "LeftPinky": (154, 140
 
 
 def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
-    seed = _seen(figure(HAND, 0.95)) == np.float32(LIKELY)
+    seed = _seen(figure(HAND, 0.95)) == np.float32(LIKELY_BELIEF)
     for x, y in ((150, 121), (151, 130), (152, 139)):
         assert seed[y, x]
     assert not seed[150:].any() and not seed[:110].any()
@@ -47,7 +47,7 @@ def test_a_hand_that_is_not_surely_seen_says_nothing() -> None:
 
 def test_around_a_hand_colours_are_asked() -> None:
     seed = _seen(figure(HAND, 0.95))
-    sure, doubtful = seed == np.float32(LIKELY), seed == np.float32(DOUBT)
+    sure, doubtful = seed == np.float32(LIKELY_BELIEF), seed == np.float32(DOUBTFUL_BELIEF)
     assert (sure | doubtful | (seed == 0)).all()
     reach = max(1, round(NEAR * 90))  # from the shoulders to the fingers
     rows, columns = np.nonzero(sure)
@@ -57,13 +57,13 @@ def test_around_a_hand_colours_are_asked() -> None:
 def test_a_hand_that_is_not_seen_closely_may_be_as_far_from_the_elbow_as_an_arm_is_long() -> None:
     places = {"LeftElbow": (120.0, 80.0), "LeftWrist": (128.0, 80.0)}
     end = 120 + ARM_AND_HAND * 70  # from the shoulders to the hips
-    doubtful = _seen(figure(places, 0.95))[80] == np.float32(DOUBT)
+    doubtful = _seen(figure(places, 0.95))[80] == np.float32(DOUBTFUL_BELIEF)
     assert doubtful[135 : int(end)].all()
     assert not doubtful[int(end) + 2 + round((NEAR + FOREARM) * 70) :].any()
 
 
 def test_a_forearm_between_joints_that_are_seen_is_the_persons() -> None:
-    seed = _seen(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == np.float32(LIKELY)
+    seed = _seen(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == np.float32(LIKELY_BELIEF)
     for x, y in ((151, 81), (165, 95), (179, 109)):
         assert seed[y, x]
 

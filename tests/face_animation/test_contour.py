@@ -7,7 +7,7 @@ import pytest
 from made_face import placed
 from numpy.typing import NDArray
 
-from engine.face_animation.contour import EARS, MOST, beside_contour, keep_inside, rim_distance
+from engine.face_animation.contour import EARS, MAX_GAIN, beside_contour, keep_inside, rim_distance
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, MESH_SIZE, RIGHT_EYE
 
 UNIT = 50.0
@@ -62,7 +62,7 @@ def test_a_point_beside_the_contour_is_stretched_no_more_than_its_side(mesh: NDA
     kept = faces.copy()
     keep_inside(kept, mesh, SEEN)
     own, now = (-rim_distance(mesh, face[[CHEEK]])[0] for face in (mesh, kept[0]))
-    assert now == pytest.approx(MOST * own, rel=0.1)
+    assert now == pytest.approx(MAX_GAIN * own, rel=0.1)
     others = np.arange(MESH_SIZE) != CHEEK
     np.testing.assert_array_equal(kept[0, others], faces[0, others])
 

@@ -12,7 +12,7 @@ import pytest
 from made_face import BROWN, SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes import LEAST_WIDTH, draw_eye, gaze, prepare_eyes
+from engine.face_animation.eyes import MIN_EYE_WIDTH, draw_eye, gaze, prepare_eyes
 from engine.face_animation.lids_and_lips import LIDS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -155,7 +155,7 @@ def test_what_lids_hide_of_the_iris_is_completed(mesh: NDArray) -> None:
 
 
 def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:
-    tiny = placed(LEAST_WIDTH, (180, 140))
+    tiny = placed(MIN_EYE_WIDTH, (180, 140))
     assert prepare_eyes(painted(tiny, SIZE), tiny) == (None, None)
     closed = shut(mesh, 0.05)
     assert prepare_eyes(painted(closed, SIZE), closed) == (None, None)

@@ -7,11 +7,20 @@ import pytest
 from made_face import opened, placed
 from numpy.typing import NDArray
 
-from engine.face_animation.lips_and_skin import ABOVE, BELOW, LEAST, LOWER, MOST, UPPER, keep_lips_off_skin, lips_room
+from engine.face_animation.lips_and_skin import (
+    ABOVE,
+    BELOW,
+    LOWER,
+    MAX_SKIN_SHARE,
+    MIN_SKIN_SHARE,
+    UPPER,
+    keep_lips_off_skin,
+    lips_room,
+)
 
 UNIT = 60.0
 REST = placed(UNIT, (150, 120))
-ANY = np.array([LEAST])
+ANY = np.array([MIN_SKIN_SHARE])
 
 
 def torn(face: NDArray[np.float32], by: float) -> NDArray[np.float32]:
@@ -28,7 +37,9 @@ def steps(face: NDArray[np.floating]) -> list[NDArray[np.floating]]:
     return [way * np.diff(face[np.array(skin), 1], axis=1) for skin, way in ((ABOVE, -1), (BELOW, 1))]
 
 
-def led_back(face: NDArray[np.float32], room: float = LEAST, rest: NDArray[np.float32] = REST) -> NDArray[np.floating]:
+def led_back(
+    face: NDArray[np.float32], room: float = MIN_SKIN_SHARE, rest: NDArray[np.float32] = REST
+) -> NDArray[np.floating]:
     faces = face[None].astype(float)
     keep_lips_off_skin(faces, rest, np.array([room]))
     return np.asarray(faces[0])
@@ -44,7 +55,7 @@ def test_lips_over_the_skin_press_it_together_and_no_further() -> None:
     assert min(s.min() for s in steps(acted)) < 0
     back = led_back(acted)
     for kept, usual in zip(steps(back), steps(REST), strict=True):
-        assert (kept >= LEAST * usual - 1e-3).all()
+        assert (kept >= MIN_SKIN_SHARE * usual - 1e-3).all()
     ends = [column[-1] for column in (*ABOVE, *BELOW)]
     np.testing.assert_array_equal(back[ends], acted[ends].astype(float))
     assert np.abs(back[:, 0] - acted[:, 0]).max() < 1e-6
@@ -83,7 +94,7 @@ def test_the_driver_says_how_far_the_skin_under_the_nose_is_pressed() -> None:
     nose, lip = (float(REST[v, 1]) for v in (ABOVE[4][2], ABOVE[4][0]))
     usual = (lip - nose) / UNIT
     rooms = lips_room(np.stack([REST, torn(REST, 0.75 * usual), torn(REST, 2.0)]), REST)
-    np.testing.assert_allclose(rooms, [MOST, 0.25, LEAST], atol=1e-3)
-    tight, wide = (led_back(torn(REST, 0.5), room) for room in (LEAST, MOST))
-    for back, share in ((tight, LEAST), (wide, MOST)):
+    np.testing.assert_allclose(rooms, [MAX_SKIN_SHARE, 0.25, MIN_SKIN_SHARE], atol=1e-3)
+    tight, wide = (led_back(torn(REST, 0.5), room) for room in (MIN_SKIN_SHARE, MAX_SKIN_SHARE))
+    for back, share in ((tight, MIN_SKIN_SHARE), (wide, MAX_SKIN_SHARE)):
         assert back[ABOVE[4][0], 1] - back[ABOVE[4][2], 1] == pytest.approx(share * usual * UNIT, abs=0.01)

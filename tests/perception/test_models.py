@@ -12,7 +12,7 @@ from tiny_onnx import brightness_model
 from engine.face_animation.layers import separate_layers
 from engine.face_animation.target_face import TargetFace
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
-from engine.perception.person import DOUBT, person_mask
+from engine.perception.person import DOUBTFUL_BELIEF, person_mask
 
 
 def settings_for(path: Path, **more: str) -> dict[str, str]:
@@ -56,7 +56,7 @@ def test_what_the_model_leaves_out_of_the_known_is_found_without_it(tmp_path: Pa
     alone = person_mask(rgb, model=model)
     seed = ((xs - 80) ** 2 + (ys - 100) ** 2 < 20**2).astype(np.float32)
     np.testing.assert_array_equal(person_mask(rgb, seed, model=model), alone)
-    seed[80:120, 90:225] = DOUBT
+    seed[80:120, 90:225] = DOUBTFUL_BELIEF
     seed[94:107, 90:205] = 1
     mask = person_mask(rgb, seed, model=model)
     assert alone[arm].max() < 0.5

@@ -21,9 +21,9 @@ from engine.perception.faces import find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
-    LEAST_EYE_DISTANCE,
     LONGEST_SIDE,
-    MOST_TURNED,
+    MAX_TURN,
+    MIN_EYE_DISTANCE,
     TargetFace,
     find_target_face,
     share_inside,
@@ -102,7 +102,7 @@ def test_a_face_turned_too_far_is_refused_with_its_angle(scan, yaw: int, tmp_pat
     write_image(tmp_path / "head.png", picture)
     error = refusal(tmp_path / "head.png")
     assert error.code == "face_too_turned"
-    assert any(str(a) in error.detail for a in range(int(MOST_TURNED[0]), 75))
+    assert any(str(a) in error.detail for a in range(int(MAX_TURN[0]), 75))
 
 
 @pytest.mark.parametrize(("yaw", "warned"), [(0, False), (-22, True), (25, True)])
@@ -184,7 +184,7 @@ def test_a_tiny_face_is_refused(woman: Path, tmp_path: Path) -> None:
 def test_the_least_face_is_measured_in_the_result(woman: Path, whole: TargetFace) -> None:
     """A face large enough in the picture is too small if the result is."""
     unit = float(eye_distance(whole.mesh[:, :2]))
-    side = round(320 * LEAST_EYE_DISTANCE / unit)
+    side = round(320 * MIN_EYE_DISTANCE / unit)
     assert refusal(woman, size=(side - 8, side - 8)).code == "face_too_small"
     assert find(woman, size=(side + 8, side + 8)).mesh.shape == (478, 3)
 

@@ -46,7 +46,7 @@ WHOLE_BROW, MOUTH_DRAWN, BROWS_PARTED = 0.015, 0.06, 0.02
 brow comes more than 0.7 of the inner end's way, the mouth narrows and the brows part; in fear the outer end stays
 behind (AU 1 with 4) and the mouth is drawn wide (AU 20)."""
 
-MOST_TURN = 0.45
+MAX_WINK_YAW = 0.45
 """Radians of yaw from rest, beyond which one eye is seen too obliquely to tell a wink."""
 
 Shown = Literal["happy", "surprise", "anger", "fear", "sadness", "wink"]
@@ -154,7 +154,7 @@ def sadness(done: Movements) -> Course:
 
 def wink(done: Movements) -> Course:
     """One eye shuts and the other does not (AU 46)."""
-    return _all(done.one_eye_shut, 2 - 2.2 * done.other_eye_shut, 4 * (MOST_TURN - np.abs(done.yaw)))
+    return _all(done.one_eye_shut, 2 - 2.2 * done.other_eye_shut, 4 * (MAX_WINK_YAW - np.abs(done.yaw)))
 
 
 PROTOTYPES: Mapping[Shown, Callable[[Movements], Course]] = {

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.face_track.face_crop import FaceCrop
-from engine.perception.faces import SURE, FaceTracker
+from engine.perception.faces import SURE_CONFIDENCE, FaceTracker
 
 LOOK = (80, 72)
 """Height and width at which looks are compared, pixels ..."""
@@ -22,7 +22,7 @@ FACE = (slice(14, 66), slice(10, 62))
 """... and where the face is in it, from the brows to the chin."""
 FINE, COARSE = 1.0, 8.0
 """Pixels: structure between these two counts. Finer is noise, coarser is light."""
-ALIKE = 0.3
+SAME_FACE_CORRELATION = 0.3
 """Correlation above which it is the same face: of what covers faces 0.13 at most was seen, of faces that speak 0.4, that
 turn 0."""
 AROUND = 1.0
@@ -50,11 +50,11 @@ class CoveredFace:
         look = _structure(seen.crop)
         if self._first is None:
             self._first = look
-        return float((look * self._first).mean()) < ALIKE and not self._detected(rgb, seen)
+        return float((look * self._first).mean()) < SAME_FACE_CORRELATION and not self._detected(rgb, seen)
 
     def _detected(self, rgb: NDArray[np.uint8], seen: FaceCrop) -> bool:
         if self._detector is None:
-            self._detector = FaceTracker(confidence=SURE, alone=True)
+            self._detector = FaceTracker(confidence=SURE_CONFIDENCE, alone=True)
         low, high = seen.mesh[:, :2].min(axis=0), seen.mesh[:, :2].max(axis=0)
         middle, reach = (low + high) / 2, AROUND * float((high - low).max())
         x0, y0 = np.maximum(middle - reach, 0).astype(int)

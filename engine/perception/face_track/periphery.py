@@ -10,7 +10,7 @@ from engine.geometry.rigid import Similarity, fit_similarity
 from engine.perception.face_track.held_face import EASE_BACK, way_back
 from engine.perception.segmentation import selfie_mask
 
-MOST_POINTS = 100
+MAX_POINTS = 100
 WORKING_HEIGHT = 360
 """Frames are tracked at about this height; points outside the face need no more."""
 FORWARD_BACKWARD = 1.0
@@ -160,5 +160,5 @@ def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> 
     cv2.fillConvexPoly(mask, cv2.convexHull((mesh[:, :2] * scale).round().astype(np.int32)), 0)
     mask = np.asarray(cv2.erode(mask, np.ones((5, 5), np.uint8)), np.uint8)
     grey = cv2.cvtColor(small, cv2.COLOR_RGB2GRAY)
-    found = cv2.goodFeaturesToTrack(grey, MOST_POINTS, 0.01, 0.02 * np.hypot(*grey.shape), mask=mask)
+    found = cv2.goodFeaturesToTrack(grey, MAX_POINTS, 0.01, 0.02 * np.hypot(*grey.shape), mask=mask)
     return np.zeros((0, 2), np.float32) if found is None else found[:, 0].astype(np.float32)

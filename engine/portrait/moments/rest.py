@@ -8,16 +8,16 @@ from scipy.spatial.distance import cdist
 
 from engine.perception.expression.measures import FACE, LIDS, MEASURES, SPREAD, USUAL, general_rest, lowered
 
-UNLIKE = 0.3
+UNLIKE_REST_WEIGHT = 0.3
 """How much being unlike a resting face in general counts, against being unlike most of what this person shows."""
 
-LOWERED = 2.0
+LOWERED_LIDS_WEIGHT = 2.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
 NEIGHBOURS = 0.04
 """The share of the frames that are compared with each: rest is what a face comes back to again and again."""
 
-FEWEST = 5
+MIN_NEIGHBOURS = 5
 
 _STILL = np.delete(np.arange(len(MEASURES)), LIDS)
 
@@ -33,11 +33,11 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     rare: in this place it finds two more of 80 joined performances, one wrongly, and misses a smile in the real clips
     (`benchmarks/moments`).
     """
-    neighbours = min(max(FEWEST, round(NEIGHBOURS * len(values))), len(values) - 1)
+    neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOURS * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
     unlike = np.sqrt(np.mean(((values - general_rest()) / USUAL)[:, FACE] ** 2, axis=1))
     blinking = lowered(values, np.quantile(values[:, LIDS], 0.7, axis=0))
-    best = int(np.argmin(apart.mean(axis=1) + UNLIKE * unlike + LOWERED * blinking))
+    best = int(np.argmin(apart.mean(axis=1) + UNLIKE_REST_WEIGHT * unlike + LOWERED_LIDS_WEIGHT * blinking))
     nearest = np.argsort(np.linalg.norm((values - values[best]) / SPREAD, axis=1))[: neighbours + 1]
     return np.asarray(np.median(values[nearest], axis=0), float)
 

@@ -15,21 +15,21 @@ from numpy.typing import NDArray
 
 from engine.portrait.reactive.excursion import Pose
 
-NEAR = 0.4
+EXIT_TOLERANCE = 0.4
 """How far an exit may be from the frames that use it, against the longest step between two frames of its clip ..."""
-LEAST_PACE = 0.5
+MIN_PACE = 0.5
 """... or this share of the longest step in all clips, where that is more ..."""
 UNSEEN = (0.25, 0.8)
 """... or these pixels (the head, the furthest point), which nobody sees."""
 TAPER = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
-CALM = 0.5
+CALM_STEP = 0.5
 """The longest step of a bridge against the longest in all clips: a head that goes back to rest does not snap back."""
 SHORTEST, LONGEST = 3, 12
 """Frames of a bridge."""
 HOLD = 2
 """Frames of rest after each bridge, which cost next to nothing: a player that stops late shows nothing else."""
-REACH = 32
+MAX_FRAMES_PER_KEYFRAME = 32
 """Bridges are coded one after another from one whole picture on, the one at rest, as long as no more frames than these
 follow it: that many must be decoded at worst before a bridge is seen, and whole pictures are what bridges cost."""
 
@@ -77,7 +77,7 @@ class Exits:
         for length in self.lengths:
             opens = room < length + HOLD
             if opens:
-                end, room = end + 1, REACH
+                end, room = end + 1, MAX_FRAMES_PER_KEYFRAME
             placed.append(Segment(end, length, opens))
             end, room = end + length + HOLD, room - length - HOLD
         return placed
@@ -99,11 +99,11 @@ def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
     step : the longest of the clip itself; pace : the longest of all clips of the profile.
     """
     step = Stride(
-        max(step.head, LEAST_PACE * pace.head, UNSEEN[0] / NEAR),
-        max(step.furthest, LEAST_PACE * pace.furthest, UNSEEN[1] / NEAR),
+        max(step.head, MIN_PACE * pace.head, UNSEEN[0] / EXIT_TOLERANCE),
+        max(step.furthest, MIN_PACE * pace.furthest, UNSEEN[1] / EXIT_TOLERANCE),
     )
     offsets = [pose.motion.offsets for pose in poses]
-    resting = [Stride.between(one).against(step) <= NEAR for one in offsets]
+    resting = [Stride.between(one).against(step) <= EXIT_TOLERANCE for one in offsets]
     frames: list[int] = []
     at: list[int] = []
     while len(at) < len(poses):
@@ -116,7 +116,7 @@ def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
         last = _furthest(offsets, resting, chosen, chosen, step)
         at += [len(frames) - 1] * (last - first + 1)
     far = [Stride.between(offsets[frame]).against(pace) for frame in frames]
-    steps = [one / (CALM * (1 - TAPER / 2)) for one in far]
+    steps = [one / (CALM_STEP * (1 - TAPER / 2)) for one in far]
     lengths = tuple(int(np.clip(np.ceil(one) - 1, SHORTEST, LONGEST)) for one in steps)
     return Exits(tuple(frames), lengths, tuple(at))
 
@@ -129,7 +129,7 @@ def _furthest(
     while (
         last + 1 < len(offsets)
         and not resting[last + 1]
-        and Stride.between(offsets[last + 1], offsets[of]).against(step) <= NEAR
+        and Stride.between(offsets[last + 1], offsets[of]).against(step) <= EXIT_TOLERANCE
     ):
         last += 1
     return last

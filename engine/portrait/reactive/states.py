@@ -12,7 +12,7 @@ from engine.portrait.options import PortraitOptions
 
 IDLE = "idle"
 """The performance that a profile is in when nothing sets off another."""
-MOST_BY_DEFAULT = 5
+MAX_BY_DEFAULT = 5
 """States besides the idle one: a profile then has a few megabytes."""
 OWN = "driver"
 """The state that a driving video of the user's own becomes."""
@@ -56,11 +56,11 @@ def choose_states(options: PortraitOptions, driver: Path | None) -> tuple[State,
 
 
 def default_states(there: Sequence[Performance]) -> tuple[str, ...]:
-    """The first performance of each state but the idle one, in the order of the catalogue, `MOST_BY_DEFAULT` at most."""
+    """The first performance of each state but the idle one, in the order of the catalogue, `MAX_BY_DEFAULT` at most."""
     first: dict[str, str] = {}
     for one in there:
         first.setdefault(one.state, one.name)
-    return tuple(name for name in first.values() if name != IDLE)[:MOST_BY_DEFAULT]
+    return tuple(name for name in first.values() if name != IDLE)[:MAX_BY_DEFAULT]
 
 
 def default_triggers(states: Sequence[State]) -> list[dict[str, str]]:
