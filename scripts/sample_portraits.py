@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.mask_pieces import pieces_touching
 from engine.media.video import read_video
 from engine.perception.person import person_mask
 from engine.performances import video
@@ -57,8 +58,9 @@ def _shirt(filmed: NDArray[np.uint8], y: Array) -> Array:
     hsv = cv2.cvtColor(filmed, cv2.COLOR_RGB2HSV)
     dark = ((y > CLOTH_BEGINS) & (hsv[..., 2] < 110) & (hsv[..., 1] < 120)).astype(np.uint8)
     dark = cv2.morphologyEx(dark, cv2.MORPH_CLOSE, np.ones((15, 15), np.uint8))
-    _, pieces = cv2.connectedComponents(dark)
-    shirt = np.isin(pieces, np.unique(pieces[-1])) & (pieces > 0)
+    lower_border = np.zeros(dark.shape, np.bool_)
+    lower_border[-1] = True
+    shirt = pieces_touching(dark > 0, lower_border, connectivity=8)
     return np.asarray(cv2.GaussianBlur(shirt.astype(np.float32), (0, 0), 3)[..., None], np.float32)
 
 

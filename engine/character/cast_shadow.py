@@ -17,6 +17,7 @@ from engine.character.measures import picture_camera, pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
 from engine.imaging.mask_distance import grown
+from engine.imaging.mask_pieces import bounding_box, pieces_touching
 from engine.render.ground_shadow import GroundShadow
 
 ABOVE, BELOW, BESIDE = 0.3, 0.2, 1.2
@@ -50,13 +51,11 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     """Find the shadow of whoever `alpha` (H, W) cuts out of `rgb` (H, W, 3)."""
     nothing = CastShadow(np.zeros(alpha.shape, np.float32), 0.0)
     person = alpha > 0.5
-    rows, columns = np.flatnonzero(person.any(1)), np.flatnonzero(person.any(0))
-    high = rows[-1] + 1 - rows[0]
-    top, bottom = int(rows[-1] - ABOVE * high), int(min(alpha.shape[0], rows[-1] + BELOW * high + 1))
-    left, right = (
-        int(max(0, columns[0] - BESIDE * high)),
-        int(min(alpha.shape[1], columns[-1] + BESIDE * high + 1)),
-    )
+    rows, columns = bounding_box(person)
+    high, lowest = rows.stop - rows.start, rows.stop - 1
+    top, bottom = int(lowest - ABOVE * high), int(min(alpha.shape[0], lowest + BELOW * high + 1))
+    left = int(max(0, columns.start - BESIDE * high))
+    right = int(min(alpha.shape[1], columns.stop + BESIDE * high))
     part = slice(top, bottom), slice(left, right)
     near = grown(alpha[part] > 0.02, 2)
     small = cv2.GaussianBlur(rgb[part], (0, 0), 1.2)
@@ -70,11 +69,9 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     dark = (light - usual < np.log(DARKER)) & same & ~near
     dark = cv2.morphologyEx(dark.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0
     # it begins at the feet
-    feet = near & (np.arange(top, bottom)[:, None] > rows[-1] - 0.08 * high)
+    feet = near & (np.arange(top, bottom)[:, None] > lowest - 0.08 * high)
     reach = grown(feet, max(2, high // 60))
-    _, pieces = cv2.connectedComponents((dark | reach).astype(np.uint8))
-    touching = np.unique(pieces[reach])
-    found = dark & np.isin(pieces, touching[touching > 0])
+    found = dark & pieces_touching(dark | reach, reach, connectivity=8)
     if not LEAST * person.sum() < found.sum() < MOST * person.sum():
         return nothing
     mask = np.zeros(alpha.shape, np.float32)

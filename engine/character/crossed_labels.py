@@ -18,9 +18,9 @@ from engine.body.parts import PARTS
 from engine.body.rig import Rig
 from engine.character.crossed_arms import CrossedArms
 from engine.character.figure import SIDES, Figure
-from engine.character.occlusion import largest
 from engine.character.posed_template import PosedTemplate
 from engine.imaging.mask_distance import distance_inside, grown
+from engine.imaging.mask_pieces import largest_piece
 
 NARROWEST, WIDEST = 0.045, 0.085
 """Metres that half the width of an arm at its elbow has, at least and at most."""
@@ -77,7 +77,7 @@ def label_crossed(
     if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
         hands[back] &= distance_inside(mask) > RIM
     reach = grown(hands[front] | covers[front], 2)
-    seen = largest(covers[front] | (hands[front] & skin & reach))
+    seen = largest_piece(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]
     shown = np.full(mask.shape, -1, np.int8)
     shown[whole & (covers[back] | skin)] = PARTS.index(f"{back.lower()}_arm")

@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.occlusion import largest
 from engine.character.part_surface import Surface
 from engine.character.sheets import THINNEST, Layer
 from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_pieces import largest_piece
 
 THIN = 0.5
 """Share of its depth that the body keeps behind a limb, at least."""
@@ -50,7 +50,7 @@ def body_behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     reach = _reach(limb) - BENEATH
     shown = body.mask & ~own
     beside = grown(shown, 1)  # or what is between pixels would gape
-    mask = largest(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
+    mask = largest_piece(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
     front = body.front.depth.copy()
     front[hidden] = np.clip(reach, body.back.depth + THIN * (front - body.back.depth), front)[hidden]
     return replace(body, mask=mask, front=Surface(front, body.front.weights))

@@ -20,6 +20,7 @@ from engine.imaging.colour_segmentation import (
     log_likelihood_ratio,
 )
 from engine.imaging.mask_distance import distance_inside, distance_to, grown
+from engine.imaging.mask_pieces import bounding_box, mask_height, pieces_by_area, pieces_touching
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""
@@ -58,17 +59,17 @@ def gaps(
     `rgb` (H, W, 3) the picture, `alpha` (H, W) the person's mask, `belief` (H, W) what networks believe to be a
     person; `point` gives a joint's place by its name.
     """
-    tall = np.flatnonzero((alpha > 0.5).any(1))
+    tall = mask_height(alpha > 0.5)
     none = np.zeros(alpha.shape, np.float32)
-    if not len(tall):
+    if not tall:
         return none
-    scale = min(1.0, WORKING / float(np.ptp(tall) + 1))
+    scale = min(1.0, WORKING / tall)
     size = (max(1, round(rgb.shape[1] * scale)), max(1, round(rgb.shape[0] * scale)))
     small = np.asarray(cv2.resize(rgb, size, interpolation=cv2.INTER_AREA), np.uint8)
     mask, believed = (
         np.asarray(cv2.resize(of, size, interpolation=cv2.INTER_AREA), np.float32) for of in (alpha, belief)
     )
-    height = float(np.ptp(tall) + 1) * scale
+    height = tall * scale
     inside, limbs, hands = _by_joints(lambda name: point(name) * scale, mask.shape, height)
     found = _by_colour(small, mask, believed, inside & ~limbs & (mask > 0.5), limbs, height)
     if not found.any():
@@ -118,10 +119,9 @@ def _by_colour(
     lab = cv2.cvtColor(rgb, cv2.COLOR_RGB2LAB).astype(np.float64)
     outside = (alpha < 0.05) & (cv2.dilate((alpha > 0.5).astype(np.uint8), _square(AROUND * height)) > 0)
     in_doubt = np.where(belief < SURE, CERTAIN_IN_DOUBT, CERTAIN)
-    _, pieces, stats, _ = cv2.connectedComponentsWithStats(asked.astype(np.uint8), connectivity=4)
-    large = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] >= LEAST * height**2)
+    large = pieces_by_area(asked, LEAST * height**2)
     found = np.zeros(asked.shape, np.bool_)
-    for part, enough in ((asked, np.full_like(in_doubt, CERTAIN)), *((pieces == piece, in_doubt) for piece in large)):
+    for part, enough in ((asked, np.full_like(in_doubt, CERTAIN)), *((piece, in_doubt) for piece in large)):
         near = cv2.dilate(part.astype(np.uint8), _square(NEAR * height)) > 0
         close = outside & near
         own, behind = limbs & near & (alpha > 0.9), close if close.sum() >= 6 * MIN_SAMPLES else outside
@@ -140,17 +140,14 @@ def _large_with_edges(
 ) -> NDArray[np.bool_]:
     """The pieces of what is `likely` (h, w) a gap that are one: large enough, with an edge, and no certain person."""
     found = np.zeros(likely.shape, np.bool_)
-    count, pieces, stats, _ = cv2.connectedComponentsWithStats(likely.astype(np.uint8), connectivity=4)
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (alpha > 0.5) & ~likely
     edge = likely & grown(rest, 1)
     steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > CONTRAST
-    for piece in range(1, count):
-        own = pieces == piece
-        if belief[own].mean() > SURE:
+    for own in pieces_by_area(likely, LEAST * height**2):
+        if belief[own].mean() > SURE or 2 * depth[own].max() < NARROWEST * height:
             continue
-        large = stats[piece, cv2.CC_STAT_AREA] >= LEAST * height**2 and 2 * depth[own].max() >= NARROWEST * height
-        if large and steps[own & edge].sum() >= STEPS * edge[own].sum():
+        if steps[own & edge].sum() >= STEPS * edge[own].sum():
             found |= own
     return found
 
@@ -167,8 +164,7 @@ def _to_their_ends(
     trunk are wider than the person's."""
     reach = round(FURTHER * height)
     near = distance_to(found) < reach
-    rows, columns = (np.flatnonzero(near.any(axis=axis)) for axis in (1, 0))
-    box = tuple(slice(max(0, each[0] - reach), each[-1] + 1 + reach) for each in (rows, columns))
+    box = bounding_box(near, reach)
     person, gap = alpha[box] > 0.5, found[box]
     asked = near[box] & person & ~(distance_inside(limbs)[box] > CORE * height) & ~hands[box]
     body, behind = person & ~asked & ~gap, gap | (alpha[box] < 0.05)
@@ -176,9 +172,8 @@ def _to_their_ends(
         return found
     lab = cv2.cvtColor(np.ascontiguousarray(rgb[box]), cv2.COLOR_RGB2LAB).astype(np.float64)
     background = _cut(lab, asked, gap, ColourMixture.fit(lab[body]), ColourMixture.fit(lab[behind]))
-    _, pieces = cv2.connectedComponents(background.astype(np.uint8), connectivity=4)
     whole = found.copy()
-    whole[box] = background & np.isin(pieces, np.unique(pieces[gap & background]))
+    whole[box] = pieces_touching(background, gap)
     return whole
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +9,7 @@ from engine.body.parts import PARTS
 from engine.character.labels import ARMS, SPECK
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
 from engine.imaging.mask_distance import grown
+from engine.imaging.mask_pieces import pieces_touching, without_small_pieces
 
 OUTLINE = 0.008
 """How far around the template's outline an arm's may be, as a share of the height."""
@@ -49,10 +49,8 @@ def hair_behind_arms(
         likelier = log_likelihood_ratio(colours, doubtful, of_hair, ColourMixture.fit(colours[bare]), SOFT)
         clear = np.where(_grown_by_share(template == arm, OUTLINE), CLEARLY, 0)
         given = doubtful & (likelier > clear)
-        _, pieces, stats, _ = cv2.connectedComponentsWithStats(given.astype(np.uint8), connectivity=4)
-        near = np.unique(pieces[_grown_by_share(labels == head, ACROSS)])
-        large = np.flatnonzero(stats[:, cv2.CC_STAT_AREA] >= SPECK)
-        found[given & np.isin(pieces, np.intersect1d(near, large))] = head
+        near = _grown_by_share(labels == head, ACROSS)
+        found[pieces_touching(without_small_pieces(given, SPECK), near)] = head
     return found
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from engine.character.far_cheek import with_far_cheek
 from engine.character.head_area import Head, measure_head
 from engine.imaging.mask_distance import distance_to
+from engine.imaging.mask_pieces import bounding_box, pieces_touching
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patch_fill import filled
 
@@ -88,11 +89,9 @@ def back_of_the_head(
     scale : pixels for each of the grid's.
     """
     margin = round(RIM * scale)
-    rows, columns = (np.flatnonzero(mask.any(axis)) for axis in (1, 0))
-    y, x = max(0, rows[0] - margin), max(0, columns[0] - margin)
-    box = slice(y, rows[-1] + 1 + margin), slice(x, columns[-1] + 1 + margin)
+    box = bounding_box(mask, margin)
     back, front = rgb.copy(), rgb.copy()
-    oval = face - np.array([x, y, 0, 0, 0])
+    oval = face - np.array([box[1].start, box[0].start, 0, 0, 0])
     head = measure_head(own[box], mask[box], oval, scale)
     around = beyond_the_outline(seen[box], covered[box])
     hair, through = find_hair(rgb[box], around, head)
@@ -151,8 +150,7 @@ def find_hair(
     from_skin, from_hair = (_distance(colours, head.mask, colours[where]) for where in (face, sample))
     found = sample | (own & (from_hair < np.minimum(CLEARLY * from_skin, 1.5 * ALIKE)))
     found = _beside_the_face(found, sample, head)
-    _, gaps = cv2.connectedComponents((~found).astype(np.uint8), connectivity=4)
-    found |= own & ~np.isin(gaps, gaps[face | ~head.mask])  # a lock that shines, within
+    found |= own & ~pieces_touching(~found, face | ~head.mask)  # a lock that shines, within
     safe = cv2.erode(found.astype(np.uint8), np.ones((3, 3), np.uint8), iterations=max(1, round(head.scale))) > 0
     beside = distance_to(found) < CROWN * head.scale
     through = head.mask & mixed & (from_skin > ALIKE) & beside
@@ -225,12 +223,12 @@ def _strands(shape: tuple[int, ...], scale: float, size: tuple[float, float]) ->
 
 def _interpolated(rgb: NDArray[np.uint8], known: NDArray[np.bool_], scale: float) -> NDArray[np.float32]:
     """Colours (h, w, 3) that are the means of what is `known` (h, w) nearby, and where nothing is, of what is farther."""
-    rows, columns = (np.flatnonzero(known.any(axis)) for axis in (1, 0))
+    rows, columns = bounding_box(known)
     step = max(1, round(scale))
     small = (max(1, rgb.shape[1] // step), max(1, rgb.shape[0] // step))
     weight = cv2.resize(known.astype(np.float32), small, interpolation=cv2.INTER_AREA)
     total = cv2.resize(np.where(known[..., None], rgb, 0).astype(np.float32), small, interpolation=cv2.INTER_AREA)
-    most = 0.5 * max(np.ptp(rows), np.ptp(columns)) / step
+    most = 0.5 * (max(rows.stop - rows.start, columns.stop - columns.start) - 1) / step
     weights = np.full_like(weight, PRIOR)
     sums = np.zeros_like(total) + PRIOR * np.median(rgb[known], axis=0).astype(np.float32)
     for sigma in np.geomspace(2.0, max(most, 2.1), 4):

@@ -17,13 +17,13 @@ from engine.body.rig import Rig
 from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEAST, LEGS
-from engine.character.occlusion import largest
 from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
 from engine.imaging.colour_segmentation import FREE, MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
+from engine.imaging.mask_pieces import largest_piece, mask_height, pieces_touching, without_small_pieces
 
 BAND = 0.05
 """How far above and below the last ring of the cloth its hem may be, as a share of the person's height."""
@@ -50,7 +50,7 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
             legs[legs == leg] = -1  # nothing says what shape it has
     lower = cloth.lower.copy()
     first = cloth.rings[-1].row + 1
-    beneath = round(2 * BAND * _height(labels.labels))
+    beneath = round(2 * BAND * mask_height(labels.labels >= 0))
     lower[first : first + beneath] |= (cloth.worn & (legs < 0))[first : first + beneath]
     cloth = replace(cloth, legs=legs, lower=lower, before=before)
     return replace(labels, apart=np.setdiff1d(labels.apart, LEGS), cloth=cloth)
@@ -75,7 +75,7 @@ def legs_below(
     """The leg (h, w), an index of `PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
     the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'. Each is in one piece, unless the one that is `before` it
     parts it."""
-    end, wide = cloth.rings[-1].row, max(2, round(BAND * _height(labels)))
+    end, wide = cloth.rings[-1].row, max(2, round(BAND * mask_height(labels >= 0)))
     rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
     person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != PARTS.index("head"))
     below = person & (rows > end) & np.isin(labels, LEGS) & ~cloth.lower
@@ -86,25 +86,17 @@ def legs_below(
     thread = person & ~(cv2.morphologyEx(alone, cv2.MORPH_OPEN, np.ones((THREAD, THREAD), np.uint8)) > 0)
     legs |= thread & (rows > end) & grown(legs, THREAD)
     # what hangs together with no foot is cloth
-    _, pieces = cv2.connectedComponents(legs.astype(np.uint8), connectivity=4)
-    legs &= np.isin(pieces, np.unique(pieces[legs & (rows > end + wide)]))
+    legs = pieces_touching(legs, rows > end + wide)
     found = np.full(labels.shape, -1, np.int8)
     away = np.stack([cv2.distanceTransform((labels != leg).astype(np.uint8), cv2.DIST_L2, 5) for leg in LEGS])
     found[legs] = np.array(LEGS, np.int8)[away.argmin(0)][legs]
     for leg in LEGS:
         own = found == leg
-        whole = largest(own)
+        whole = largest_piece(own)
         if before not in (None, leg):
-            whole |= _beside(own, grown(found == before, 1))
+            whole |= pieces_touching(without_small_pieces(own, LEAST), grown(found == before, 1))
         found[own & ~whole if whole.sum() >= LEAST else own] = -1
     return found
-
-
-def _beside(own: NDArray[np.bool_], other: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The pieces of a leg's `own` pixels (h, w), large enough, that have some of the `other`'s (h, w)."""
-    _, pieces, stats, _ = cv2.connectedComponentsWithStats(own.astype(np.uint8), connectivity=4)
-    met = np.unique(pieces[own & other])
-    return np.isin(pieces, met[stats[met, cv2.CC_STAT_AREA] >= LEAST])
 
 
 def _parted(
@@ -131,8 +123,3 @@ def _parted(
     found = np.zeros_like(near)
     found[near] = cut > 0
     return found
-
-
-def _height(labels: NDArray[np.integer]) -> float:
-    """Pixels of the person's height."""
-    return float(np.ptp(np.flatnonzero((labels >= 0).any(1))))

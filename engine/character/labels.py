@@ -17,6 +17,7 @@ from engine.imaging.colour_segmentation import (
     log_likelihood_ratio,
 )
 from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_pieces import pieces_touching
 
 ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
 LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
@@ -107,8 +108,7 @@ def hair_beside_arms(
             continue
         of_arm, of_hair = (ColourMixture.fit(colours[area]) for area in (own & close, hair))
         given = doubtful & (log_likelihood_ratio(colours, doubtful, of_hair, of_arm, 2.0) > 0)
-        _, pieces = cv2.connectedComponents((given | (labels == head)).astype(np.uint8), connectivity=4)
-        found[given & np.isin(pieces, np.unique(pieces[labels == head]))] = head
+        found[given & pieces_touching(given | (labels == head), labels == head)] = head
     return found
 
 

@@ -30,7 +30,6 @@ from engine.character.label_map import Labels
 from engine.character.labels import LEAST, LEGS, OTHER_SIDE
 from engine.character.legs import cut_along, each_by_its_own
 from engine.character.legs_beneath import going_with, legs_beneath
-from engine.character.occlusion import largest
 from engine.character.part_surface import Surface, Warp, part_surface, warp_part
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
@@ -39,6 +38,7 @@ from engine.character.skirt_weights import moved_by_both
 from engine.character.solid_limb import SolidLimb, solid_arms, solid_limb
 from engine.character.template_maps import SideMaps, weights_at
 from engine.character.unseen_limbs import UnseenLimb, unseen_limbs
+from engine.imaging.mask_pieces import largest_piece
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""
@@ -50,7 +50,7 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
     beneath = legs_beneath(labels, template, rig)
     legs = [leg.limb for leg in beneath]
     apart = [int(limb) for limb in labels.apart
-             if limb not in legs and largest(labels.labels == limb).sum() >= LEAST]  # fmt: skip
+             if limb not in legs and largest_piece(labels.labels == limb).sum() >= LEAST]  # fmt: skip
     unseen = unseen_limbs(labels, template, rig)
     region, limbs = find_regions(labels, apart, template, rig, [one.limb for one in unseen])
     cloth = labels.cloth
@@ -147,7 +147,7 @@ def _unseen_layer(one: UnseenLimb, layers: Sequence[Layer], labels: Labels, temp
     `layers`, and limbs."""
     other = OTHER_SIDE[one.limb]
     own, chosen = labels.labels == other, (vertex_parts(rig)[template.triangles] == other).any(1)
-    whole = next((layer.mask for layer in layers if layer.limb == other and layer.solid is None), largest(own))
+    whole = next((layer.mask for layer in layers if layer.limb == other and layer.solid is None), largest_piece(own))
     like = solid_limb(chosen, whole, template, rig, own | (labels.hidden == other))
     limb = solid_limb(one.triangles, one.mask, template, rig, np.zeros_like(own))
     layer = replace(_solid_layer(replace(limb, like=like)), limb=one.limb)

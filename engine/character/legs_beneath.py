@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from engine.body.parts import vertex_parts
 from engine.body.rig import Rig
 from engine.character.label_map import Labels
-from engine.character.occlusion import largest
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion
 from engine.character.sheets import Layer
+from engine.imaging.mask_pieces import largest_piece, mask_height
 
 UP = 0.06
 """How far a leg goes on under the cloth, as a share of the person's height."""
@@ -34,17 +34,19 @@ def legs_beneath(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Limb
     if cloth is None or cloth.legs is None:
         return []
     part = vertex_parts(rig)[template.triangles]
-    up = round(UP * float(np.ptp(np.flatnonzero((labels.labels >= 0).any(1)))))
+    up = round(UP * mask_height(labels.labels >= 0))
     clothed = (labels.labels >= 0) & (cloth.legs < 0)
     found = []
     for leg in np.unique(cloth.legs[cloth.legs >= 0]):
         own, chosen = cloth.legs == leg, (part == leg).all(1)
         if cloth.before not in (None, leg):
-            own = largest(own | ((cloth.legs == cloth.before) & hidden_leg(cloth.legs, cloth.before, template, part)))
+            own = largest_piece(
+                own | ((cloth.legs == cloth.before) & hidden_leg(cloth.legs, cloth.before, template, part))
+            )
         mask = own | _under(own, clothed, template.covers(chosen, own.shape), up)
         high = template.vertices[template.triangles, 1].max(1) > np.flatnonzero(mask.any(1))[0]
         nothing = np.zeros_like(own)
-        found.append(LimbRegion(largest(mask), chosen & high, int(leg), np.zeros_like(chosen), nothing))
+        found.append(LimbRegion(largest_piece(mask), chosen & high, int(leg), np.zeros_like(chosen), nothing))
     return found
 
 

@@ -14,6 +14,7 @@ from engine.character.template_fit import FittedBody
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
+from engine.imaging.mask_pieces import mask_height
 from engine.motion.clip import Clip
 from engine.render.rasteriser import SUBPIXELS, rasterise
 
@@ -45,12 +46,11 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
     projected = camera.project(posed)
     seen = rasterise(projected, triangles, (height, width), perspective=True).triangle
     drawn, mask = seen >= 0, silhouette.alpha > 0.5
-    rows = np.flatnonzero(mask.any(1))
     points = weld(character.mesh)
     border, crowded = _odd_edges(points[triangles])
     return {
         "silhouette_iou": round(float((drawn & mask).sum() / max((drawn | mask).sum(), 1)), 4),
-        "landmark_reprojection": round(fitted.fit.reprojection / max(int(np.ptp(rows)), 1), 4),
+        "landmark_reprojection": round(fitted.fit.reprojection / max(mask_height(mask), 1), 4),
         "closed": float(is_closed(points[triangles])),
         "holes": float(_loops(border)),
         "non_manifold_edges": float(crowded),

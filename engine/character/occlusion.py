@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.part_surface import outline
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_pieces import largest_piece, outline, pieces_by_area
 from engine.imaging.nearest import nearest_in
 
 NEAR = 0.16
@@ -38,7 +38,7 @@ def rest_places(
     `template` (H, W): the projected template's labels; `rest` (H, W, 3): its points at rest.
     """
     found = np.full((*labels.shape, 3), np.nan, np.float32)
-    mask, source = largest(labels == label), largest(template == label)
+    mask, source = largest_piece(labels == label), largest_piece(template == label)
     if mask.sum() < SHORTEST or source.sum() < SHORTEST:
         return found
     border, reference = outline(mask), outline(source)
@@ -90,7 +90,7 @@ def completed(
     that takes those to its ends. B never shrinks, and grows only behind the limbs.
     """
     body = _one_piece(visible, hidden_by, template)
-    border, reference = outline(body), outline(largest(template))
+    border, reference = outline(body), outline(largest_piece(template))
     partners = match_boundaries(border, reference)
     beside = grown(hidden_by, 1)
     at = border.astype(int)
@@ -110,7 +110,7 @@ def completed(
             polygon = np.concatenate([replaced, border[run[::-1]]])
             cv2.fillPoly(region, [np.rint(polygon).astype(np.int32)], (1,))
             wider |= (region > 0) & hidden_by
-    return largest(wider)
+    return largest_piece(wider)
 
 
 def _one_piece(
@@ -118,22 +118,14 @@ def _one_piece(
 ) -> NDArray[np.bool_]:
     """The body in one connected piece: where a limb cuts it in two, the template says what joins them, and what it does not
     have, as hair, goes on behind the limb from one side to the other."""
-    pieces = _pieces(visible)
+    pieces = pieces_by_area(visible, SMALL * visible.sum())
     if len(pieces) > 1:
         visible = visible | (hidden_by & template)
-        pieces = _pieces(visible)
+        pieces = pieces_by_area(visible, SMALL * visible.sum())
     for piece in pieces[1:]:  # hair on both sides of an arm is not the template's
         way = distance_to(pieces[0]) + distance_to(piece)
         visible = visible | (hidden_by & (way < ACROSS * visible.shape[0]))
-    return largest(visible)
-
-
-def _pieces(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
-    """The pieces of a mask, the largest first, without small ones."""
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
-    areas = stats[:count, cv2.CC_STAT_AREA]
-    order = 1 + np.argsort(-areas[1:], kind="stable")
-    return [labels == k for k in order if areas[k] > SMALL * mask.sum()]
+    return largest_piece(visible)
 
 
 def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -157,12 +149,6 @@ def _similarity(
     ends = np.stack([a, b]) @ [1, 1j]
     moved = ends[0] + (z - z[0]) * (ends[1] - ends[0]) / span
     return np.stack([moved.real, moved.imag], 1)
-
-
-def largest(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The largest piece of a mask whose pixels are joined by their sides: a surface hangs together by no corners."""
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=4)
-    return np.asarray(labels == 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))) if count > 1 else mask
 
 
 def _border(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:

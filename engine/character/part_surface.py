@@ -20,6 +20,7 @@ from engine.geometry.grid_diffusion import diffuse
 from engine.geometry.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
+from engine.imaging.mask_pieces import outline
 from engine.imaging.nearest import nearest_in
 
 ALONG = 10.0
@@ -44,12 +45,6 @@ class Surface:
 
     depth: NDArray[np.float32]
     weights: NDArray[np.float32]
-
-
-def outline(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """The border pixels (m, 2), x and y, of the largest connected part of a mask, in order."""
-    found, _ = cv2.findContours(mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    return np.asarray(max(found, key=cv2.contourArea)[:, 0], np.float64)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from engine.character.template_maps import side_maps
 from engine.character.unfound_hands import SURE, UnfoundHand, unit
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
 from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_pieces import pieces_touching
 
 UNSEEN = 0.7
 """Confidence of a finger below which the hand surely is not seen."""
@@ -115,7 +116,7 @@ def parted(
 
 def _bare(like_skin: NDArray[np.float32], arm: NDArray[np.bool_], around: NDArray[np.bool_]) -> PartedHand:
     """A hand that is seen: what is like skin (h, w), joined with its arm (h, w) where both are `around` (h, w) its place."""
-    bare = _around_what_is_sure(around & (like_skin > 0), like_skin > CERTAIN)
+    bare = pieces_touching(around & (like_skin > 0), like_skin > CERTAIN)
     nothing = np.zeros_like(arm)
     return PartedHand(_joined(bare, arm) & around, nothing, nothing)
 
@@ -131,12 +132,6 @@ def _alike(skin: NDArray[np.float64], cloth: NDArray[np.uint8]) -> bool:
     medians = np.stack([np.median(skin, axis=0), np.median(cloth, axis=0)]).astype(np.uint8)
     lab = cv2.cvtColor(medians[None], cv2.COLOR_RGB2LAB)[0].astype(np.float64)
     return bool(np.linalg.norm(lab[0, 1:] - lab[1, 1:]) < HUES)
-
-
-def _around_what_is_sure(likely: NDArray[np.bool_], sure: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The pieces of what is `likely` (h, w) in which some is `sure`."""
-    _, pieces = cv2.connectedComponents(likely.astype(np.uint8), connectivity=4)
-    return likely & np.isin(pieces, np.unique(pieces[likely & sure]))
 
 
 def _joined(bare: NDArray[np.bool_], arm: NDArray[np.bool_]) -> NDArray[np.bool_]:

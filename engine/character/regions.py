@@ -18,10 +18,11 @@ from engine.body.parts import PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
-from engine.character.occlusion import completed, largest
+from engine.character.occlusion import completed
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
 from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_pieces import largest_piece
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""
@@ -95,7 +96,7 @@ def limb_in_one_piece(
     if labels.behind is not None and labels.behind.limb == limb:
         own = own | labels.behind.area
     seen = own | (person & joint & grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
-    lost, behind = not (largest(seen) & joint).any(), False
+    lost, behind = not (largest_piece(seen) & joint).any(), False
     if lost or _torn(seen):
         between = grown(template.covers(triangles, own.shape), UNDER)
         beneath = between & np.isin(labels.labels, apart)
@@ -104,7 +105,7 @@ def limb_in_one_piece(
         hidden = lost and shown.sum() < SHOWN * led.sum()
         behind = hidden or _torn(seen | beneath)
         seen = own | led if behind else seen | (led if lost else beneath)
-    return largest(_with_hand(seen, labels.hidden == limb)), behind
+    return largest_piece(_with_hand(seen, labels.hidden == limb)), behind
 
 
 def _with_hand(arm: NDArray[np.bool_], hidden: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -117,7 +118,7 @@ def _with_hand(arm: NDArray[np.bool_], hidden: NDArray[np.bool_]) -> NDArray[np.
 
 def _torn(mask: NDArray[np.bool_]) -> bool:
     """Whether much of a mask is not in one piece."""
-    return bool(largest(mask).sum() < WHOLE * mask.sum())
+    return bool(largest_piece(mask).sum() < WHOLE * mask.sum())
 
 
 def _limb_region(
@@ -129,7 +130,7 @@ def _limb_region(
     if limb in LEGS:
         without_arms = template.covers(np.asarray((~np.isin(part, ARMS)).all(1)), mask.shape)
         hand = np.isin(labels.labels, ARMS) & ~without_arms
-        mask = largest(mask & ((_inner(labels) & ~hand) | (labels.labels == limb)))
+        mask = largest_piece(mask & ((_inner(labels) & ~hand) | (labels.labels == limb)))
     return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 
 
@@ -146,7 +147,7 @@ def _body(
     covered = np.logical_or.reduce([np.zeros_like(apart), *(one.mask for one in limbs)])
     body = (labels.labels >= 0) & ~(apart & covered)
     if not limbs:
-        return largest(body)
+        return largest_piece(body)
     before = np.isin(labels.labels, [one.limb for one in limbs if not one.behind])
     crossing = np.zeros_like(before)
     for leg in (one.limb for one in limbs if one.limb in LEGS):
@@ -160,7 +161,7 @@ def _body(
             body = body | ((labels.labels == one.limb) & ~one.joint & grown(body, 1))
     for one in limbs:  # not behind another, as a hand that hangs beside the hip, where no trunk is
         of_both = before & one.joint & ((labels.labels == one.limb) | whole)
-        body = largest(body | (of_both & (_inner(labels) | ~crossing)))
+        body = largest_piece(body | (of_both & (_inner(labels) | ~crossing)))
     return body
 
 

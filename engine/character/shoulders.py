@@ -6,7 +6,6 @@ Beyond the paper, whose labels are found by colours where limbs pass before othe
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +15,7 @@ from engine.character.labels import ARMS
 from engine.character.posed_template import PosedTemplate
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
+from engine.imaging.mask_pieces import pieces_touching
 
 REACH, TRUNK = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""
@@ -53,16 +53,11 @@ def labelled_shoulders(
             found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
             whole[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
-            astray = _astray(whole == arm, (own & ~here) | grown(labels < 0, 1))
+            # a neck is as bare as a shoulder
+            astray = (whole == arm) & ~pieces_touching(whole == arm, (own & ~here) | grown(labels < 0, 1))
             out[here & ~astray] = whole[here & ~astray]
             plain |= here
     return out, plain
-
-
-def _astray(arm: NDArray[np.bool_], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The pieces of an `arm` (h, w) that nothing `seen` of it (h, w) touches: a neck is as bare as a shoulder."""
-    _, pieces = cv2.connectedComponents(arm.astype(np.uint8), connectivity=4)
-    return arm & ~np.isin(pieces, np.unique(pieces[arm & seen]))
 
 
 def _hair(head: NDArray[np.float64], arm: ColourMixture) -> list[ColourMixture]:

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from engine.character.doubts import doubt_mask
 from engine.character.figure import Figure
 from engine.character.gaps import gaps
-from engine.character.occlusion import largest
 from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
 from engine.character.strokes import read_mask, repaint_mask
 from engine.errors import InputError
 from engine.imaging.mask_distance import grown
+from engine.imaging.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import LANDMARKS
@@ -103,15 +103,15 @@ def cut_out(
         )
     doubt_mask(figure, piece, limbs, warn)
     alpha = np.where(grown(piece, 4), alpha, 0).astype(np.float32)
-    rows, columns = np.flatnonzero(piece.any(1)), np.flatnonzero(piece.any(0))
-    scale = HEIGHT / (rows[-1] + 1 - rows[0])
-    matrix = np.array([[scale, 0, -columns[0] * scale], [0, scale, -rows[0] * scale]])
+    rows, columns = bounding_box(piece)
+    scale = HEIGHT / (rows.stop - rows.start)
+    matrix = np.array([[scale, 0, -columns.start * scale], [0, scale, -rows.start * scale]])
     matrix[:, 2] += (scale - 1) / 2 + MARGIN
-    size = (round((columns[-1] + 1 - columns[0]) * scale) + 2 * MARGIN, HEIGHT + 2 * MARGIN)
+    size = (round((columns.stop - columns.start) * scale) + 2 * MARGIN, HEIGHT + 2 * MARGIN)
     flags = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
     soft = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=flags), np.float32)
     rgb = cv2.warpAffine(figure.rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
-    return Silhouette(alpha, soft, largest(soft > 0.5), np.asarray(rgb, np.uint8), matrix)
+    return Silhouette(alpha, soft, largest_piece(soft > 0.5), np.asarray(rgb, np.uint8), matrix)
 
 
 def _own_piece(mask: NDArray[np.bool_], limbs: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], int]:

@@ -19,10 +19,10 @@ from scipy.spatial import cKDTree
 
 from engine.body.rig import Rig
 from engine.character.labels import ARMS
-from engine.character.occlusion import largest
 from engine.character.part_surface import warp_part
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_maps import side_maps
+from engine.imaging.mask_pieces import largest_piece
 
 FORESHORTENED = 0.5
 """Share of its length that a bone has in the picture, below which the limb is more deep than long."""
@@ -142,7 +142,7 @@ def _warped(
 ) -> NDArray[np.float64]:
     """Where vertices (V, 3) of a part of the template lie in the picture (V, 2), when its outline is that of the part's `mask`
     (h, w): the paper's warp, the other way round."""
-    covered = largest(side_maps(vertices, triangles, (mask.shape[0], mask.shape[1]), "front").mask)
+    covered = largest_piece(side_maps(vertices, triangles, (mask.shape[0], mask.shape[1]), "front").mask)
     warp = warp_part(covered, mask)
     _, (rows, columns) = distance_transform_edt(~covered, return_indices=True)
     offsets = warp.places - np.stack(np.meshgrid(*(np.arange(n) for n in mask.shape[::-1])), -1)

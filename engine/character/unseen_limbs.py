@@ -19,10 +19,10 @@ from engine.body.rig import Rig
 from engine.character.head import joint_axes
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEAST, LEGS, OTHER_SIDE
-from engine.character.occlusion import largest
 from engine.character.picture_space import PictureCamera
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_fit import FittedBody, load_human, pose_template
+from engine.imaging.mask_pieces import largest_piece
 
 WITHIN = 0.97
 """Share of the limb's vertices that must be within the person's outline: what is not hidden there would be seen."""
@@ -50,7 +50,7 @@ def unseen_limbs(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Unse
     for limb in not_seen(labels):
         triangles = (part == limb).any(1)
         if _is_within(template, triangles, inner):
-            found.append(UnseenLimb(limb, triangles, largest(template.covers(triangles, inner.shape) & inner)))
+            found.append(UnseenLimb(limb, triangles, largest_piece(template.covers(triangles, inner.shape) & inner)))
     return found
 
 
@@ -82,7 +82,7 @@ def not_seen(labels: Labels) -> list[int]:
         for limb, other in OTHER_SIDE.items()
         if (labels.labels == limb).sum() < LEAST
         and not (labels.hidden == limb).any()
-        and largest(labels.labels == other).sum() >= LEAST
+        and largest_piece(labels.labels == other).sum() >= LEAST
         and not (limb in LEGS and skirt)
     ]
 

@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.inpaint import background_plate
+from engine.imaging.mask_pieces import bounding_box
 
 
 def filled(rgb: NDArray[np.uint8], hole: NDArray[np.bool_], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """The picture (h, w, 3) with the hole (h, w) filled with patches of what is `known` (h, w), and of nothing else."""
     if not hole.any() or not known.any():
         return rgb
-    rows, columns = (np.flatnonzero((hole | known).any(axis)) for axis in (1, 0))
-    box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    box = bounding_box(hole | known)
     reach = float(np.sqrt(hole.sum()))
     plate = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach, known=known[box])
     out = rgb.copy()

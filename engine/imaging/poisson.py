@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.imaging.mask_pieces import bounding_box
 
 CYCLES = 2
 """V-cycles on the finest grid after the full multigrid start: under 1% of the largest boundary step is left."""
@@ -45,13 +46,10 @@ def membrane(
     values = np.ascontiguousarray(boundary_difference, np.float32)
     if not mask.any():
         return np.zeros_like(values)
-    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
-    top, bottom = max(rows[0] - 1, 0), min(rows[-1] + 2, mask.shape[0])
-    left, right = max(columns[0] - 1, 0), min(columns[-1] + 2, mask.shape[1])
-    inner = np.ascontiguousarray(mask[top:bottom, left:right])
+    inside = bounding_box(mask, margin=1)
+    inner = np.ascontiguousarray(mask[inside])
     result = np.zeros_like(values)
     force = np.zeros_like(values) if divergence is None else -divergence
-    inside = slice(top, bottom), slice(left, right)
     result[inside] = _solve(
         np.ascontiguousarray(values[inside]), np.ascontiguousarray(force[inside], np.float32), inner, cycles
     )

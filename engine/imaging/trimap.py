@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.mask_pieces import pieces_touching
 from engine.imaging.resample import resized
 
 Mask = NDArray[np.float32]
@@ -82,11 +83,8 @@ def _distance(mask: NDArray[np.bool_]) -> Mask:
 
 def _islands(known: Mask) -> NDArray[np.bool_]:
     """Doubtful parts that touch no background: inside of the layer, where only the belief wavered."""
-    count, labels = cv2.connectedComponents((known < 1).astype(np.uint8))
-    island = np.ones(count, bool)
-    island[np.unique(labels[known == 0])] = False
-    island[0] = False
-    return np.asarray(island[labels])
+    doubtful = known < 1
+    return doubtful & ~pieces_touching(doubtful, known == 0, connectivity=8)
 
 
 def _strands_and_slivers(
@@ -118,13 +116,9 @@ def _strands_and_slivers(
 def _hanging_on(odd: NDArray[np.bool_], depth: Mask, band: float, reach: float) -> NDArray[np.bool_]:
     """The odd pixels that begin at the layer and end within reach; what runs on belongs to the background."""
     closed = cv2.morphologyEx(odd.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
-    closed[depth >= -band] = 0
-    count, labels = cv2.connectedComponents(closed)
-    hangs_on = np.zeros(count, bool)
-    hangs_on[np.unique(labels[depth > -band - 1.5])] = True
-    hangs_on[np.unique(labels[depth < -reach])] = False
-    hangs_on[0] = False
-    return np.asarray(hangs_on[labels])
+    outside = (closed > 0) & (depth < -band)
+    begin_here = pieces_touching(outside, depth > -band - 1.5, connectivity=8)
+    return begin_here & ~pieces_touching(outside, depth < -reach, connectivity=8)
 
 
 def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_]) -> tuple[NDArray[np.float32], Mask]:

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.imaging.mask_pieces import largest_piece
 from engine.imaging.resample import resized, size_within
 
 SIZE = 400
@@ -71,9 +72,5 @@ def _enclosed(strokes: NDArray[np.bool_]) -> NDArray[np.bool_] | None:
     flooded = closed.copy()
     cv2.floodFill(flooded, None, (0, 0), (2,))
     inside = (flooded != 2)[8:-8, 8:-8]
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(inside.astype(np.uint8))
-    if count < 2:
-        return None
-    largest = 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))
-    figure = np.asarray(labels == largest)
+    figure = largest_piece(inside, connectivity=8)
     return figure if figure.mean() > 0.03 else None

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from engine.imaging.alpha_matte import alpha_matte
 from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.guided_upsample import upsample_guided
+from engine.imaging.mask_pieces import pieces_touching
 from engine.imaging.resample import resized, size_within
 from engine.imaging.trimap import SURE, like_plain_background, outline_trimap
 from engine.media.image import is_cut_out
@@ -107,8 +108,7 @@ def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
     """The part of a cut-out (H, W) that is the one person found in it: whole pieces of it where no others are; where
     somebody is connected with others, what was found. That ends somewhere near the cut-out's own edge, which is the truth:
     there it counts as it does a little further in."""
-    _, pieces = cv2.connectedComponents((channel > 0).astype(np.uint8))
-    shared = np.isin(pieces, np.unique(pieces[others]))
+    shared = pieces_touching(channel > 0, others, connectivity=8)
     inside = cv2.erode((channel > SURE).astype(np.uint8), EDGE, borderValue=1)
     own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE)))
     return np.where(shared, np.minimum(channel, own), channel).astype(np.float32)

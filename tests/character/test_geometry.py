@@ -18,8 +18,8 @@ from engine.character.labels import (
     rough_labels,
     without_specks,
 )
-from engine.character.occlusion import completed, largest
-from engine.character.part_surface import Surface, outline, part_surface, warp_part
+from engine.character.occlusion import completed
+from engine.character.part_surface import Surface, part_surface, warp_part
 from engine.character.picture_space import PictureCamera
 from engine.character.rigging import KEPT_VOLUME, LEAST_VOLUME, at_rest, bind
 from engine.character.sheets import Layer, close
@@ -310,13 +310,6 @@ def test_the_body_is_completed_behind_an_arm() -> None:
     assert (found & visible).sum() == visible.sum()
     assert ((found ^ template).sum()) < 0.02 * template.sum()
     assert not (found & ~(template | arm)).any()
-
-
-def test_the_outline_goes_round_the_largest_piece() -> None:
-    mask = disk(64, 20, 30, 30) | disk(64, 3, 58, 58)
-    border = outline(mask)
-    assert np.hypot(*(border - 30).T).max() < 20.5
-    assert largest(mask).sum() == disk(64, 20, 30, 30).sum()
 
 
 def test_colours_are_continued_beyond_the_mask() -> None:

@@ -10,7 +10,6 @@ import pytest
 
 from engine.body.parts import PARTS
 from engine.character.figure import Choice, Figure, find_figure
-from engine.character.occlusion import largest
 from engine.character.options import MaskStroke
 from engine.character.sample import FLOOR, WALL, sample_picture
 from engine.character.silhouette import Silhouette, cut_out
@@ -88,14 +87,6 @@ def test_a_mask_has_the_size_of_a_picture_whose_copy_has_not_its_proportions(tmp
     write_image(tmp_path / "labels.png", parts)
     found = label(figure, cut, fitted, tmp_path / "labels.png", (), LIMITS, quiet)
     assert (found.labels[cut.mask] == PARTS.index("torso")).all()
-
-
-def test_pixels_that_meet_in_a_corner_are_no_piece() -> None:
-    mask = np.zeros((9, 9), np.bool_)
-    mask[:4, :4] = mask[4:, 4:] = True
-    expected = np.zeros_like(mask)
-    expected[4:, 4:] = True
-    np.testing.assert_array_equal(largest(mask), expected)
 
 
 def test_a_ragged_mask_makes_a_surface(
