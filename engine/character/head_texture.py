@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from engine.character.far_cheek import with_far_cheek
 from engine.character.head_area import Head, measure_head
+from engine.imaging.inpaint import inpaint
 from engine.imaging.mask_distance import distance_to
 from engine.imaging.mask_pieces import bounding_box, pieces_touching
 from engine.imaging.nearest import nearest_in
-from engine.imaging.patch_fill import filled
 
 ALIKE = 20.0
 """Distance of two colours (CIE Lab, 8 bits) below which they may be of one thing."""
@@ -210,7 +210,7 @@ def _covered(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, long: 
         * _strands(hair.shape, head.scale, LONG_STRAND if long else SHORT_STRAND)[..., None]
     )
     if strength > FEW:
-        drawn = drawn + strength * (filled(fine, hole, hair).astype(np.float32) - MIDDLE)
+        drawn = drawn + strength * (inpaint(fine, hole, hair).astype(np.float32) - MIDDLE)
     return np.where(hair[..., None], rgb, shade + drawn).astype(np.float32)
 
 
@@ -256,7 +256,7 @@ def _neck(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, nape: flo
         face = head.mask & (head.out < 0.7)
         skin = np.median(rgb[face if face.any() else hair], axis=0)
         return np.where(hidden[..., None], skin, rgb).astype(np.float32)
-    return filled(rgb, below & ~bare, bare).astype(np.float32)
+    return inpaint(rgb, below & ~bare, bare).astype(np.float32)
 
 
 def beyond_the_outline(rgb: NDArray[np.uint8], person: NDArray[np.bool_]) -> NDArray[np.uint8]:

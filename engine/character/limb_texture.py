@@ -16,9 +16,9 @@ from engine.character.crossed_labels import Behind
 from engine.character.face_region import within_oval
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, OTHER_SIDE
+from engine.imaging.inpaint import inpaint
 from engine.imaging.mask_distance import distance_inside, distance_to, grown
 from engine.imaging.nearest import continued_colours
-from engine.imaging.patch_fill import filled
 from engine.imaging.resample import enlarged_mask
 from engine.imaging.usual_colours import usual_colours
 
@@ -98,7 +98,7 @@ def of_the_limbs(
         mine, lost = own & which, hole & which
         if mine.any() and lost.any():
             known = usual_colours(seen, mine & (distance_to(lost) < UP_AN_ARM * hole.shape[0]))
-            made = filled(made, lost, known if known.any() else mine)
+            made = inpaint(made, lost, known if known.any() else mine)
     return made
 
 
@@ -119,7 +119,7 @@ def _like_the_other_sleeve(
         return made
     size = (own.shape[1], own.shape[0])
     hole = enlarged_mask(sleeves[arm] & ~limbs, size)
-    return filled(made, hole, usual_colours(seen, enlarged_mask(shown[other], size) & own))
+    return inpaint(made, hole, usual_colours(seen, enlarged_mask(shown[other], size) & own))
 
 
 def behind_another(
@@ -135,7 +135,7 @@ def behind_another(
     mine = labels.labels == behind.limb
     edge = grown(behind.area, SLIVER // 2)
     worn = usual_colours(limbs, enlarged_mask(mine & ~edge, size) & own)
-    whole = filled(limbs, enlarged_mask(behind.area | (mine & edge), size), worn)
+    whole = inpaint(limbs, enlarged_mask(behind.area | (mine & edge), size), worn)
     return _with_skin(whole, seen, enlarged_mask(behind.hand, size), face, own)
 
 

@@ -16,10 +16,10 @@ from scipy.ndimage import gaussian_filter1d
 
 from engine.character.template_maps import SideMaps
 from engine.geometry.boundary_matching import match_boundaries
-from engine.geometry.grid_diffusion import diffuse
-from engine.geometry.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
+from engine.imaging.grid_diffusion import diffuse
+from engine.imaging.harmonic_fill import HarmonicFill, harmonic_fill
 from engine.imaging.mask_pieces import outline
 from engine.imaging.nearest import nearest_in
 

@@ -23,9 +23,9 @@ from engine.character.limb_edges import soft_limbs
 from engine.character.limb_texture import behind_another, own_of_limbs, paint_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
+from engine.imaging.inpaint import inpaint
 from engine.imaging.mask_distance import distance_inside, distance_to
 from engine.imaging.nearest import continued_colours
-from engine.imaging.patch_fill import filled
 from engine.imaging.poisson import poisson_blend
 from engine.imaging.resample import enlarged_mask
 from engine.imaging.usual_colours import usual_colours
@@ -175,7 +175,7 @@ def _behind_the_limbs(
     if labels.cloth is not None and labels.cloth.legs is not None:
         hidden &= ~enlarged_mask(labels.cloth.legs >= 0, size)  # nothing is behind what comes out from under a hem
     for part in (head, leg, ~head & ~leg):
-        body = filled(body, hidden & part, usual_colours(seen, shown & part))
+        body = inpaint(body, hidden & part, usual_colours(seen, shown & part))
     return continued_colours(body, own)
 
 
@@ -210,5 +210,5 @@ def _from_the_sides(
         if (thick := float(depth.max())) < THICK:
             continue
         middle = depth > SIDES * thick
-        out = filled(out, middle, region & ~middle)
+        out = inpaint(out, middle, region & ~middle)
     return out

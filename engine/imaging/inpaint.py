@@ -1,198 +1,87 @@
-"""The background plate: the picture as it would be if the person were not there.
-
-On a small picture a membrane is stretched over the hole, which is already right for plain backgrounds,
-and patches grow into it from the edge, lines first (`engine.imaging.exemplar_fill`). From there on, coarse to
-fine, overlapping patches vote (Wexler, Shechtman, Irani, "Space-time completion of video", PAMI 2007; found
-by `engine.imaging.patchmatch`). Only a band behind the outline can ever become visible, so only that is
-filled in full detail; deeper inside the coarse picture stands.
-"""
+"""The one door to fills of holes in pictures and maps: by patches, by whole exemplars, or smoothly."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Literal, TypeVar
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
-from engine.imaging.mask_distance import grown
+from engine.imaging.harmonic_fill import harmonic_fill
+from engine.imaging.mask_pieces import bounding_box
 from engine.imaging.nearest import nearest_in
-from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
-from engine.imaging.poisson import membrane
-from engine.imaging.resample import resized
-from engine.imaging.seams import heal_seams
+from engine.imaging.patch_fill import patch_fill
+from engine.imaging.patchmatch import valid_centres
 
-COARSEST = 120
-"""Longest side, in pixels, of the coarsest picture."""
-
-TRUST = 1.4
-"""By how much a guessed pixel counts less with each pixel that it lies deeper in the hole."""
+Method = Literal["patches", "exemplars", "harmonic"]
+"""`patches` that overlap and vote, coarse to fine: for pictures of any size. `exemplars`, laid from the edge inward, lines
+first: for small pictures, as it tries every one. `harmonic`: each value is the mean of its neighbours, without any detail."""
+Values = TypeVar("Values", np.uint8, np.float32)
 
 MARGIN = 0.006
-"""How far the hole reaches beyond the last trace of the person, as a share of the longer side."""
+"""How far colours around a hole are mixed with what was in it, as a share of the longer side."""
+MIN_MARGIN = 2
+"""The same in pixels, at least."""
 
 
-LEAST_REACH = 20.0
-"""Pixels filled behind the outline on every level, so that detail fades with depth instead of ending."""
-
-
-def background_plate(
-    rgb: NDArray[np.uint8],
-    alpha: NDArray[np.float32],
+def inpaint(
+    image: NDArray[Values],
+    hole: NDArray[np.bool_],
+    source: NDArray[np.bool_],
+    method: Method = "patches",
+    *,
     reach: float | None = None,
+    margin: int | None = None,
     seed: int = 0,
-    known: NDArray[np.bool_] | None = None,
-) -> NDArray[np.uint8]:
-    """The picture (H, W, 3) uint8 with the layer of `alpha` (H, W) taken away and filled from around it.
+) -> NDArray[Values]:
+    """The picture with its hole filled from what is named as source, and from nothing else.
 
     Parameters
     ----------
-    reach : how far behind the outline, in pixels, the plate is filled in full detail (default: a tenth of
-        the square root of the layer's area, about what a head that moves by 10% of its size lays bare).
-    seed : of the randomised search.
-    known : (H, W), all that may be copied from and must be matched (default: whatever the layer does not cover). What is
-        neither known nor covered by the layer has no say, and stays as it was.
+    image : (H, W, 3), uint8 or float32 grey levels; if `harmonic`, (H, W, C) of any unit.
+    hole : (H, W), what is filled. All else stays.
+    source : (H, W), what may be copied from and must be matched; what is neither hole nor source has no say.
+    reach : how far behind its edge, in pixels, a hole is filled with patches in full detail (default: the square root of
+        its area).
+    margin : pixels around the hole that are no source, either, as its edge is soft (default: as `grown_by_margin` has it).
+    seed : of the randomised search for patches.
 
-    Pixels away from the layer are unchanged. A layer that covers the whole picture leaves nothing to fill
-    from: its plate is the picture's mean colour.
+    Without a hole or a source the picture comes back as it was; where the margin takes all of the source, the hole has
+    its mean.
     """
-    hole = hole_behind(alpha)
-    if not hole.any():
-        return rgb.copy()
-    unknown = hole if known is None else hole | ~known
-    if unknown.all():
-        return np.broadcast_to(rgb.mean((0, 1)).astype(np.uint8), rgb.shape).copy()
-    if reach is None:
-        reach = 0.1 * float(np.sqrt(alpha.sum()))
-    reach += MARGIN * max(rgb.shape)
-    lines = continue_lines(rgb.astype(np.float32), unknown, reach)
-    filled = _fill(lines.picture, unknown & ~lines.painted, hole & ~lines.painted, reach, seed)
-    return np.where(hole[..., None], np.clip(filled + 0.5, 0, 255), rgb).astype(np.uint8)
+    out = image.copy()
+    if not hole.any() or not source.any():
+        return out
+    box = bounding_box(hole | source)
+    part = np.ascontiguousarray(image[box], np.float32)
+    share = MARGIN * max(part.shape[:2]) if margin is None else 0.0
+    unclean = grown_by_margin(hole[box], margin)
+    known = source[box] & ~unclean
+    if not known.any():
+        out[hole] = _as(image, image[source].mean(0))
+        return out
+    if method == "patches":
+        reach = float(np.sqrt(hole.sum())) if reach is None else reach
+        found = patch_fill(part, unclean, known, reach + share, seed)
+    elif method == "exemplars":
+        centres = valid_centres(known)
+        found = np.where(known[..., None], part, part[nearest_in(known)])
+        found = exemplar_fill(found, unclean, centres, known) if centres.any() else found
+    else:
+        found = harmonic_fill(known, unclean)(np.where(known[..., None], part, 0))
+    out[hole] = _as(image, found[hole[box]])
+    return out
 
 
-def hole_behind(alpha: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Pixels (H, W) that carry any trace of the layer, with a margin for its soft edge and glow."""
-    margin = max(2, round(MARGIN * max(alpha.shape)))
+def grown_by_margin(mask: NDArray[np.bool_], margin: int | None = None) -> NDArray[np.bool_]:
+    """A mask (H, W) grown by a disk of `margin` pixels (default: `MARGIN` of the longer side, and `MIN_MARGIN` at least)."""
+    margin = max(MIN_MARGIN, round(MARGIN * max(mask.shape))) if margin is None else margin
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * margin + 1, 2 * margin + 1))
-    return np.asarray(cv2.dilate((alpha > 0.02).astype(np.uint8), disk) > 0)
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), disk) > 0)
 
 
-@dataclass(frozen=True)
-class _Level:
-    """One picture of the pyramid: 0 is the finest. `hole`: what is not known of it; `wanted`: what of this is asked for."""
-
-    number: int
-    picture: NDArray[np.float32]
-    hole: NDArray[np.bool_]
-    wanted: NDArray[np.bool_]
-
-
-def _fill(
-    image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_], reach: float, seed: int
-) -> NDArray[np.float32]:
-    levels = _pyramid(image, hole, wanted)
-    coarsest = levels[-1]
-    around = coarsest.picture[nearest_in(~coarsest.hole)]  # what is not asked for only has to be plausible
-    stretched = membrane(around, coarsest.wanted, cycles=6)
-    guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
-    if (sources := valid_centres(~coarsest.hole)).any():
-        asked = coarsest.hole & grown(coarsest.wanted, SIDE)
-        guess = exemplar_fill(guess, asked, sources, ~coarsest.hole)
-    field: NDArray[np.int32] | None = None
-    for level in reversed(levels):
-        sources = valid_centres(~level.hole)
-        size = (level.hole.shape[1], level.hole.shape[0])
-        guess = np.where(level.hole[..., None], resized(guess, size), level.picture).astype(np.float32)
-        if not sources.any():
-            continue
-        depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
-        active = level.wanted & ((depth <= max(reach / 2**level.number, LEAST_REACH)) | (level is coarsest))
-        targets = _centres_over(active)
-        field = _start(field, targets, sources, seed)
-        weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
-        effort = _effort(len(levels) - 1 - level.number, level)
-        guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
-        guess = heal_seams(guess, field, active & targets)
-    return guess
-
-
-def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
-    """The picture at full size, half, quarter, ...; means of known pixels only, while enough is known."""
-    levels = [_Level(0, image, hole, wanted)]
-    while max(hole.shape) > COARSEST:
-        half = (max(1, hole.shape[1] // 2), max(1, hole.shape[0] // 2))
-        known = resized((~hole).astype(np.float32), half)
-        image = (resized(image * ~hole[..., None], half) / np.maximum(known, 1e-6)[..., None]).astype(np.float32)
-        hole = known < 0.5
-        wanted = hole & (resized(wanted.astype(np.float32), half) > 0)
-        if valid_centres(~hole).sum() < 32:
-            break
-        levels.append(_Level(len(levels), image, hole, wanted))
-    return levels
-
-
-@dataclass(frozen=True)
-class _Effort:
-    """How often patches are matched and vote, sweeps each time, and random tries a patch."""
-
-    rounds: int
-    sweeps: int
-    tries: int
-
-
-def _effort(steps: int, level: _Level) -> _Effort:
-    """Much where it is cheap and decides about structure; at full size the field only needs settling."""
-    if level.number == 0:
-        return _Effort(1, 1, 1)
-    rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
-    return _Effort(rounds, 2, tries)
-
-
-def _refine(
-    guess: NDArray[np.float32],
-    weight: NDArray[np.float32],
-    active: NDArray[np.bool_],
-    targets: NDArray[np.bool_],
-    sources: NDArray[np.bool_],
-    field: NDArray[np.int32],
-    effort: _Effort,
-    keep_grain: bool,
-    seed: int,
-) -> NDArray[np.float32]:
-    """Match and vote in turn; `field` is improved in place. The last vote keeps grain if wanted."""
-    cost = np.zeros(active.shape, np.float32)
-    for turn in range(effort.rounds):
-        planes = colour_planes(guess)
-        match_patches(planes, weight, targets, sources, field, cost, effort.sweeps, effort.tries, seed + turn)
-        last = turn == effort.rounds - 1
-        sharpness = 0.0 if last and keep_grain else max(float(np.median(cost[targets])), 4.0)
-        vote(planes, weight, active, targets, field, cost, sharpness, guess)
-    return guess
-
-
-def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Centres of the patches that touch an active pixel and lie inside the picture."""
-    touched = cv2.dilate(active.astype(np.uint8), np.ones((SIDE, SIDE), np.uint8)) > 0
-    return touched & valid_centres(np.ones_like(active))
-
-
-def _start(
-    coarse: NDArray[np.int32] | None, targets: NDArray[np.bool_], sources: NDArray[np.bool_], seed: int
-) -> NDArray[np.int32]:
-    """A first field: that of the coarser picture where it points to a source, else anywhere."""
-    field = np.zeros((*targets.shape, 2), np.int32)
-    rows, columns = np.nonzero(targets)
-    lost = np.ones(len(rows), bool)
-    if coarse is not None:
-        up_y, up_x = np.minimum(rows // 2, coarse.shape[0] - 1), np.minimum(columns // 2, coarse.shape[1] - 1)
-        found = coarse[up_y, up_x]
-        y = np.clip(2 * found[:, 0] + rows - 2 * up_y, 0, targets.shape[0] - 1)
-        x = np.clip(2 * found[:, 1] + columns - 2 * up_x, 0, targets.shape[1] - 1)
-        field[rows, columns, 0], field[rows, columns, 1] = y, x
-        lost = ~sources[y, x]
-    anywhere = np.argwhere(sources)
-    pick = np.random.default_rng(seed).integers(0, len(anywhere), lost.sum())
-    field[rows[lost], columns[lost]] = anywhere[pick]
-    return field
+def _as(image: NDArray[Values], values: NDArray[np.floating]) -> NDArray[Values]:
+    """Values as those of the image are: whole grey levels, or as they come."""
+    return np.clip(values + 0.5, 0, 255).astype(np.uint8) if image.dtype == np.uint8 else values.astype(image.dtype)

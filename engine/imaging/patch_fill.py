@@ -1,21 +1,168 @@
-"""A hole filled with patches of what is named, and of nothing else."""
+"""A hole filled with overlapping patches of what is around it.
+
+On a small picture a membrane is stretched over the hole, which is already right for plain grounds, and patches grow into it
+from the edge, lines first (`engine.imaging.exemplar_fill`). From there on, coarse to fine, overlapping patches vote (Wexler,
+Shechtman, Irani, "Space-time completion of video", PAMI 2007; found by `engine.imaging.patchmatch`). Only a band behind the
+hole's edge is filled in full detail; deeper inside the coarse picture stands.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.inpaint import background_plate
-from engine.imaging.mask_pieces import bounding_box
+from engine.imaging.continued_lines import continue_lines
+from engine.imaging.exemplar_fill import exemplar_fill
+from engine.imaging.mask_distance import grown
+from engine.imaging.nearest import nearest_in
+from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
+from engine.imaging.poisson import membrane
+from engine.imaging.resample import resized
+from engine.imaging.seams import heal_seams
+
+COARSEST = 120
+"""Longest side, in pixels, of the coarsest picture."""
+TRUST = 1.4
+"""By how much a guessed pixel counts less with each pixel that it lies deeper in the hole."""
+MIN_REACH = 20.0
+"""Pixels filled behind the hole's edge on every level, so that detail fades with depth instead of ending."""
 
 
-def filled(rgb: NDArray[np.uint8], hole: NDArray[np.bool_], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """The picture (h, w, 3) with the hole (h, w) filled with patches of what is `known` (h, w), and of nothing else."""
-    if not hole.any() or not known.any():
-        return rgb
-    box = bounding_box(hole | known)
-    reach = float(np.sqrt(hole.sum()))
-    plate = background_plate(np.ascontiguousarray(rgb[box]), hole[box].astype(np.float32), reach, known=known[box])
-    out = rgb.copy()
-    out[box] = np.where(hole[box][..., None], plate, rgb[box])
-    return out
+def patch_fill(
+    image: NDArray[np.float32], hole: NDArray[np.bool_], source: NDArray[np.bool_], reach: float, seed: int = 0
+) -> NDArray[np.float32]:
+    """`image` (H, W, 3), grey levels, with `hole` (H, W) filled with patches of its `source` (H, W), which is not empty.
+
+    Lines that end at the hole are drawn on first. What is neither a hole nor a source has no say and stays.
+
+    Parameters
+    ----------
+    reach : how far behind the hole's edge, in pixels, it is filled in full detail.
+    seed : of the randomised search.
+    """
+    unknown = hole | ~source
+    lines = continue_lines(image, unknown, reach)
+    found = _fill(lines.picture, unknown & ~lines.painted, hole & ~lines.painted, reach, seed)
+    return np.where(hole[..., None], found, image).astype(np.float32)
+
+
+@dataclass(frozen=True)
+class _Level:
+    """One picture of the pyramid: 0 is the finest. `hole`: what is not known of it; `wanted`: what of this is asked for."""
+
+    number: int
+    picture: NDArray[np.float32]
+    hole: NDArray[np.bool_]
+    wanted: NDArray[np.bool_]
+
+
+def _fill(
+    image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_], reach: float, seed: int
+) -> NDArray[np.float32]:
+    levels = _pyramid(image, hole, wanted)
+    coarsest = levels[-1]
+    around = coarsest.picture[nearest_in(~coarsest.hole)]  # what is not asked for only has to be plausible
+    stretched = membrane(around, coarsest.wanted, cycles=6)
+    guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
+    if (sources := valid_centres(~coarsest.hole)).any():
+        asked = coarsest.hole & grown(coarsest.wanted, SIDE)
+        guess = exemplar_fill(guess, asked, sources, ~coarsest.hole)
+    field: NDArray[np.int32] | None = None
+    for level in reversed(levels):
+        sources = valid_centres(~level.hole)
+        size = (level.hole.shape[1], level.hole.shape[0])
+        guess = np.where(level.hole[..., None], resized(guess, size), level.picture).astype(np.float32)
+        if not sources.any():
+            continue
+        depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
+        active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_REACH)) | (level is coarsest))
+        targets = _centres_over(active)
+        field = _start(field, targets, sources, seed)
+        weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
+        effort = _effort(len(levels) - 1 - level.number, level)
+        guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
+        guess = heal_seams(guess, field, active & targets)
+    return guess
+
+
+def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
+    """The picture at full size, half, quarter, ...; means of known pixels only, while enough is known."""
+    levels = [_Level(0, image, hole, wanted)]
+    while max(hole.shape) > COARSEST:
+        half = (max(1, hole.shape[1] // 2), max(1, hole.shape[0] // 2))
+        known = resized((~hole).astype(np.float32), half)
+        image = (resized(image * ~hole[..., None], half) / np.maximum(known, 1e-6)[..., None]).astype(np.float32)
+        hole = known < 0.5
+        wanted = hole & (resized(wanted.astype(np.float32), half) > 0)
+        if valid_centres(~hole).sum() < 32:
+            break
+        levels.append(_Level(len(levels), image, hole, wanted))
+    return levels
+
+
+@dataclass(frozen=True)
+class _Effort:
+    """How often patches are matched and vote, sweeps each time, and random tries a patch."""
+
+    rounds: int
+    sweeps: int
+    tries: int
+
+
+def _effort(steps: int, level: _Level) -> _Effort:
+    """Much where it is cheap and decides about structure; at full size the field only needs settling."""
+    if level.number == 0:
+        return _Effort(1, 1, 1)
+    rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
+    return _Effort(rounds, 2, tries)
+
+
+def _refine(
+    guess: NDArray[np.float32],
+    weight: NDArray[np.float32],
+    active: NDArray[np.bool_],
+    targets: NDArray[np.bool_],
+    sources: NDArray[np.bool_],
+    field: NDArray[np.int32],
+    effort: _Effort,
+    keep_grain: bool,
+    seed: int,
+) -> NDArray[np.float32]:
+    """Match and vote in turn; `field` is improved in place. The last vote keeps grain if wanted."""
+    cost = np.zeros(active.shape, np.float32)
+    for turn in range(effort.rounds):
+        planes = colour_planes(guess)
+        match_patches(planes, weight, targets, sources, field, cost, effort.sweeps, effort.tries, seed + turn)
+        last = turn == effort.rounds - 1
+        sharpness = 0.0 if last and keep_grain else max(float(np.median(cost[targets])), 4.0)
+        vote(planes, weight, active, targets, field, cost, sharpness, guess)
+    return guess
+
+
+def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Centres of the patches that touch an active pixel and lie inside the picture."""
+    touched = cv2.dilate(active.astype(np.uint8), np.ones((SIDE, SIDE), np.uint8)) > 0
+    return touched & valid_centres(np.ones_like(active))
+
+
+def _start(
+    coarse: NDArray[np.int32] | None, targets: NDArray[np.bool_], sources: NDArray[np.bool_], seed: int
+) -> NDArray[np.int32]:
+    """A first field: that of the coarser picture where it points to a source, else anywhere."""
+    field = np.zeros((*targets.shape, 2), np.int32)
+    rows, columns = np.nonzero(targets)
+    lost = np.ones(len(rows), bool)
+    if coarse is not None:
+        up_y, up_x = np.minimum(rows // 2, coarse.shape[0] - 1), np.minimum(columns // 2, coarse.shape[1] - 1)
+        found = coarse[up_y, up_x]
+        y = np.clip(2 * found[:, 0] + rows - 2 * up_y, 0, targets.shape[0] - 1)
+        x = np.clip(2 * found[:, 1] + columns - 2 * up_x, 0, targets.shape[1] - 1)
+        field[rows, columns, 0], field[rows, columns, 1] = y, x
+        lost = ~sources[y, x]
+    anywhere = np.argwhere(sources)
+    pick = np.random.default_rng(seed).integers(0, len(anywhere), lost.sum())
+    field[rows[lost], columns[lost]] = anywhere[pick]
+    return field

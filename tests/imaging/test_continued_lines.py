@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from engine.imaging.background_plate import background_plate
 from engine.imaging.continued_lines import continue_lines
-from engine.imaging.inpaint import background_plate
 
 SIZE = 200
 CENTRE = (SIZE - 1) / 2

@@ -1,134 +1,114 @@
-"""Plates of scenes whose hidden part is known."""
+"""Holes in pictures whose hidden part is known, by each way to fill them."""
 
 from __future__ import annotations
 
-import cv2
+from typing import get_args
+
 import numpy as np
 import pytest
 
-from engine.imaging.exemplar_fill import exemplar_fill
-from engine.imaging.inpaint import background_plate, hole_behind
-from engine.imaging.patchmatch import valid_centres
+from engine.imaging.inpaint import Method, grown_by_margin, inpaint
 
-HEIGHT, WIDTH = 240, 320
-PERSON = np.float32([220, 30, 30])
+METHODS = get_args(Method)
+HEIGHT, WIDTH = 60, 90
 
 
-def bust() -> np.ndarray:
-    """Alpha (H, W) of a head on shoulders that the picture's lower border cuts, soft at its edge."""
-    mask = np.zeros((HEIGHT, WIDTH), np.float32)
-    cv2.ellipse(mask, (160, 100), (48, 60), 0, 0, 360, 1, -1)
-    cv2.ellipse(mask, (160, 250), (110, 90), 0, 0, 360, 1, -1)
-    return cv2.GaussianBlur(mask, (0, 0), 1.5)
+def stripes() -> np.ndarray:
+    picture = np.full((HEIGHT, WIDTH, 3), 40, np.uint8)
+    picture[(np.arange(HEIGHT) // 3) % 2 == 0] = (210, 190, 170)
+    return picture
 
 
-def with_person(scene: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    return np.clip(alpha[..., None] * PERSON + (1 - alpha[..., None]) * scene, 0, 255).astype(np.uint8)
+def hole() -> np.ndarray:
+    mask = np.zeros((HEIGHT, WIDTH), np.bool_)
+    mask[20:44, 30:50] = True
+    return mask
 
 
-def behind(alpha: np.ndarray, reach: float) -> np.ndarray:
-    """The band of the hidden part that a moving head lays bare."""
-    depth = cv2.distanceTransform((alpha > 0.02).astype(np.uint8), cv2.DIST_L2, 5)
-    return (depth > 0) & (depth < reach)
+def holed(picture: np.ndarray) -> np.ndarray:
+    """What is in the hole is of a colour that is nowhere else."""
+    return np.where(hole()[..., None], np.array([255, 0, 255], picture.dtype), picture)
 
 
-def lit_wall() -> np.ndarray:
-    ys, xs = np.mgrid[:HEIGHT, :WIDTH].astype(np.float32)
-    wall = np.stack([120 + 0.2 * xs, 130 + 0.15 * ys, 150 - 0.1 * xs], -1)
-    return wall + np.random.default_rng(1).normal(0, 3, wall.shape)
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("kind", [np.uint8, np.float32])
+def test_a_plain_ground_goes_on_and_all_else_stays(method: Method, kind: type) -> None:
+    plain = np.full((HEIGHT, WIDTH, 3), (90, 120, 150), kind)
+    found = inpaint(holed(plain), hole(), ~hole(), method)
+    assert found.dtype == kind
+    assert np.abs(found.astype(float) - plain).max() <= 1
+    np.testing.assert_array_equal(found[~hole()], plain[~hole()])
 
 
-def panelled_wall() -> np.ndarray:
-    wall = np.full((HEIGHT, WIDTH, 3), 190, np.float32)
-    for y in (60, 110):
-        wall[y : y + 6] = (90, 70, 60)
-    return wall
+@pytest.mark.parametrize("method", ["patches", "exemplars"])
+def test_stripes_go_on_through_the_hole(method: Method) -> None:
+    found = inpaint(holed(stripes()), hole(), ~hole(), method)
+    assert np.abs(found.astype(float) - stripes())[hole()].mean() < 8
 
 
-def woven_wall() -> np.ndarray:
-    ys, xs = np.mgrid[:HEIGHT, :WIDTH]
-    weave = 130 + 50 * np.sign(np.sin(xs * 2 * np.pi / 12) * np.sin(ys * 2 * np.pi / 12))
-    return np.repeat(weave[..., None], 3, 2).astype(np.float32)
+def test_without_detail_a_hole_has_what_is_harmonic() -> None:
+    """A plane is: it comes back to the digit, in any unit and of any number of channels."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH].astype(np.float32)
+    plane = np.stack([0.01 * x - 3, 500 - 2 * y, x + y, np.zeros_like(x)], -1)
+    found = inpaint(np.where(hole()[..., None], np.float32(np.nan), plane), hole(), ~hole(), "harmonic", margin=0)
+    np.testing.assert_allclose(found, plane, atol=2e-3)
 
 
-def test_far_from_the_person_nothing_changes() -> None:
-    picture, alpha = with_person(lit_wall(), bust()), bust()
-    plate = background_plate(picture, alpha)
-    away = ~hole_behind(alpha)
-    np.testing.assert_array_equal(plate[away], picture[away])
-    assert plate.dtype == np.uint8
+@pytest.mark.parametrize("method", METHODS)
+def test_nothing_but_the_source_has_a_say(method: Method) -> None:
+    """Half of the picture is no source: whatever is in it, and in the hole, the fill is the same."""
+    source = ~hole()
+    source[:, 56:] = False
+    rng = np.random.default_rng(5)
+    other = np.where(source[..., None], stripes(), rng.integers(0, 256, (HEIGHT, WIDTH, 3))).astype(np.uint8)
+    filled, of_other = (inpaint(picture, hole(), source, method) for picture in (stripes(), other))
+    np.testing.assert_array_equal(of_other[hole()], filled[hole()])
+    np.testing.assert_array_equal(of_other[~hole()], other[~hole()])
 
 
-@pytest.mark.parametrize(("scene", "error"), [(lit_wall, 5.0), (panelled_wall, 6.0), (woven_wall, 12.0)])
-def test_what_was_hidden_comes_back(scene, error: float) -> None:  # type: ignore[no-untyped-def]
-    """Walls, lines and weave within 20 pixels behind the outline, in grey levels of mean error."""
-    alpha = bust()
-    plate = background_plate(with_person(scene(), alpha), alpha, reach=24)
-    assert np.abs(plate - scene())[behind(alpha, 20)].mean() < error
+@pytest.mark.parametrize("method", METHODS)
+def test_colours_mixed_with_the_holes_are_not_copied(method: Method) -> None:
+    """A rim around the hole has what was in it, as soft edges do."""
+    plain = np.full((HEIGHT, WIDTH, 3), (90, 120, 150), np.uint8)
+    spoiled = np.where(grown_by_margin(hole(), 3)[..., None], np.uint8(255), plain)
+    found = inpaint(spoiled, hole(), ~hole(), method, margin=3)
+    assert np.abs(found.astype(int) - plain)[hole()].max() <= 1
+    assert np.abs(inpaint(spoiled, hole(), ~hole(), method, margin=0).astype(int) - plain)[hole()].max() > 50
 
 
-def test_lines_continue_behind_the_head() -> None:
-    alpha = bust()
-    plate = background_plate(with_person(panelled_wall(), alpha), alpha, reach=24)
-    for y in (60, 110):
-        columns = np.flatnonzero(behind(alpha, 15)[y + 3] & (np.arange(WIDTH) < 160))
-        assert (plate[y + 2 : y + 4, columns].mean((0, 2)) < 130).mean() > 0.8
+def test_a_margin_is_a_disk_and_by_default_a_share_of_the_longer_side() -> None:
+    point = np.zeros((41, 41), np.bool_)
+    point[20, 20] = True
+    y, x = np.mgrid[:41, :41] - 20
+    for margin in (0, 1, 4):
+        grown = grown_by_margin(point, margin)
+        assert grown[np.hypot(y, x) <= margin - 0.5].all() and not grown[np.hypot(y, x) > margin + 0.5].any()
+    np.testing.assert_array_equal(grown_by_margin(point), grown_by_margin(point, 2))
+    wide = np.zeros((10, 1000), np.bool_)
+    wide[5, 500] = True
+    assert grown_by_margin(wide)[5].sum() == 2 * 6 + 1
 
 
-def test_no_ghost_of_the_person_is_left() -> None:
-    alpha = bust()
-    plate = background_plate(with_person(lit_wall(), alpha), alpha).astype(np.float32)
-    redness = plate[..., 0] - plate[..., 1]
-    assert redness.max() < 80  # the person's is 190, the wall's at most 75
+@pytest.mark.parametrize("method", METHODS)
+def test_where_nothing_is_missing_or_nothing_is_known_the_picture_stays(method: Method) -> None:
+    nothing = np.zeros((HEIGHT, WIDTH), np.bool_)
+    for missing, source in ((nothing, ~nothing), (hole(), nothing)):
+        picture = stripes()
+        found = inpaint(picture, missing, source, method)
+        np.testing.assert_array_equal(found, picture)
+        assert found is not picture
 
 
-def test_grain_is_kept() -> None:
-    alpha = bust()
-    plate = background_plate(with_person(lit_wall(), alpha), alpha, reach=24).astype(np.float32)
-    grain = plate - cv2.GaussianBlur(plate, (0, 0), 2)
-    band = behind(alpha, 15)
-    assert grain[band].std() > 0.7 * grain[~hole_behind(alpha)].std()
+@pytest.mark.parametrize("method", METHODS)
+def test_of_a_source_that_is_all_edge_the_hole_has_the_mean(method: Method) -> None:
+    source = grown_by_margin(hole(), 1) & ~hole()
+    found = inpaint(stripes(), hole(), source, method, margin=2)
+    np.testing.assert_array_equal(found[hole()] - np.round(stripes()[source].mean(0)), 0)
 
 
-def test_same_seed_same_plate() -> None:
-    picture, alpha = with_person(woven_wall(), bust()), bust()
-    first = background_plate(picture, alpha, seed=3)
-    np.testing.assert_array_equal(first, background_plate(picture, alpha, seed=3))
-
-
-def test_hole_at_the_border_and_little_left_to_copy_from() -> None:
-    scene = np.full((HEIGHT, WIDTH, 3), (90, 120, 140), np.float32)
-    alpha = np.ones((HEIGHT, WIDTH), np.float32)
-    alpha[:, :16] = 0
-    plate = background_plate(with_person(scene, alpha), alpha)
-    assert np.abs(plate - scene).max() <= 2
-
-
-def test_nobody_and_nothing_but_the_person() -> None:
-    picture = with_person(lit_wall(), bust())
-    np.testing.assert_array_equal(background_plate(picture, np.zeros((HEIGHT, WIDTH), np.float32)), picture)
-    plate = background_plate(picture, np.ones((HEIGHT, WIDTH), np.float32))
-    assert np.ptp(plate.reshape(-1, 3), axis=0).max() == 0
-
-
-def test_pictures_of_few_pixels() -> None:
-    tiny = np.full((5, 6, 3), 77, np.uint8)
-    alpha = np.zeros((5, 6), np.float32)
-    alpha[2, 2] = 1
-    assert background_plate(tiny, alpha).shape == (5, 6, 3)
-
-
-def test_what_is_neither_a_hole_nor_known_has_no_say_and_stays() -> None:
-    """A field of stripes with a hole, beside what is of another colour and is not to be copied from."""
-    image = np.zeros((40, 60, 3), np.float32)
-    image[::4] = 200
-    image[:, 40:] = (255, 0, 0)
-    hole, known = np.zeros((40, 60), np.bool_), np.zeros((40, 60), np.bool_)
-    hole[10:30, 28:40] = True
-    known[:, :40] = ~hole[:, :40]
-    filled = exemplar_fill(image, hole, valid_centres(known), known)
-    np.testing.assert_array_equal(filled[:, 40:], image[:, 40:])
-    assert np.abs(filled[12:28, 30:38] - image[12:28, :1]).mean() < 20
-    other = image.copy()
-    other[:, 40:] = np.random.default_rng(0).integers(0, 256, (40, 20, 3))
-    np.testing.assert_array_equal(exemplar_fill(other, hole, valid_centres(known), known)[hole], filled[hole])
+def test_the_same_seed_gives_the_same_patches() -> None:
+    rng = np.random.default_rng(2)
+    noise = rng.integers(0, 256, (HEIGHT, WIDTH, 3)).astype(np.uint8)
+    first = inpaint(noise, hole(), ~hole(), seed=4)
+    np.testing.assert_array_equal(inpaint(noise, hole(), ~hole(), seed=4), first)
+    assert (inpaint(noise, hole(), ~hole(), seed=5) != first).any()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.geometry.grid_diffusion import diffuse
+from engine.imaging.grid_diffusion import diffuse
 
 
 def test_on_open_ground_it_is_a_blur_of_known_width() -> None:

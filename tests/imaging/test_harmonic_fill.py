@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.geometry.harmonic_fill import harmonic_fill
+from engine.imaging.harmonic_fill import harmonic_fill
 
 
 def test_a_plane_is_harmonic_and_comes_back() -> None:
