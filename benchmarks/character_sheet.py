@@ -13,11 +13,11 @@ import json
 import time
 from pathlib import Path
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.character_steps import Woken, wake
+from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from benchmarks.tables import machine
 from engine.character.measures import measure, pose
 from engine.character.strokes import LABEL_COLOURS
@@ -28,17 +28,19 @@ from engine.motion.library import built_in
 from engine.render.character import draw_character, prepare
 
 HEIGHT = 420
+"""Pixels of a row."""
 GREY = np.array([150, 156, 162], np.uint8)
 FRAMES = (("walk", 0.0), ("walk", 0.25), ("walk", 0.5), ("walk", 0.75), ("dance", 0.3), ("dance", 0.6), ("wave", 0.5))
+"""Clips, and how far along them they are shown, as a share."""
 
 
-def row(woken: Woken) -> NDArray[np.uint8]:
-    """The pictures (HEIGHT, W, 3) of one character."""
+def row(woken: Woken, title: str) -> Row:
+    """The pictures of one character, `HEIGHT` pixels high."""
     figure, silhouette, character = woken.figure, woken.silhouette, woken.character
     subject = prepare(character.mesh)
     labels = LABEL_COLOURS[woken.labels.labels.astype(int)]
     mask = np.repeat((silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2)
-    panels = [_to_height(picture) for picture in (figure.rgb, mask, labels)]
+    panels = [at_height(picture, HEIGHT) for picture in (figure.rgb, mask, labels)]
 
     def view(clip: Clip, frame: int, degrees: float) -> NDArray[np.uint8]:
         posed = pose(character, clip, frame)
@@ -54,12 +56,7 @@ def row(woken: Woken) -> NDArray[np.uint8]:
     for name, share in FRAMES:
         clip = in_place(built_in(name, character.mesh.skeleton))
         panels.append(view(clip, int(share * len(clip.rotations)), 25))
-    return np.concatenate(panels, 1)
-
-
-def _to_height(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    width = round(picture.shape[1] * HEIGHT / picture.shape[0])
-    return np.asarray(cv2.resize(picture, (width, HEIGHT), interpolation=cv2.INTER_AREA), np.uint8)
+    return Row(panels, title)
 
 
 def main() -> None:
@@ -75,10 +72,8 @@ def main() -> None:
         woken = wake(picture, asked.options)
         took = time.perf_counter() - start
         print(picture.stem, f"{took:.1f} s", measure(woken.figure, woken.silhouette, woken.fitted, woken.character))
-        rows.append(row(woken))
-    width = max(one.shape[1] for one in rows)
-    sheet = np.concatenate([np.pad(one, ((0, 4), (0, width - one.shape[1]), (0, 0))) for one in rows])
-    cv2.imwrite(str(asked.out), sheet[..., ::-1])
+        rows.append(row(woken, picture.stem))
+    write_sheet(asked.out, contact_sheet(rows))
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ from benchmarks.scanned_bodies import read_scan
 from benchmarks.shared_media import media
 from benchmarks.surface_distance import Distances, align, compare, sample_outside
 from benchmarks.tables import machine, table
-from benchmarks.truth_sheet import write_sheet
+from benchmarks.truth_sheet import write_truth_sheet
 from engine.character import layers
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.measures import pose
@@ -229,7 +229,7 @@ def main() -> None:
     print(f"{machine()}; {sum(r.seconds for r in results) / len(results):.0f} s a person")
     print(tables(results))
     if asked.sheet is not None:
-        write_sheet(asked.sheet, results)
+        write_truth_sheet(asked.sheet, results)
 
 
 if __name__ == "__main__":

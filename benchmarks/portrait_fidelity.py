@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 from benchmarks.acting import Acting, read_driver, read_target
+from benchmarks.contact_sheet import Row, contact_sheet, evenly, write_sheet
 from benchmarks.shared_media import driving_clips, media, tool, write_clip
 from benchmarks.tables import mean_row, table
 from engine.face_animation.alignment import align
@@ -73,6 +74,8 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
     print(f"Ahead of the bare warp on both: {sum(ahead)} of {len(ahead)} clips.")
 
 
+SHEET_COLUMNS, SHEET_WIDTH = 8, 2400
+"""Moments side by side on a contact sheet at most, and pixels of its width."""
 DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
 
 
@@ -204,9 +207,5 @@ def _save(pictures: Path | None, name: str, *rows: list[NDArray[np.uint8]]) -> N
     """A contact sheet: the rows under each other, up to eight moments side by side."""
     if pictures is None:
         return
-    chosen = np.linspace(0, len(rows[0]) - 1, min(8, len(rows[0]))).round().astype(int)
-    sheet = np.vstack([np.hstack([row[i] for i in chosen]) for row in rows])
-    scale = min(1.0, 2400 / sheet.shape[1])
-    sheet = cv2.resize(sheet, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    pictures.mkdir(parents=True, exist_ok=True)
-    cv2.imwrite(str(pictures / f"{name}.png"), sheet[..., ::-1])
+    sheet = contact_sheet([Row(evenly(row, SHEET_COLUMNS)) for row in rows], max_width=SHEET_WIDTH)
+    write_sheet(pictures / f"{name}.png", sheet)

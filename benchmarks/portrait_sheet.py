@@ -14,12 +14,12 @@ import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.contact_sheet import PAPER, Row, contact_sheet, fitted, write_sheet
 from benchmarks.shared_media import driving_clips, media
 from benchmarks.tables import machine
 from engine.errors import InputError
@@ -41,18 +41,11 @@ BESIDE = (
 )
 """Performances, and the clips and seconds that `moments.json` marks as the same."""
 MOMENTS = 6
-CELL, LINE = 220, 22
-"""Pixels of a picture's sides, and of the line of text above it."""
-PAPER, INK = 235, 20
+"""Frames that are shown of each video."""
+CELL = (220, 220)
+"""Height and width of a picture, pixels."""
 Part = tuple[float, float] | None
 """Seconds of a video; None is the whole."""
-
-
-class Row(NamedTuple):
-    """A label, and one picture for each column."""
-
-    label: str
-    pictures: list[NDArray[np.uint8]]
 
 
 def drivers(out: Path, clips: Sequence[str], portraits: Sequence[str], options: Mapping[str, Any]) -> None:
@@ -66,7 +59,7 @@ def drivers(out: Path, clips: Sequence[str], portraits: Sequence[str], options: 
                     rows.append(_acted(picture, clip, options, Path(cache)))
                 except InputError as error:
                     print(f"{picture.stem} by {clip.stem}: {error.code}")
-            _write(out / f"{clip.stem}.png", rows)
+            write_sheet(out / f"{clip.stem}.png", contact_sheet(rows, CELL))
 
 
 def performances(out: Path, options: Mapping[str, Any]) -> None:
@@ -79,11 +72,11 @@ def performances(out: Path, options: Mapping[str, Any]) -> None:
             rows += [_driven(f"built in: {name}", video(name)), _acted(picture, video(name), options, Path(cache))]
             rows.append(_driven(f"real: {clip}, {part[0]} to {part[1]} s", real, part))
             rows.append(_acted(picture, real, options, Path(cache), part))
-    _write(out / "performances.png", rows)
+    write_sheet(out / "performances.png", contact_sheet(rows, CELL))
 
 
 def _driven(label: str, driver: Path, part: Part = None) -> Row:
-    return Row(label, [_cell(np.full((1, 1, 3), PAPER, np.uint8)), *_moments(driver, part)])
+    return Row([np.full((1, 1, 3), PAPER, np.uint8), *_moments(driver, part)], label)
 
 
 def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
@@ -91,34 +84,13 @@ def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path,
     with TemporaryDirectory() as folder:
         made = animate(picture, driver, folder, cache=cache, **options).path
         rest = read_image(Path(folder) / "preview.jpg").rgb
-        return Row(picture.stem, [_cell(rest), *_moments(made, part)])
+        return Row([rest, *_moments(made, part)], picture.stem)
 
 
 def _moments(path: Path, part: Part) -> list[NDArray[np.uint8]]:
     """`MOMENTS` frames of a part of a video, evenly spread."""
-    cells = [_cell(frame.rgb) for frame in read_video(path, trim=part)]
-    return [cells[int((k + 0.5) * len(cells) / MOMENTS)] for k in range(MOMENTS)]
-
-
-def _cell(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A picture in the middle of a square of `CELL` pixels."""
-    scale = CELL / max(rgb.shape[:2])
-    small = cv2.resize(rgb, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    cell = np.full((CELL, CELL, 3), PAPER, np.uint8)
-    y, x = ((CELL - side) // 2 for side in small.shape[:2])
-    cell[y : y + small.shape[0], x : x + small.shape[1]] = small
-    return cell
-
-
-def _write(path: Path, rows: Sequence[Row]) -> None:
-    lines = []
-    for label, pictures in rows:
-        line = np.full((LINE, CELL * len(pictures), 3), PAPER, np.uint8)
-        cv2.putText(line, label, (4, LINE - 7), cv2.FONT_HERSHEY_SIMPLEX, 0.5, (INK, INK, INK), 1, cv2.LINE_AA)
-        lines += [line, np.hstack(pictures)]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    cv2.imwrite(str(path), np.vstack(lines)[..., ::-1])
-    print(path)
+    frames = [fitted(frame.rgb, CELL) for frame in read_video(path, trim=part)]
+    return [frames[int((k + 0.5) * len(frames) / MOMENTS)] for k in range(MOMENTS)]
 
 
 def main() -> None:

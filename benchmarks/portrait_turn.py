@@ -6,11 +6,11 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.acting import Acting, read_driver, read_target
+from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
 from benchmarks.head_scan import read_head_scan, render_head
 from benchmarks.shared_media import media, tool, write_clip
 from benchmarks.tables import table
@@ -62,9 +62,9 @@ def turn(pictures: Path | None) -> None:
     print(f"Lines of a wall behind the turning head: off by {lines[0]:.2f} px at most outside the person (goal 0.5);")
     print(f"where the head had hidden them {lines[1]:.2f} px at most ({lines[2]:.0%} of those are there).")
     if pictures is not None:
-        pictures.mkdir(parents=True, exist_ok=True)
-        sheet = np.vstack([np.hstack([row[i] for i in at[::2]]) for row in (true, made["2D"], made["3D"])])
-        cv2.imwrite(str(pictures / "turn.png"), sheet[..., ::-1])
+        turns = {"the scan": true, "2D": made["2D"], "3D": made["3D"]}
+        rows_shown = [Row([frames[i] for i in at[::2]], title) for title, frames in turns.items()]
+        write_sheet(pictures / "turn.png", contact_sheet(rows_shown))
 
 
 def wall(shape: tuple[int, int]) -> NDArray[np.float64]:

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
 from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
@@ -18,29 +17,27 @@ from engine.render.rasteriser import rasterise
 if TYPE_CHECKING:
     from benchmarks.character_truth import Result
 
-HIGH = 360
-METRES = 2.1
-"""Of a cell's height."""
+CELL_HEIGHT, CELL_METRES = 360, 2.1
+"""Pixels and metres of a cell's height."""
 VIEWS = (90.0, 35.0)
 """Degrees by which the surfaces are turned."""
 MISSED, TOO_MUCH, BOTH = (230, 60, 50), (50, 90, 230), (210, 210, 210)
+"""RGB of what the mask lacks, of what it has beyond the truth, and of what both have."""
 
 
-def write_sheet(path: Path, results: Sequence[Result]) -> None:
+def write_truth_sheet(path: Path, results: Sequence[Result]) -> None:
     """For each person: the picture, the mask (red: missed, blue: too much), and, turned, the truth, the character and the
     bare template."""
-    rows = [_row(result) for result in results]
-    Image.fromarray(np.vstack(rows)).save(path)
+    write_sheet(path, contact_sheet([_row(result) for result in results]))
 
 
-def _row(result: Result) -> NDArray[np.uint8]:
+def _row(result: Result) -> Row:
     known, surfaces = result.known, result.surfaces
-    width = round(HIGH * known.rgb.shape[1] / known.rgb.shape[0])
     found, true = result.mask > 0.5, known.alpha > 0.5
     mask = np.full((*true.shape, 3), 30, np.uint8)
     for region, colour in ((found & true, BOTH), (true & ~found, MISSED), (found & ~true, TOO_MUCH)):
         mask[region] = colour
-    cells = [cv2.resize(picture, (width, HIGH), interpolation=cv2.INTER_AREA) for picture in (known.rgb, mask)]
+    cells = [at_height(picture, CELL_HEIGHT) for picture in (known.rgb, mask)]
     person = known.person
     truth = person.vertices * (1.8 / person.height)
     for degrees in VIEWS:
@@ -50,16 +47,18 @@ def _row(result: Result) -> NDArray[np.uint8]:
             (result.aligned[1], surfaces.template[1]),
         ):
             cells.append(_drawn(vertices, triangles, degrees))
-    return np.hstack(cells)
+    return Row(cells, f"{person.name}, {result.place}")
 
 
 def _drawn(vertices: NDArray[np.float64], triangles: NDArray[np.integer], degrees: float) -> NDArray[np.uint8]:
     """A surface turned to its left, grey, lit from where one looks."""
     c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
     turned = vertices @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]).T
-    scale, width = HIGH / METRES, HIGH * 5 // 8
-    screen = np.stack([turned[:, 0] * scale + width / 2, HIGH * 0.97 - turned[:, 1] * scale, -turned[:, 2] * scale], 1)
-    raster = rasterise(screen, triangles, (HIGH, width))
+    scale, width = CELL_HEIGHT / CELL_METRES, CELL_HEIGHT * 5 // 8
+    screen = np.stack(
+        [turned[:, 0] * scale + width / 2, CELL_HEIGHT * 0.97 - turned[:, 1] * scale, -turned[:, 2] * scale], 1
+    )
+    raster = rasterise(screen, triangles, (CELL_HEIGHT, width))
     normals = interpolate(vertex_normals(turned, triangles), triangles, raster)
     light = np.abs(normals @ np.array([0.3, 0.4, 0.86], np.float32))[..., None] * 200 + 40
     return np.where((raster.triangle >= 0)[..., None], light * np.ones(3), 255).clip(0, 255).astype(np.uint8)
