@@ -12,7 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.imaging.patchmatch import RADIUS, SIDE, colour_planes, patch_distance, patch_shift, take_target
+from engine.imaging.patchmatch import (
+    RADIUS,
+    SIDE,
+    colour_image,
+    colour_planes,
+    patch_distance,
+    patch_shift,
+    take_target,
+)
 
 SPREAD = 0.02
 """Cost, in grey levels squared for each pixel squared, of fetching a patch from afar."""
@@ -32,7 +40,7 @@ def exemplar_fill(
     ys, xs = ys[half], xs[half]
     planes = colour_planes(image)
     _fill(planes, hole.copy(), known.astype(np.float32), ys.astype(np.int32), xs.astype(np.int32))
-    return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
+    return colour_image(planes)
 
 
 @njit(fastmath=True, nogil=True)

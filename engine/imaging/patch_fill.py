@@ -18,7 +18,7 @@ from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.mask_distance import grown
 from engine.imaging.nearest import nearest_in
-from engine.imaging.patchmatch import SIDE, colour_planes, match_patches, valid_centres, vote
+from engine.imaging.patchmatch import SIDE, PatchField, colour_planes, valid_centres
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 from engine.imaging.seams import heal_seams
@@ -70,7 +70,7 @@ def _fill(
     if (sources := valid_centres(~coarsest.hole)).any():
         asked = coarsest.hole & grown(coarsest.wanted, SIDE)
         guess = exemplar_fill(guess, asked, sources, ~coarsest.hole)
-    field: NDArray[np.int32] | None = None
+    field: PatchField | None = None
     for level in reversed(levels):
         sources = valid_centres(~level.hole)
         size = (level.hole.shape[1], level.hole.shape[0])
@@ -80,11 +80,11 @@ def _fill(
         depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
         active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_REACH)) | (level is coarsest))
         targets = _centres_over(active)
-        field = _start(field, targets, sources, seed)
+        field = PatchField.start(targets, sources, seed, field)
         weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
         effort = _effort(len(levels) - 1 - level.number, level)
-        guess = _refine(guess, weight, active, targets, sources, field, effort, level.number <= 1, seed)
-        guess = heal_seams(guess, field, active & targets)
+        guess = _refine(guess, weight, active, field, effort, seed)
+        guess = heal_seams(guess, field.nearest, active & targets)
     return guess
 
 
@@ -105,40 +105,37 @@ def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArra
 
 @dataclass(frozen=True)
 class _Effort:
-    """How often patches are matched and vote, sweeps each time, and random tries a patch."""
+    """How often patches are matched and vote, sweeps each time, random tries a patch, and whether the last vote keeps grain."""
 
     rounds: int
     sweeps: int
     tries: int
+    keep_grain: bool
 
 
 def _effort(steps: int, level: _Level) -> _Effort:
     """Much where it is cheap and decides about structure; at full size the field only needs settling."""
     if level.number == 0:
-        return _Effort(1, 1, 1)
+        return _Effort(1, 1, 1, True)
     rounds, tries = ((3, 6), (3, 4), (2, 4), (2, 2), (1, 2))[min(steps, 4)]
-    return _Effort(rounds, 2, tries)
+    return _Effort(rounds, 2, tries, level.number == 1)
 
 
 def _refine(
     guess: NDArray[np.float32],
     weight: NDArray[np.float32],
     active: NDArray[np.bool_],
-    targets: NDArray[np.bool_],
-    sources: NDArray[np.bool_],
-    field: NDArray[np.int32],
+    field: PatchField,
     effort: _Effort,
-    keep_grain: bool,
     seed: int,
 ) -> NDArray[np.float32]:
-    """Match and vote in turn; `field` is improved in place. The last vote keeps grain if wanted."""
-    cost = np.zeros(active.shape, np.float32)
+    """Match and vote in turn; `field` is improved in place."""
     for turn in range(effort.rounds):
         planes = colour_planes(guess)
-        match_patches(planes, weight, targets, sources, field, cost, effort.sweeps, effort.tries, seed + turn)
+        field.match(planes, weight, effort.sweeps, effort.tries, seed + turn)
         last = turn == effort.rounds - 1
-        sharpness = 0.0 if last and keep_grain else max(float(np.median(cost[targets])), 4.0)
-        vote(planes, weight, active, targets, field, cost, sharpness, guess)
+        sharpness = 0.0 if last and effort.keep_grain else max(float(np.median(field.cost[field.targets])), 4.0)
+        guess = field.vote(planes, weight, active, sharpness)
     return guess
 
 
@@ -146,23 +143,3 @@ def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Centres of the patches that touch an active pixel and lie inside the picture."""
     touched = cv2.dilate(active.astype(np.uint8), np.ones((SIDE, SIDE), np.uint8)) > 0
     return touched & valid_centres(np.ones_like(active))
-
-
-def _start(
-    coarse: NDArray[np.int32] | None, targets: NDArray[np.bool_], sources: NDArray[np.bool_], seed: int
-) -> NDArray[np.int32]:
-    """A first field: that of the coarser picture where it points to a source, else anywhere."""
-    field = np.zeros((*targets.shape, 2), np.int32)
-    rows, columns = np.nonzero(targets)
-    lost = np.ones(len(rows), bool)
-    if coarse is not None:
-        up_y, up_x = np.minimum(rows // 2, coarse.shape[0] - 1), np.minimum(columns // 2, coarse.shape[1] - 1)
-        found = coarse[up_y, up_x]
-        y = np.clip(2 * found[:, 0] + rows - 2 * up_y, 0, targets.shape[0] - 1)
-        x = np.clip(2 * found[:, 1] + columns - 2 * up_x, 0, targets.shape[1] - 1)
-        field[rows, columns, 0], field[rows, columns, 1] = y, x
-        lost = ~sources[y, x]
-    anywhere = np.argwhere(sources)
-    pick = np.random.default_rng(seed).integers(0, len(anywhere), lost.sum())
-    field[rows[lost], columns[lost]] = anywhere[pick]
-    return field

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -20,21 +21,19 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 
 RADIUS = 3
-"""Patches are 7x7."""
+"""Pixels from a patch's centre to its border."""
+SIDE = 2 * RADIUS + 1
+"""Pixels of a patch's side."""
 
-LARGEST_SHIFT = 24.0
-"""Grey levels by which a patch's mean colour may be shifted to fit ..."""
+MAX_SHIFT = 24.0
+"""Grey levels by which a patch's mean colour may be shifted to fit, at most."""
 SHIFT_COST = 0.15
-"""... and what a shift costs, as a share of what the same difference would cost unshifted."""
-
-
-GRAIN = 8
+"""What a shift of a patch's mean colour costs, as a share of what the same difference would cost unshifted."""
+GRAIN_POWER = 8
 """Power of a patch's inverse cost by which it counts where grain is to be kept: enough for the best patch to
 stand alone where it is clearly best, and for seams between equals to blend."""
 
-SIDE = 2 * RADIUS + 1
-
-BAND, MOST_BANDS = 6000, 4
+BAND_PATCHES, MAX_BANDS = 6000, 4
 """Patches that make a band of their own worth while, and how many bands at most."""
 
 
@@ -46,9 +45,14 @@ def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:
     return planes
 
 
+def colour_image(planes: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The image (H, W, 3) of `colour_planes`."""
+    return np.ascontiguousarray(planes[:, :, :-1].transpose(1, 2, 0))
+
+
 @njit(fastmath=True, nogil=True, inline="always")
 def _allowed_shift(mean):  # type: ignore[no-untyped-def]
-    return min(max(mean, np.float32(-LARGEST_SHIFT)), np.float32(LARGEST_SHIFT))
+    return min(max(mean, np.float32(-MAX_SHIFT)), np.float32(MAX_SHIFT))
 
 
 @njit(fastmath=True, nogil=True, inline="always")
@@ -144,34 +148,67 @@ def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tr
                 cost[y, x], field[y, x, 0], field[y, x, 1] = best, by, bx
 
 
-def match_patches(
-    planes: NDArray[np.float32], weight: NDArray[np.float32], targets: NDArray[np.bool_], sources: NDArray[np.bool_],
-    field: NDArray[np.int32], cost: NDArray[np.float32], sweeps: int, random_tries: int, seed: int,
-) -> None:  # fmt: skip
-    """Improve `field` (H, W, 2) int32, the centre (y, x) of the source of each target patch, in place.
+@dataclass(frozen=True)
+class PatchField:
+    """The nearest-neighbour field of PatchMatch: for each target patch the source patch that is most like it.
 
-    `planes` (`colour_planes`) hold the present guess inside the hole; `weight` (H, W) is how much each
-    pixel counts; `targets`, `sources` (H, W) bool mark centres; `cost` (H, W) float32 is written.
+    targets : (H, W) bool, the centres of patches to be matched.
+    sources : (H, W) bool, the centres of patches to choose from.
+    nearest : (H, W, 2) int32, the centre (y, x) of each target's source.
+    cost : (H, W) float32, how unlike the two are, grey levels squared; 0 before the first match.
     """
-    given = planes, weight, targets, sources, field, cost, sweeps, random_tries, seed
-    _side_by_side(_match_band, given, _bands(targets))
 
+    targets: NDArray[np.bool_]
+    sources: NDArray[np.bool_]
+    nearest: NDArray[np.int32]
+    cost: NDArray[np.float32]
 
-def vote(
-    planes: NDArray[np.float32], weight: NDArray[np.float32], hole: NDArray[np.bool_], targets: NDArray[np.bool_],
-    field: NDArray[np.int32], cost: NDArray[np.float32], sharpness: float, result: NDArray[np.float32],
-) -> None:  # fmt: skip
-    """Each pixel of `hole` becomes the mean of what the patches over it say, the better ones counting more.
+    @classmethod
+    def start(
+        cls, targets: NDArray[np.bool_], sources: NDArray[np.bool_], seed: int, coarse: PatchField | None = None
+    ) -> PatchField:
+        """A first field: that of the picture of half the size where it points to a source, else anywhere. `sources` is not empty."""
+        nearest = np.zeros((*targets.shape, 2), np.int32)
+        rows, columns = np.nonzero(targets)
+        lost = np.ones(len(rows), bool)
+        if coarse is not None:
+            half = coarse.nearest
+            up_y, up_x = np.minimum(rows // 2, half.shape[0] - 1), np.minimum(columns // 2, half.shape[1] - 1)
+            found = half[up_y, up_x]
+            y = np.clip(2 * found[:, 0] + rows - 2 * up_y, 0, targets.shape[0] - 1)
+            x = np.clip(2 * found[:, 1] + columns - 2 * up_x, 0, targets.shape[1] - 1)
+            nearest[rows, columns, 0], nearest[rows, columns, 1] = y, x
+            lost = ~sources[y, x]
+        anywhere = np.argwhere(sources)
+        pick = np.random.default_rng(seed).integers(0, len(anywhere), lost.sum())
+        nearest[rows[lost], columns[lost]] = anywhere[pick]
+        return cls(targets, sources, nearest, np.zeros(targets.shape, np.float32))
 
-    `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 hardly any but the
-    best counts, which keeps grain and fine texture that a mean would wash out. `result` (H, W, 3) float32
-    is written inside the hole only.
-    """
-    shift = np.zeros((*cost.shape, 3), np.float32)
-    trust = np.zeros(cost.shape, np.float32)
-    bands = _bands(targets)
-    _side_by_side(_weigh_band, (planes, weight, targets, field, cost, sharpness, shift, trust), bands)
-    _side_by_side(_vote_band, (planes, hole, field, sharpness, shift, trust, result), bands)
+    def match(
+        self, planes: NDArray[np.float32], weight: NDArray[np.float32], sweeps: int, random_tries: int, seed: int
+    ) -> None:
+        """Improve `nearest` and set `cost`, in place. `planes` (`colour_planes`) hold the present guess inside the hole;
+        `weight` (H, W) is how much each pixel counts."""
+        given = planes, weight, self.targets, self.sources, self.nearest, self.cost, sweeps, random_tries, seed
+        _side_by_side(_match_band, given, _bands(self.targets))
+
+    def vote(
+        self, planes: NDArray[np.float32], weight: NDArray[np.float32], hole: NDArray[np.bool_], sharpness: float
+    ) -> NDArray[np.float32]:
+        """Colours (H, W, 3) in which each pixel of `hole` is the mean of what the patches over it say, the better ones
+        counting more; elsewhere those of `planes`.
+
+        `sharpness` is the cost at which a patch counts for little (grey levels squared); at 0 hardly any but the best
+        counts, which keeps grain and fine texture that a mean would wash out.
+        """
+        result = colour_image(planes)
+        shift = np.zeros((*self.cost.shape, 3), np.float32)
+        trust = np.zeros(self.cost.shape, np.float32)
+        bands = _bands(self.targets)
+        given = planes, weight, self.targets, self.nearest, self.cost, sharpness, shift, trust
+        _side_by_side(_weigh_band, given, bands)
+        _side_by_side(_vote_band, (planes, hole, self.nearest, sharpness, shift, trust, result), bands)
+        return result
 
 
 @njit(fastmath=True, nogil=True)
@@ -209,7 +246,7 @@ def _vote_band(planes, hole, field, sharpness, shift, trust, result, top, bottom
                     if w == 0:
                         continue
                     if sharpness == 0:
-                        w = (w / best) ** GRAIN
+                        w = (w / best) ** GRAIN_POWER
                     sy, sx = field[cy, cx, 0] + y - cy, field[cy, cx, 1] + x - cx
                     mass += w
                     s0 += w * (planes[0, sy, sx] + shift[cy, cx, 0])
@@ -225,7 +262,7 @@ def _bands(targets: NDArray[np.bool_]) -> list[int]:
     """Rows between which large pictures are worked on side by side; the same ones on every machine, so that the result
     is too."""
     so_far = np.cumsum(targets.sum(axis=1))
-    bands = int(np.clip(so_far[-1] // BAND, 1, MOST_BANDS))
+    bands = int(np.clip(so_far[-1] // BAND_PATCHES, 1, MAX_BANDS))
     return [0, *(int(np.searchsorted(so_far, so_far[-1] * k / bands)) for k in range(1, bands)), len(targets)]
 
 
@@ -238,7 +275,6 @@ def _side_by_side(function: Callable[..., None], given: tuple[Any, ...], cuts: l
 
 def valid_centres(usable: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Where a whole patch lies inside `usable` (H, W) and inside the picture."""
-    side = 2 * RADIUS + 1
     padded = np.pad(usable.astype(np.uint8), 1)
-    eroded = cv2.erode(padded, np.ones((side, side), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    eroded = cv2.erode(padded, np.ones((SIDE, SIDE), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
     return np.asarray(eroded[1:-1, 1:-1] > 0)
