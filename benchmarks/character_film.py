@@ -32,6 +32,7 @@ from engine.export.video import VideoWriter
 from engine.render import character as renderer
 
 FPS = 30.0
+"""Frames a second of the film."""
 STAGES = {
     "posed": ("skin",),
     "shadow": ("cast_on_ground",),
@@ -41,7 +42,7 @@ STAGES = {
     "edges": ("choose", "draw_samples", "colour_samples"),
 }
 """The functions that `engine.render.character` calls for each column."""
-ENDS = 5
+END_FRAMES = 5
 """Frames at the beginning and at the end for which the cost is told apart."""
 
 
@@ -105,7 +106,11 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
     cost, took = time.process_time() - whole[0], time.perf_counter() - whole[1]
     rows = []
     count = len(frames)
-    for label, part in (("first", slice(0, ENDS)), ("last", slice(count - ENDS, count)), ("mean", slice(None))):
+    for label, part in (
+        ("first", slice(0, END_FRAMES)),
+        ("last", slice(count - END_FRAMES, count)),
+        ("mean", slice(None)),
+    ):
         stages = [sum(float(np.mean(spent[name][part])) for name in names) for names in STAGES.values()]
         total = stages[0] + stages[1] + float(np.mean(spent["_draw_over"][part]))
         encoded = worked / count if label == "mean" else float("nan")

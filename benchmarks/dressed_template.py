@@ -34,14 +34,16 @@ CLOTHES = {
     "Foot": 1.0,
 }
 """Centimetres by which cloth or shoe stands off where these joints move it; the rest is bare."""
-HAIR = 1.5
-FOLDS = 1.0
-"""Centimetres by which cloth waves about that, each way."""
-EVEN = 12
-"""Rounds in which the offsets are made even with their neighbours'."""
+HAIR_CENTIMETRES = 1.5
+"""By which hair stands off from the scalp."""
+FOLDS_CENTIMETRES = 1.0
+"""By which cloth waves about its distance from the body, each way."""
+SMOOTHING_ROUNDS = 12
+"""Rounds of smoothing in which offsets become their neighbours' mean."""
 EYE, HAIRLINE, NAPE = 0.0, 0.055, -0.09
 """Metres above the eyes at which the forehead ends, and to which hair hangs behind, on the average body."""
 WHITE, IRIS = (225, 220, 215), (70, 50, 40)
+"""RGB of the eyes."""
 
 
 @dataclass(frozen=True)
@@ -157,13 +159,13 @@ def _offsets(
     for kind, thick in CLOTHES.items():
         wave = np.sin(rest @ [23.0, 31.0, 19.0]) + np.sin(rest @ [-17.0, 11.0, 29.0] + 1.0)
         worn = np.char.startswith(moved, kind)
-        away[worn] = look.clothes * (thick + (0.5 * FOLDS * wave[worn] if kind != "Foot" else 0))
-    away[hairy] = HAIR * (look.clothes > 0)
+        away[worn] = look.clothes * (thick + (0.5 * FOLDS_CENTIMETRES * wave[worn] if kind != "Foot" else 0))
+    away[hairy] = HAIR_CENTIMETRES * (look.clothes > 0)
     ends = np.concatenate([quads, np.roll(quads, -1, 1)], 1).reshape(-1)
     others = np.concatenate([np.roll(quads, -1, 1), quads], 1).reshape(-1)
     beside = coo_array((np.ones(len(ends)), (ends, others)), shape=(len(rest), len(rest))).tocsr()
     count = np.maximum(beside.sum(1), 1)
-    for _ in range(EVEN):
+    for _ in range(SMOOTHING_ROUNDS):
         away = (away + beside @ away / count) / 2
     return away
 

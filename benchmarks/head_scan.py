@@ -17,14 +17,15 @@ from engine.render.film import shrink
 from engine.render.rasteriser import rasterise
 
 SUPERSAMPLING = 3
-DISTANCE = 8.0
-"""From the camera to the head, in heights of the scan: a portrait lens."""
+CAMERA_DISTANCE = 8.0
+"""Heights of the scan from the camera to the head: a portrait lens."""
 LIGHT = np.array([0.25, 0.45, 0.85])
 """Where the light comes from; it stays where it is when the head turns."""
 AMBIENT = 0.55
+"""Share of the light that comes from everywhere."""
 BACKGROUND = (150, 160, 170)
-AIM = 0.17
-"""What is in the picture's middle: this far above the scan's middle, in heights of the scan."""
+AIM_HEIGHT = 0.17
+"""Heights of the scan above its middle at which the camera looks."""
 NECK = (-0.28, -0.08)
 """Heights of the scan above its middle between which the neck twists: the shoulders below do not turn."""
 
@@ -62,11 +63,11 @@ def render_head(
     Returns the picture (height, width, 3) uint8 and the head's coverage (height, width) float32.
     """
     height = float(np.ptp(scan.vertices[:, 1]))
-    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM * height, 0)
+    vertices = _turned(scan.vertices, np.deg2rad(yaw), height, shoulders) - (0, AIM_HEIGHT * height, 0)
     width_px, height_px = size
     camera = Camera(
-        eye=(0.0, 0.0, DISTANCE * height),
-        focal=zoom * 0.8 * height_px * DISTANCE,
+        eye=(0.0, 0.0, CAMERA_DISTANCE * height),
+        focal=zoom * 0.8 * height_px * CAMERA_DISTANCE,
         centre=((width_px - 1) / 2, (height_px - 1) / 2),
         size=(height_px, width_px),
     ).enlarged(SUPERSAMPLING)

@@ -18,15 +18,15 @@ from engine.render.rasteriser import Raster, rasterise
 SUPERSAMPLING = 3
 SIZE = (960, 720)
 """(height, width) of the pictures."""
-LENS = 1.6
+FOCAL_LENGTH = 1.6
 """Focal length in picture heights. What is measured assumes another one, as it must with any photograph."""
-SHARE = 0.8
-"""How much of the picture's height the person takes, and at most of its width."""
+PERSON_SHARE = 0.8
+"""Share of the picture's height that the person takes, and at most of its width."""
 EYE_HEIGHT = 1.3
 """Metres of the level camera above the ground, for somebody of 1.8 m."""
 LIGHT, AMBIENT = np.array([0.35, 0.6, 0.72]), 0.5
-SHADE = 0.45
-"""How much darker the ground is beneath the feet."""
+CONTACT_SHADE = 0.45
+"""Share of the light that is missing on the ground beneath the feet."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,8 @@ class KnownPicture:
 def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True) -> KnownPicture:
     """Draw a person standing in a photograph (H, W, 3), antialiased, with a soft shadow at the feet unless there is one."""
     height, width = background.shape[:2]
-    focal = LENS * height
-    distance = focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / SHARE
+    focal = FOCAL_LENGTH * height
+    distance = focal * max(person.height / height, float(np.ptp(person.vertices[:, 0])) / width) / PERSON_SHARE
     middle = float(person.vertices[:, 0].min() + person.vertices[:, 0].max()) / 2
     eye = (middle, EYE_HEIGHT * person.height / 1.8, distance)
     # level, so that upright lines stay upright: the picture is shifted, not the camera tilted
@@ -91,4 +91,4 @@ def _shadow(person: Person, camera: Camera) -> NDArray[np.float64]:
     across = 0.7 * np.ptp(feet[:, 0]) + 8
     rows, columns = np.mgrid[: camera.size[0], : camera.size[1]]
     away = ((columns - x) / across) ** 2 + ((rows - y) / (0.25 * across)) ** 2
-    return np.asarray(1 - SHADE * np.exp(-(away**2)))
+    return np.asarray(1 - CONTACT_SHADE * np.exp(-(away**2)))

@@ -33,7 +33,8 @@ from engine.portrait.moments import find_moments
 from engine.portrait.moments.pipeline import Moment
 
 SEEDS = (1, 2, 3, 4)
-SHARED = 0.3
+MIN_OVERLAP = 0.3
+"""Share of two stretches of time together that they have in common, from which they are one."""
 JOINED = "Built-in performances, joined"
 LABELS = Path(__file__).with_suffix(".json")
 
@@ -91,7 +92,7 @@ def is_right(moment: Moment, stretch: Stretch) -> bool:
         return False
     common = min(moment.end, stretch.end) - max(moment.start, stretch.start)
     together = max(moment.end, stretch.end) - min(moment.start, stretch.start)
-    return stretch.start <= moment.apex <= stretch.end or common / together >= SHARED
+    return stretch.start <= moment.apex <= stretch.end or common / together >= MIN_OVERLAP
 
 
 @dataclass

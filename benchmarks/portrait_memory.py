@@ -19,8 +19,9 @@ from benchmarks.tables import table
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video, read_video
 
-SECONDS = (5, 180)
-MORE = 100.0
+CLIP_SECONDS = (5, 180)
+"""Lengths of the two clips that are compared."""
+MAX_GROWTH_MB = 100.0
 """Megabytes by which the peak of the longer clip may lie above the shorter one's."""
 SHELL = """
 import re
@@ -33,7 +34,7 @@ print(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
 children (`getrusage`), which counts the parent's own memory where that is more."""
 
 
-def memory(seconds: Sequence[float] = SECONDS) -> None:
+def memory(seconds: Sequence[float] = CLIP_SECONDS) -> None:
     """Print the peak of `galatea portrait` for clips of these lengths."""
     rows, peaks = [], []
     with TemporaryDirectory() as name:
@@ -45,7 +46,7 @@ def memory(seconds: Sequence[float] = SECONDS) -> None:
             rows.append([f"{length:g} s", f"{frames}", f"{peaks[-1]:.0f}", f"{peaks[-1] - peaks[0]:+.0f}"])
     title = f"Memory: a whole process, both new, {SIZE[0]}x{SIZE[1]}; the most that is resident, MB"
     print(table(title, ["driver", "frames", "peak", "more than the first"], rows))
-    print(f"\nGoal: at most {MORE:.0f} more.")
+    print(f"\nGoal: at most {MAX_GROWTH_MB:.0f} more.")
 
 
 def looped(source: Path, seconds: float, path: Path) -> tuple[Path, int]:

@@ -20,14 +20,15 @@ from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, eye_opening, mouth_opening
 from engine.portrait.options import PortraitOptions
 
-NOISE = 2.0
+SENSOR_SIGMA = 2.0
 """Standard deviation of the sensor's noise, grey levels: a phone indoors."""
 REPEATS = 60
+"""Frames of the still driver."""
 TARGET = "portraits/photo_woman_white.png"
-BLINK = 0.6
-"""An eye that closes below this share of its usual opening blinks."""
-KEPT = 0.95
-"""The share of its depth that a blink is to keep."""
+BLINK_OPENING_SHARE = 0.6
+"""Share of its usual opening below which an eye blinks."""
+MIN_BLINK_DEPTH = 0.95
+"""Share of its depth that a blink is to keep, at least."""
 
 
 def stillness(names: Sequence[str]) -> None:
@@ -43,7 +44,7 @@ def stillness(names: Sequence[str]) -> None:
             first = next(iter(read_video(path))).rgb.astype(float)
             rng = np.random.default_rng(0)
             noisy = (
-                np.clip(first + rng.normal(0, NOISE, first.shape) + 0.5, 0, 255).astype(np.uint8)
+                np.clip(first + rng.normal(0, SENSOR_SIGMA, first.shape) + 0.5, 0, 255).astype(np.uint8)
                 for _ in range(REPEATS)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
@@ -53,7 +54,7 @@ def stillness(names: Sequence[str]) -> None:
             jitter = track.meshes[..., :2].std(axis=0).mean()
             figures = (deviation.mean(), np.quantile(deviation, 0.99), inner.mean(), jitter)
             rows.append([path.stem, *(f"{value:.{2 + (k == 3)}f}" for k, value in enumerate(figures))])
-    title = f"Stillness: one frame {REPEATS} times, noise of {NOISE:g} levels; deviation inside the face, grey levels"
+    title = f"Stillness: one frame {REPEATS} times, noise of {SENSOR_SIGMA:g} levels; deviation inside the face, grey levels"
     print(table(title, ["driver", "mean", "99 %", "without the ends", "mesh, px"], rows))
     print("\nGoal: mean <= 0.5. The target's face is that of the portrait at its own size.")
 
@@ -88,9 +89,12 @@ def lag(names: Sequence[str]) -> None:
     print(table("Blinks: what is kept of the unfiltered landmarks'", ["clip", "blinks", *of_blinks], lids))
     print("\ndepth: from the eye's own opening before. shut: from the driver's opening before.")
     for of, found in every.items():
-        deep, shut = sum(one.depth >= KEPT for one in found), sum(one.shut >= KEPT for one in found)
+        deep, shut = (
+            sum(one.depth >= MIN_BLINK_DEPTH for one in found),
+            sum(one.shut >= MIN_BLINK_DEPTH for one in found),
+        )
         print(
-            f"{of}: of {len(found)} blinks {deep} keep {100 * KEPT:.0f}% of their depth (goal: all), {shut} shut so far"
+            f"{of}: of {len(found)} blinks {deep} keep {100 * MIN_BLINK_DEPTH:.0f}% of their depth (goal: all), {shut} shut so far"
         )
 
 
@@ -124,7 +128,7 @@ def blinks(raw: NDArray[np.float32], kept: NDArray[np.float32]) -> list[Blink]:
     usual = float(np.nanmedian(lids))
     found = []
     for i in range(3, len(lids) - 3):
-        if lids[i] == np.nanmin(lids[i - 3 : i + 4]) and lids[i] < BLINK * usual:
+        if lids[i] == np.nanmin(lids[i - 3 : i + 4]) and lids[i] < BLINK_OPENING_SHARE * usual:
             before = slice(max(0, i - 12), max(1, i - 3))
             opened = float(np.nanmedian(lids[before]))
             depth = opened - float(lids[i])

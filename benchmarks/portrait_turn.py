@@ -19,21 +19,28 @@ from engine.portrait.options import PortraitOptions
 
 SIZE = (480, 576)
 ZOOM = 1.5
-FURTHEST, SHOWN = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
-SETTLE = 6
-"""Frames at rest in the beginning, from which the target and the neutral frame are."""
-STEP, WALL, LINE = 24, 170.0, 110.0
-"""The grid: pixels between its lines; brightness of the wall; how much darker a line is in its middle."""
+MAX_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
+REST_FRAMES = 6
+"""Frames at rest in the beginning: the target and the neutral frame are of them."""
+GRID_PITCH, WALL_LEVEL, LINE_CONTRAST = 24, 170.0, 110.0
+"""Pixels between the lines of the grid on the wall; grey levels of the wall; how many fewer a line has in its middle."""
 
 
 def turn(pictures: Path | None) -> None:
     """Print how near a portrait, driven by a turning head, comes to the scan that turns so itself."""
     scan = read_head_scan(media("scans3d/head_lee_perry_smith/head.obj").parent)
-    angles = [0.0] * SETTLE + list(np.linspace(0, -FURTHEST, 11)[1:]) + list(np.linspace(-FURTHEST, FURTHEST, 21)[1:])
+    angles = (
+        [0.0] * REST_FRAMES
+        + list(np.linspace(0, -MAX_DEGREES, 11)[1:])
+        + list(np.linspace(-MAX_DEGREES, MAX_DEGREES, 21)[1:])
+    )
     background = np.repeat(wall(SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
     rendered = [render_head(scan, angle, SIZE, background, ZOOM) for angle in angles]
     true = [picture for picture, _ in rendered]
-    at = [angles.index(min(angles[SETTLE - 1 :], key=lambda a, s=s: abs(a - s)), SETTLE - 1) for s in SHOWN]  # type: ignore[misc]
+    at = [
+        angles.index(min(angles[REST_FRAMES - 1 :], key=lambda a, s=s: abs(a - s)), REST_FRAMES - 1)
+        for s in SHOWN_DEGREES
+    ]  # type: ignore[misc]
     disguised = tool("disguise").disguise(true, tool("face_measures").Landmarker()(true[0]))
     made = {}
     with TemporaryDirectory() as folder:
@@ -46,7 +53,7 @@ def turn(pictures: Path | None) -> None:
             made[label] = list(acting.frames())
         lines = grid_deviation(acting, rendered[0][1])
     rows = []
-    for index, degrees in zip(at, SHOWN, strict=True):
+    for index, degrees in zip(at, SHOWN_DEGREES, strict=True):
         person = rendered[index][1] > 0.5
         row = [f"{degrees:+d}"]
         for frames in ([true[0]] * len(true), made["2D"], made["3D"]):
@@ -68,13 +75,13 @@ def turn(pictures: Path | None) -> None:
 
 
 def wall(shape: tuple[int, int]) -> NDArray[np.float64]:
-    """(H, W) a bright wall with thin dark lines every `STEP` pixels, both ways, their middles at half pixels."""
+    """(H, W) a bright wall with thin dark lines every `GRID_PITCH` pixels, both ways, their middles at half pixels."""
     y, x = np.mgrid[: shape[0], : shape[1]].astype(float)
     dark = np.zeros(shape)
     for axis in (x, y):
-        away = (axis - STEP / 2 + 0.5) % STEP
-        dark = np.maximum(dark, np.exp(-0.5 * np.minimum(away, STEP - away) ** 2))
-    return np.asarray(WALL - LINE * dark)
+        away = (axis - GRID_PITCH / 2 + 0.5) % GRID_PITCH
+        dark = np.maximum(dark, np.exp(-0.5 * np.minimum(away, GRID_PITCH - away) ** 2))
+    return np.asarray(WALL_LEVEL - LINE_CONTRAST * dark)
 
 
 def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float, float, float]:
@@ -99,14 +106,14 @@ def _line_errors(frame: NDArray[np.uint8], visible: NDArray[np.bool_]) -> NDArra
     """Pixels by which the horizontal lines are off, between crossings; infinite where there is none."""
     grey = frame.astype(float).mean(axis=2)
     columns = np.arange(frame.shape[1])
-    between = np.abs((columns - STEP / 2 + 0.5) % STEP - STEP / 2) < STEP / 2 - 6
+    between = np.abs((columns - GRID_PITCH / 2 + 0.5) % GRID_PITCH - GRID_PITCH / 2) < GRID_PITCH / 2 - 6
     errors = []
-    for y in np.arange(STEP / 2 - 0.5, frame.shape[0] - 8, STEP):
+    for y in np.arange(GRID_PITCH / 2 - 0.5, frame.shape[0] - 8, GRID_PITCH):
         rows = np.arange(round(y - 5.5), round(y + 6.5))
         if rows[0] < 0:
             continue
         chosen = between & visible[rows].all(axis=0)
-        dark = np.clip(WALL - 12 - grey[rows][:, chosen], 0, None)
+        dark = np.clip(WALL_LEVEL - 12 - grey[rows][:, chosen], 0, None)
         total = dark.sum(axis=0)
         found = (rows[:, None] * dark).sum(axis=0) / np.maximum(total, 1e-6)
         errors.append(np.where(total > 60, np.abs(found - y), np.inf))

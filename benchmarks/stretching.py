@@ -10,13 +10,14 @@ from engine.character.rigging import Character
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.library import built_in
 
-TIMES = 3.0
-EVERY = 5
-"""Frames of a clip that are looked at."""
+STRETCH_RATIO = 3.0
+"""How many times its pictured length an edge has from which it is stretched."""
+FRAME_STEP = 5
+"""Frames from one that is looked at to the next."""
 
 
 def stretched(character: Character, name: str) -> float:
-    """The share of edges that the worst frame of a built-in clip makes more than `TIMES` times as long as pictured."""
+    """The share of edges that the worst frame of a built-in clip makes more than `STRETCH_RATIO` times as long as pictured."""
     mesh = character.mesh
     edges = all_edges(mesh.triangles)
 
@@ -26,8 +27,8 @@ def stretched(character: Character, name: str) -> float:
     before = np.maximum(lengths(pose(character, character.pictured)), 1e-4)
     clip = built_in(name, mesh.skeleton)
     return max(
-        float((lengths(skin(mesh.vertices, mesh.bones, mesh.weights, transforms)) > TIMES * before).mean())
-        for transforms in pose_transforms(mesh.skeleton, clip.rotations[::EVERY], clip.root[::EVERY])
+        float((lengths(skin(mesh.vertices, mesh.bones, mesh.weights, transforms)) > STRETCH_RATIO * before).mean())
+        for transforms in pose_transforms(mesh.skeleton, clip.rotations[::FRAME_STEP], clip.root[::FRAME_STEP])
     )
 
 

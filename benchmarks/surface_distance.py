@@ -12,12 +12,14 @@ from trimesh.triangles import closest_point
 from engine.geometry.rigid import Similarity, fit_similarity
 from engine.render.rasteriser import depth_map
 
-POINTS = 40_000
-"""Samples of a surface; as many triangles' points are looked at as are nearest to one."""
-ALIGNED_BY, ROUNDS = 4_000, 40
-VIEW, DEEP = 500, 0.006
+SAMPLES = 40_000
+"""Points drawn on a surface."""
+ALIGNMENT_SAMPLES, ALIGNMENT_ROUNDS = 4_000, 40
+"""Points by which two surfaces are aligned, and rounds of it."""
+VIEW_PIXELS, SURFACE_TOLERANCE = 500, 0.006
 """Pixels of the views that tell what lies outside, and metres (of a body 1.8 m high) that still count as the surface."""
-NEAREST = 6
+CANDIDATES = 6
+"""Triangles, of the nearest samples, in which the nearest point of a surface is looked for."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +53,8 @@ def sample_outside(vertices: NDArray[np.floating], triangles: NDArray[np.integer
     corners = np.asarray(vertices, np.float64)[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(cross, axis=1)
-    at = random.choice(len(corners), POINTS, p=areas / areas.sum())
-    a, b = np.sqrt(random.random(POINTS)), random.random(POINTS)
+    at = random.choice(len(corners), SAMPLES, p=areas / areas.sum())
+    a, b = np.sqrt(random.random(SAMPLES)), random.random(SAMPLES)
     weights = np.stack([1 - a, a * (1 - b), a * b], 1)
     points = np.einsum("nk,nkd->nd", weights, corners[at])
     towards = _towards_views(np.asarray(vertices, np.float64), triangles, points)
@@ -69,7 +71,7 @@ def _towards_views(
     """(N, 3) the sum of the directions, of 26 around, from which each point is seen; zero where it is hidden from all."""
     middle = (vertices.max(0) + vertices.min(0)) / 2
     reach = float(np.linalg.norm(vertices - middle, axis=1).max())
-    scale = (VIEW - 2) / (2 * reach)
+    scale = (VIEW_PIXELS - 2) / (2 * reach)
     towards = np.zeros((len(points), 3))
     # a little aside, so that no point is seen from opposite ways alike
     ways = np.array([w for w in np.ndindex(3, 3, 3) if w != (1, 1, 1)]) - [1.01, 1.02, 1.03]
@@ -81,11 +83,11 @@ def _towards_views(
 
         def view(places: NDArray[np.float64], axes: NDArray[np.float64] = axes) -> NDArray[np.float64]:
             x, y, z = (scale * (places - middle) @ axes.T).T
-            return np.stack([x + (VIEW - 1) / 2, (VIEW - 1) / 2 - y, -z], 1)
+            return np.stack([x + (VIEW_PIXELS - 1) / 2, (VIEW_PIXELS - 1) / 2 - y, -z], 1)
 
-        nearest = depth_map(view(vertices), triangles, (VIEW, VIEW))
+        nearest = depth_map(view(vertices), triangles, (VIEW_PIXELS, VIEW_PIXELS))
         x, y, z = view(points).T
-        seen = z < nearest[np.rint(y).astype(int), np.rint(x).astype(int)] + DEEP * scale
+        seen = z < nearest[np.rint(y).astype(int), np.rint(x).astype(int)] + SURFACE_TOLERANCE * scale
         towards[seen] += back
     return towards
 
@@ -97,9 +99,9 @@ def align(made: Sampled, truth: Sampled) -> Similarity:
     true_low, true_high = truth.points.min(0), truth.points.max(0)
     scale = float((true_high[1] - true_low[1]) / (high[1] - low[1]))
     move = Similarity(scale * np.eye(3), (true_low + true_high) / 2 - scale * (low + high) / 2)
-    mine, theirs = made.points[:: max(1, len(made.points) // ALIGNED_BY)], truth.points[:: max(1, len(truth.points) // ALIGNED_BY)]  # fmt: skip
+    mine, theirs = made.points[:: max(1, len(made.points) // ALIGNMENT_SAMPLES)], truth.points[:: max(1, len(truth.points) // ALIGNMENT_SAMPLES)]  # fmt: skip
     fixed = cKDTree(theirs)
-    for _ in range(ROUNDS):
+    for _ in range(ALIGNMENT_ROUNDS):
         moved = move(mine)
         _, there = fixed.query(moved)
         _, here = cKDTree(moved).query(theirs)
@@ -116,10 +118,10 @@ def compare(made: Sampled, truth: Sampled) -> Distances:
 
 def _to_surface(samples: Sampled, surface: Sampled) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """From each point the distance to the nearest of the surface's triangles, and the angle of the normals there."""
-    _, near = cKDTree(surface.points).query(samples.points, k=NEAREST)
+    _, near = cKDTree(surface.points).query(samples.points, k=CANDIDATES)
     away = np.stack([
         np.linalg.norm(closest_point(surface.triangles[near[:, k]], samples.points) - samples.points, axis=1)
-        for k in range(NEAREST)
+        for k in range(CANDIDATES)
     ])  # fmt: skip
     best = away.argmin(0)
     each = np.arange(len(best))

@@ -21,9 +21,9 @@ from engine.motion.skeleton import Skeleton
 
 TYPES = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
 WIDTHS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
-ENLARGED, SHIFT = 8, 4
+SUPERSAMPLING, FRACTION_BITS = 8, 4
 """How many times larger an outline is drawn, and the bits of OpenCV's fractions of a pixel."""
-TOO_WIDE = 0.5 / ENLARGED
+FILL_OVERHANG = 0.5 / SUPERSAMPLING
 """Pixels by which it is drawn too wide: OpenCV fills every pixel that an edge passes."""
 
 
@@ -72,11 +72,11 @@ def read_written(path: Path) -> Written:
 
 def outline(points: NDArray[np.floating], triangles: NDArray[np.integer], size: tuple[int, int]) -> NDArray[np.bool_]:
     """(height, width) where triangles between points (V, 2 or 3), pixels, cover at least half of a pixel."""
-    canvas = np.zeros((size[0] * ENLARGED, size[1] * ENLARGED), np.uint8)
-    at = ((points[:, :2] + 0.5) * ENLARGED - 0.5) * 2**SHIFT
+    canvas = np.zeros((size[0] * SUPERSAMPLING, size[1] * SUPERSAMPLING), np.uint8)
+    at = ((points[:, :2] + 0.5) * SUPERSAMPLING - 0.5) * 2**FRACTION_BITS
     for triangle in at.round().astype(np.int32)[triangles]:
-        cv2.fillConvexPoly(canvas, triangle, 255, shift=SHIFT)
-    return np.asarray(cv2.resize(canvas, size[::-1], interpolation=cv2.INTER_AREA) >= 255 * (0.5 + TOO_WIDE))
+        cv2.fillConvexPoly(canvas, triangle, 255, shift=FRACTION_BITS)
+    return np.asarray(cv2.resize(canvas, size[::-1], interpolation=cv2.INTER_AREA) >= 255 * (0.5 + FILL_OVERHANG))
 
 
 class _Glb:

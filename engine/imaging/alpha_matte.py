@@ -17,8 +17,8 @@ from engine.compiled import njit
 from engine.imaging.colour_pairs import alpha_from_colour_pairs
 from engine.imaging.resample import resized
 
-WINDOW_NOISE = 2e-5
-"""Regularisation of a window's colour covariance (colours in [0, 1]): grain of scans and JPEG."""
+COVARIANCE_REGULARISATION = 2e-5
+"""What is added to the variances of a window's colours in [0, 1]: grain of scans and JPEG."""
 
 SAMPLE_WEIGHT = 1.0
 """Weight of an alpha found from a pair of colours beside the Laplacian, at full confidence."""
@@ -88,7 +88,7 @@ def _solve(
     ys, xs = np.nonzero((trimap > 0) & (trimap < 1))
     number = np.full(trimap.shape, -1, np.int32)
     number[ys, xs] = np.arange(len(ys), dtype=np.int32)
-    rows = _laplacian_rows(pixels, number, len(ys), WINDOW_NOISE)
+    rows = _laplacian_rows(pixels, number, len(ys), COVARIANCE_REGULARISATION)
     neighbours, right = _couple(rows, number, trimap, ys.astype(np.int32), xs.astype(np.int32))
     diagonal = weight[ys, xs]
     right += diagonal * target[ys, xs]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.inpaint import MARGIN, grown_by_margin, inpaint
+from engine.imaging.inpaint import SOFT_EDGE, grown_by_margin, inpaint
 
-TRACE = 0.02
+MIN_ALPHA = 0.02
 """Alpha above which a pixel carries some of the layer."""
 
 
@@ -30,9 +30,9 @@ def background_plate(
         return np.broadcast_to(rgb.mean((0, 1)).astype(np.uint8), rgb.shape).copy()
     if reach is None:
         reach = 0.1 * float(np.sqrt(alpha.sum()))
-    return inpaint(rgb, hole, ~hole, reach=reach + MARGIN * max(rgb.shape), margin=0, seed=seed)
+    return inpaint(rgb, hole, ~hole, reach=reach + SOFT_EDGE * max(rgb.shape), margin=0, seed=seed)
 
 
 def hole_behind(alpha: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Pixels (H, W) that carry any trace of the layer, with a margin for its soft edge and glow."""
-    return grown_by_margin(alpha > TRACE)
+    return grown_by_margin(alpha > MIN_ALPHA)

@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-EXTENT = 1000.0
-"""Points are brought to this size first: OpenCV's subdivision counts in single precision."""
-ROOM = 20_000
-"""Half the side of the plane that it divides, far larger: it begins with a triangle around that plane, and what is
+WORKING_EXTENT = 1000.0
+"""Units to which the larger side of the points is brought first: OpenCV's subdivision counts in single precision."""
+SUBDIVISION_HALF_SIDE = 20_000
+"""Half the side, in the same units, of the plane that OpenCV divides, far larger than the points: it begins with a triangle around that plane, and what is
 thinner than a triangle that reaches its corners would be missing along the hull."""
 
 
@@ -20,8 +20,10 @@ def delaunay(points: NDArray[np.floating]) -> NDArray[np.int32]:
     """
     flat = np.asarray(points, float)
     size = float(np.ptp(flat, axis=0).max()) or 1.0
-    placed = ((flat - flat.min(axis=0)) * (EXTENT / size)).astype(np.float32)
-    plane = cv2.Subdiv2D((-ROOM, -ROOM, 2 * ROOM, 2 * ROOM))
+    placed = ((flat - flat.min(axis=0)) * (WORKING_EXTENT / size)).astype(np.float32)
+    plane = cv2.Subdiv2D(
+        (-SUBDIVISION_HALF_SIDE, -SUBDIVISION_HALF_SIDE, 2 * SUBDIVISION_HALF_SIDE, 2 * SUBDIVISION_HALF_SIDE)
+    )
     for point in placed.tolist():
         plane.insert(point)
     corners = _as_one(np.reshape(np.asarray(plane.getTriangleList(), np.float32), (-1, 2)))

@@ -22,7 +22,7 @@ from engine.imaging.patchmatch import (
     take_target,
 )
 
-SPREAD = 0.02
+DISTANCE_COST = 0.02
 """Cost, in grey levels squared for each pixel squared, of fetching a patch from afar."""
 
 
@@ -57,7 +57,7 @@ def _fill(planes, hole, known, source_ys, source_xs):  # type: ignore[no-untyped
         for i in range(len(source_ys)):
             sy, sx = source_ys[i], source_xs[i]
             away = np.float32((sy - ty) * (sy - ty) + (sx - tx) * (sx - tx))
-            found = patch_distance(planes, target, mass, sy, sx) + np.float32(SPREAD) * away
+            found = patch_distance(planes, target, mass, sy, sx) + np.float32(DISTANCE_COST) * away
             if found < best:
                 best, by, bx = found, sy, sx
         shift = patch_shift(planes, target, mass, by, bx)

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
+NEIGHBOURS_8 = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))
+"""Rows and columns from a pixel to those that share a side or a corner with it."""
 
 
 def diffuse(values: NDArray[np.float32], mask: NDArray[np.bool_], rounds: int) -> NDArray[np.float32]:
@@ -17,7 +18,7 @@ def diffuse(values: NDArray[np.float32], mask: NDArray[np.bool_], rounds: int) -
     number = np.full(np.add(mask.shape, 2), -1, np.int32)
     number[1:-1, 1:-1][mask] = np.arange(len(values))
     height, width = mask.shape
-    beside = [number[1 + dy : 1 + dy + height, 1 + dx : 1 + dx + width][mask] for dy, dx in STEPS]
+    beside = [number[1 + dy : 1 + dy + height, 1 + dx : 1 + dx + width][mask] for dy, dx in NEIGHBOURS_8]
     return np.asarray(_diffuse(np.ascontiguousarray(values), np.ascontiguousarray(np.stack(beside, 1)), rounds))
 
 

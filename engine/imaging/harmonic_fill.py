@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csr_matrix, diags
 from scipy.sparse.linalg import SuperLU, splu
 
-BESIDE = ((0, 1), (0, -1), (1, 0), (-1, 0))
+NEIGHBOURS_4 = ((0, 1), (0, -1), (1, 0), (-1, 0))
+"""Rows and columns from a pixel to those that share a side with it."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ def harmonic_fill(known: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> Harmon
     column[rim] = np.arange(int(rim.sum()))
     ys, xs = np.nonzero(domain)
     inner, outer = [], []
-    for dy, dx in BESIDE:
+    for dy, dx in NEIGHBOURS_4:
         y, x = ys + dy, xs + dx
         inside = (y >= 0) & (y < height) & (x >= 0) & (x < width)
         y, x, here = y[inside], x[inside], np.flatnonzero(inside)

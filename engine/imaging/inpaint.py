@@ -20,10 +20,10 @@ Method = Literal["patches", "exemplars", "harmonic"]
 first: for small pictures, as it tries every one. `harmonic`: each value is the mean of its neighbours, without any detail."""
 Values = TypeVar("Values", np.uint8, np.float32)
 
-MARGIN = 0.006
+SOFT_EDGE = 0.006
 """How far colours around a hole are mixed with what was in it, as a share of the longer side."""
-MIN_MARGIN = 2
-"""The same in pixels, at least."""
+MIN_SOFT_EDGE = 2
+"""Pixels around a hole in which colours are mixed with what was in it, at least."""
 
 
 def inpaint(
@@ -56,7 +56,7 @@ def inpaint(
         return out
     box = bounding_box(hole | source)
     part = np.ascontiguousarray(image[box], np.float32)
-    share = MARGIN * max(part.shape[:2]) if margin is None else 0.0
+    share = SOFT_EDGE * max(part.shape[:2]) if margin is None else 0.0
     unclean = grown_by_margin(hole[box], margin)
     known = source[box] & ~unclean
     if not known.any():
@@ -76,8 +76,8 @@ def inpaint(
 
 
 def grown_by_margin(mask: NDArray[np.bool_], margin: int | None = None) -> NDArray[np.bool_]:
-    """A mask (H, W) grown by a disk of `margin` pixels (default: `MARGIN` of the longer side, and `MIN_MARGIN` at least)."""
-    margin = max(MIN_MARGIN, round(MARGIN * max(mask.shape))) if margin is None else margin
+    """A mask (H, W) grown by a disk of `margin` pixels (default: `SOFT_EDGE` of the longer side, and `MIN_SOFT_EDGE` at least)."""
+    margin = max(MIN_SOFT_EDGE, round(SOFT_EDGE * max(mask.shape))) if margin is None else margin
     disk = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * margin + 1, 2 * margin + 1))
     return np.asarray(cv2.dilate(mask.astype(np.uint8), disk) > 0)
 

@@ -23,11 +23,11 @@ from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 from engine.imaging.seams import heal_seams
 
-COARSEST = 120
+COARSEST_SIDE = 120
 """Longest side, in pixels, of the coarsest picture."""
-TRUST = 1.4
-"""By how much a guessed pixel counts less with each pixel that it lies deeper in the hole."""
-MIN_REACH = 20.0
+CONFIDENCE_DECAY = 1.4
+"""Factor by which a guessed pixel counts less with each pixel that it lies deeper in the hole."""
+MIN_REACH_PIXELS = 20.0
 """Pixels filled behind the hole's edge on every level, so that detail fades with depth instead of ending."""
 
 
@@ -78,10 +78,10 @@ def _fill(
         if not sources.any():
             continue
         depth = np.asarray(cv2.distanceTransform(level.hole.astype(np.uint8), cv2.DIST_L2, 3))
-        active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_REACH)) | (level is coarsest))
+        active = level.wanted & ((depth <= max(reach / 2**level.number, MIN_REACH_PIXELS)) | (level is coarsest))
         targets = _centres_over(active)
         field = PatchField.start(targets, sources, seed, field)
-        weight = np.where(level.hole, TRUST ** -np.minimum(depth, 40), 1.0).astype(np.float32)
+        weight = np.where(level.hole, CONFIDENCE_DECAY ** -np.minimum(depth, 40), 1.0).astype(np.float32)
         effort = _effort(len(levels) - 1 - level.number, level)
         guess = _refine(guess, weight, active, field, effort, seed)
         guess = heal_seams(guess, field.nearest, active & targets)
@@ -91,7 +91,7 @@ def _fill(
 def _pyramid(image: NDArray[np.float32], hole: NDArray[np.bool_], wanted: NDArray[np.bool_]) -> list[_Level]:
     """The picture at full size, half, quarter, ...; means of known pixels only, while enough is known."""
     levels = [_Level(0, image, hole, wanted)]
-    while max(hole.shape) > COARSEST:
+    while max(hole.shape) > COARSEST_SIDE:
         half = (max(1, hole.shape[1] // 2), max(1, hole.shape[0] // 2))
         known = resized((~hole).astype(np.float32), half)
         image = (resized(image * ~hole[..., None], half) / np.maximum(known, 1e-6)[..., None]).astype(np.float32)

@@ -13,15 +13,17 @@ from numpy.typing import NDArray
 
 from engine.imaging.mask_distance import distance_to
 
-SEEN_AT = 640
+WORKING_SIDE = 640
 """Longest side, in pixels, of the picture in which segments are looked for."""
-NEAR = 16.0
+MAX_GAP_TO_HOLE = 16.0
 """Pixels from the hole within which a line has to end."""
-LEAST_SEGMENT, ALIKE = 8.0, float(np.cos(np.deg2rad(3)))
-"""The shortest segment looked at, in pixels, and the cosine of the largest angle between two of one line."""
-ASIDE, ASIDE_PER_PIXEL = 1.0, 0.004
-"""By how much a segment's ends may be off the line, in pixels, and more with each pixel of distance."""
-MOST_LINES = 120
+MIN_SEGMENT_LENGTH = 8.0
+"""Pixels of the shortest segment that is looked at."""
+MIN_COLLINEAR_COSINE = float(np.cos(np.deg2rad(3)))
+"""Cosine of the largest angle between two segments of one line."""
+MAX_OFFSET, MAX_OFFSET_PER_PIXEL = 1.0, 0.004
+"""Pixels by which a segment's ends may be off the line where it begins, and for each pixel of distance from there."""
+MAX_LINES = 120
 """Lines that are looked at, at most."""
 
 
@@ -45,14 +47,14 @@ def lines_towards(picture: NDArray[np.float32], hole: NDArray[np.bool_], least: 
     at = np.clip(ends.round().astype(int), 0, np.array(away.shape[::-1]) - 1)
     apart = away[at[..., 1], at[..., 0]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    kept = (length >= LEAST_SEGMENT) & (apart.max(axis=1) > 3)
+    kept = (length >= MIN_SEGMENT_LENGTH) & (apart.max(axis=1) > 3)
     ends, length, apart = ends[kept], length[kept], apart[kept]
     order = np.argsort(-length)
     ends, length, apart = ends[order], length[order], apart[order]
     used = np.zeros(len(ends), bool)
     lines: list[tuple[float, Line]] = []
-    for seed in np.flatnonzero(apart.min(axis=1) < NEAR):
-        if used[seed] or len(lines) == MOST_LINES:
+    for seed in np.flatnonzero(apart.min(axis=1) < MAX_GAP_TO_HOLE):
+        if used[seed] or len(lines) == MAX_LINES:
             continue
         line, members = _through(ends[seed][None]), np.array([seed])
         for _ in range(2):
@@ -69,10 +71,10 @@ def lines_towards(picture: NDArray[np.float32], hole: NDArray[np.bool_], least: 
 
 
 def _segments(picture: NDArray[np.float32], hole: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Ends (N, 2, 2), x before y, of the straight segments outside the hole, found in a picture of `SEEN_AT` pixels."""
+    """Ends (N, 2, 2), x before y, of the straight segments outside the hole, found in a picture of `WORKING_SIDE` pixels."""
     grey = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
     grey[hole] = grey[~hole].mean()
-    zoom = min(1.0, SEEN_AT / max(hole.shape))
+    zoom = min(1.0, WORKING_SIDE / max(hole.shape))
     size = (round(hole.shape[1] * zoom), round(hole.shape[0] * zoom))
     small = cv2.resize(np.clip(grey, 0, 255).astype(np.uint8), size, interpolation=cv2.INTER_AREA)
     found = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD).detect(small)[0]
@@ -94,4 +96,6 @@ def _along(ends: NDArray[np.float64], line: Line) -> NDArray[np.bool_]:
     towards = ends[:, 1] - ends[:, 0]
     turned = np.abs(towards @ line.direction) / np.maximum(np.linalg.norm(towards, axis=1), 1e-6)
     along, aside = (ends - line.point) @ line.direction, np.abs((ends - line.point) @ line.normal)
-    return np.asarray((turned > ALIKE) & (aside < ASIDE + ASIDE_PER_PIXEL * np.abs(along)).all(axis=1))
+    return np.asarray(
+        (turned > MIN_COLLINEAR_COSINE) & (aside < MAX_OFFSET + MAX_OFFSET_PER_PIXEL * np.abs(along)).all(axis=1)
+    )

@@ -19,21 +19,21 @@ from engine.imaging.resample import resized
 
 Mask = NDArray[np.float32]
 
-SURE = 0.8
+CERTAIN_BELIEF = 0.8
 """Belief above which a pixel is taken for the layer, and below one minus which for the background."""
-BAND = 0.008
+BAND_SHARE = 0.008
 """Half width of the band that is always matted, as a share of the square root of the layer's area."""
-STRAND = 0.12
-"""How far strands are followed, as a share of the same."""
-SCALE = 10.0
-"""Standard deviation in pixels of the neighbourhood that predicts the background's colour."""
-NOISE = 4.0
+STRAND_REACH_SHARE = 0.12
+"""How far strands are followed, as a share of the square root of the layer's area."""
+BACKGROUND_SIGMA = 10.0
+"""Standard deviation, in pixels, of the neighbourhood that predicts the background's colour."""
+BACKGROUND_NOISE = 4.0
 """Grey levels (over three channels) of noise that even the plainest background has."""
-PLAIN = 14.0
-"""Largest standard deviation of a background (same unit) against which strands can be told."""
-FINE = 3.0
-"""Pixels of a Gaussian's scale that are fine enough for it."""
-CONTRAST = 60.0
+MAX_PLAIN_SIGMA = 14.0
+"""Largest standard deviation of a background, grey levels over three channels, against which strands can be told."""
+WORKING_SIGMA = 3.0
+"""Pixels of a Gaussian's standard deviation on the smaller picture in which a wide one is applied."""
+MIN_SLIVER_CONTRAST = 60.0
 """Grey levels a channel by which a sliver must differ from the layer around it."""
 
 
@@ -51,13 +51,13 @@ def outline_trimap(rgb: NDArray[np.uint8], belief: Mask, prior_weight: float = 0
     """Trimap of the layer that `belief` (H, W) in [0, 1] says is in `rgb` (H, W, 3) uint8."""
     inside = belief > 0.5
     size = float(np.sqrt(inside.sum()))
-    band = max(3.0, BAND * size)
+    band = max(3.0, BAND_SHARE * size)
     depth = _distance(inside) - _distance(~inside)
     known = np.full(belief.shape, 0.5, np.float32)
-    known[(belief > SURE) & (depth > band)] = 1
-    known[(belief < 1 - SURE) & (depth < -band)] = 0
+    known[(belief > CERTAIN_BELIEF) & (depth > band)] = 1
+    known[(belief < 1 - CERTAIN_BELIEF) & (depth < -band)] = 0
     known[_islands(known)] = 1
-    strands, slivers = _strands_and_slivers(rgb, depth, band, max(8.0, STRAND * size))
+    strands, slivers = _strands_and_slivers(rgb, depth, band, max(8.0, STRAND_REACH_SHARE * size))
     known[strands & (known == 0)] = 0.5
     known[slivers & (known == 1)] = 0.5
     weight = prior_weight * np.maximum(np.square(2 * belief - 1), 0.05)
@@ -71,10 +71,10 @@ def like_plain_background(rgb: NDArray[np.uint8], background: NDArray[np.bool_])
     half = (max(1, width // 2), max(1, height // 2))
     known = resized(background.astype(np.float32), half) > 0.99
     mean, spread = _plain_background(resized(rgb.astype(np.float32), half), known)
-    near = cv2.GaussianBlur(known.astype(np.float32), (0, 0), 1.5 * SCALE) > 1e-3
-    noise = resized(np.where(near, spread, 2 * PLAIN**2).astype(np.float32), (width, height))
+    near = cv2.GaussianBlur(known.astype(np.float32), (0, 0), 1.5 * BACKGROUND_SIGMA) > 1e-3
+    noise = resized(np.where(near, spread, 2 * MAX_PLAIN_SIGMA**2).astype(np.float32), (width, height))
     miss = _squared(rgb - resized(mean, (width, height)))
-    return np.asarray((noise < PLAIN**2) & (miss < 9 * (noise + NOISE**2)))
+    return np.asarray((noise < MAX_PLAIN_SIGMA**2) & (miss < 9 * (noise + BACKGROUND_NOISE**2)))
 
 
 def _distance(mask: NDArray[np.bool_]) -> Mask:
@@ -98,17 +98,17 @@ def _strands_and_slivers(
     mean, spread = _plain_background(small, small_depth < -band)
     miss = _squared(rgb - resized(mean, (width, height)))
     noise = resized(spread, (width, height))
-    plain = noise < PLAIN**2
-    noise += NOISE**2
+    plain = noise < MAX_PLAIN_SIGMA**2
+    noise += BACKGROUND_NOISE**2
 
     odd = plain & (miss > 9 * noise) & (depth < -band) & (depth > -1.3 * reach)
     strands = _hanging_on(odd, depth, band, reach)
 
     layer = (small_depth > band).astype(np.float32)
-    near = _local_mean(small, layer, 0.75 * SCALE)
-    spread = _local_mean(_squared(small - near), layer, 0.75 * SCALE)
+    near = _local_mean(small, layer, 0.75 * BACKGROUND_SIGMA)
+    spread = _local_mean(_squared(small - near), layer, 0.75 * BACKGROUND_SIGMA)
     layer_miss = _squared(rgb - resized(near, (width, height)))
-    unlike = (layer_miss > 3 * CONTRAST**2) & (layer_miss > 9 * resized(spread, (width, height)))
+    unlike = (layer_miss > 3 * MIN_SLIVER_CONTRAST**2) & (layer_miss > 9 * resized(spread, (width, height)))
     slivers = plain & (miss < 9 * noise) & unlike & (layer_miss > 9 * miss) & (depth > 0) & (depth < 4 * band)
     return _grown(strands, 2), _grown(slivers, 3)
 
@@ -126,12 +126,14 @@ def _plain_background(image: NDArray[np.float32], background: NDArray[np.bool_])
     odd = np.zeros(background.shape, bool)
     for _ in range(3):
         weight = (background & ~odd).astype(np.float32)
-        near = _blurred(weight, SCALE / 2)
-        mean = _local_mean(image, weight, SCALE / 2)
-        mean = np.where(near[..., None] > 1e-3, mean, _local_mean(image, weight, 1.5 * SCALE)).astype(np.float32)
+        near = _blurred(weight, BACKGROUND_SIGMA / 2)
+        mean = _local_mean(image, weight, BACKGROUND_SIGMA / 2)
+        mean = np.where(near[..., None] > 1e-3, mean, _local_mean(image, weight, 1.5 * BACKGROUND_SIGMA)).astype(
+            np.float32
+        )
         miss = _squared(image - mean)
-        spread = _local_mean(miss, weight, 2 * SCALE)
-        odd = background & (miss > 9 * (spread + NOISE**2))
+        spread = _local_mean(miss, weight, 2 * BACKGROUND_SIGMA)
+        odd = background & (miss > 9 * (spread + BACKGROUND_NOISE**2))
     return mean, spread
 
 
@@ -144,7 +146,7 @@ def _local_mean(values: NDArray[np.float32], weight: Mask, scale: float) -> NDAr
 
 def _blurred(values: NDArray[np.float32], scale: float) -> NDArray[np.float32]:
     """Blurred by a Gaussian of `scale` pixels; a wide one is done on a smaller picture, which shows no less."""
-    step = int(scale // FINE)
+    step = int(scale // WORKING_SIGMA)
     if step < 2:
         return np.asarray(cv2.GaussianBlur(values, (0, 0), scale), np.float32)
     height, width = values.shape[:2]

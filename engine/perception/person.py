@@ -16,7 +16,7 @@ from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.guided_upsample import upsample_guided
 from engine.imaging.mask_pieces import pieces_touching
 from engine.imaging.resample import resized, size_within
-from engine.imaging.trimap import SURE, like_plain_background, outline_trimap
+from engine.imaging.trimap import CERTAIN_BELIEF, like_plain_background, outline_trimap
 from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel
@@ -78,7 +78,7 @@ def person_mask(
         found = upsample_guided(model(rgb), resized(np.ascontiguousarray(rgb), model.size), rgb)
         if others is not None:
             found = np.where(others, 0, found).astype(np.float32)
-        surely = None if seed is None else seed > SURE
+        surely = None if seed is None else seed > CERTAIN_BELIEF
         if surely is None or (surely & (found < 0.5)).sum() <= LEFT_OUT * surely.sum():
             return found
         return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
@@ -86,12 +86,12 @@ def person_mask(
     belief = resized(people_in(rgb, whole) if people is None else people, (small.shape[1], small.shape[0]))
     sure = np.zeros(rgb.shape[:2], np.float32) if seed is None else seed.astype(np.float32)
     sure = resized(sure, (small.shape[1], small.shape[0])).copy()
-    figure = figure_on_plain_ground(small, belief, sure > SURE)
+    figure = figure_on_plain_ground(small, belief, sure > CERTAIN_BELIEF)
     if figure is not None:
         belief = figure
     misplaced = (belief < DOUBTFUL_BELIEF) & (sure > DOUBTFUL_BELIEF) & (sure < 1)
     if misplaced.any():
-        sure[misplaced & like_plain_background(small, (belief < 1 - SURE) & (sure == 0))] = DOUBTFUL_BELIEF
+        sure[misplaced & like_plain_background(small, (belief < 1 - CERTAIN_BELIEF) & (sure == 0))] = DOUBTFUL_BELIEF
     belief = np.maximum(belief, sure)
     if others is not None:
         apart = resized(others.astype(np.float32), (small.shape[1], small.shape[0]))
@@ -99,7 +99,7 @@ def person_mask(
     if figure is None:
         belief = settle_by_colour(small, belief)
     trimap = outline_trimap(small, belief)
-    known = np.where(sure > SURE, 1, trimap.known).astype(np.float32)
+    known = np.where(sure > CERTAIN_BELIEF, 1, trimap.known).astype(np.float32)
     matte = alpha_matte(small, known, trimap.prior, trimap.weight)
     return matte if small.shape == rgb.shape else upsample_guided(matte, small, rgb)
 
@@ -109,7 +109,7 @@ def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
     somebody is connected with others, what was found. That ends somewhere near the cut-out's own edge, which is the truth:
     there it counts as it does a little further in."""
     shared = pieces_touching(channel > 0, others, connectivity=8)
-    inside = cv2.erode((channel > SURE).astype(np.uint8), EDGE, borderValue=1)
+    inside = cv2.erode((channel > CERTAIN_BELIEF).astype(np.uint8), EDGE, borderValue=1)
     own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE)))
     return np.where(shared, np.minimum(channel, own), channel).astype(np.float32)
 
@@ -119,7 +119,7 @@ def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
     rather believe than not (grey hair before a pale wall), colours do not take away."""
     size = size_within(belief.shape, CUT_SIZE)
     small, rough = resized(rgb, size), resized(belief, size)
-    foreground, background = rough > SURE, rough < 1 - SURE
+    foreground, background = rough > CERTAIN_BELIEF, rough < 1 - CERTAIN_BELIEF
     if not (foreground.any() and background.any()):
         return belief
     person = grab_cut(small, foreground, background, rough > 0.5, rounds=2).astype(np.float32)

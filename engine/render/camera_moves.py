@@ -15,18 +15,23 @@ Move = Literal["fixed", "orbit", "parallax"]
 
 MOVES: tuple[Move, ...] = get_args(Move)
 
-ORBIT = 24.0
-"""Degrees to either side: further round, the back of the picture would have to be known."""
+ORBIT_DEGREES = 24.0
+"""Degrees that the camera goes round to either side: further, the back of the picture would have to be known."""
 
-SLIDE = 0.10
-"""To either side, as a share of the distance to the target."""
+SLIDE_SHARE = 0.10
+"""How far the camera slides to either side, as a share of its distance to the target."""
 
-PERIOD = 8.0
+PERIOD_SECONDS = 8.0
 """Seconds from the middle to one side, to the other and back."""
 
 
 def camera_at(
-    move: Move, start: Camera, target: ArrayLike, second: float, reach: float | None = None, period: float = PERIOD
+    move: Move,
+    start: Camera,
+    target: ArrayLike,
+    second: float,
+    reach: float | None = None,
+    period: float = PERIOD_SECONDS,
 ) -> Camera:
     """The camera at a moment; at second 0 it is `start`, whatever the move.
 
@@ -39,11 +44,13 @@ def camera_at(
     """
     swing = float(np.sin(2 * np.pi * second / period))
     if move == "orbit":
-        return _turned(start, np.asarray(target, np.float64), np.radians(ORBIT if reach is None else reach) * swing)
+        return _turned(
+            start, np.asarray(target, np.float64), np.radians(ORBIT_DEGREES if reach is None else reach) * swing
+        )
     if move == "parallax":
         right, _, back = np.array(start.axes)
         distance = float((np.array(start.eye) - target) @ back)
-        step = (SLIDE if reach is None else reach) * swing
+        step = (SLIDE_SHARE if reach is None else reach) * swing
         x, y, z = (np.array(start.eye) + step * distance * right).tolist()
         return replace(start, eye=(x, y, z), centre=(start.centre[0] + step * start.focal, start.centre[1]))
     return start

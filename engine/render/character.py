@@ -31,13 +31,13 @@ from engine.render.rasteriser import SUBPIXELS, draw_into
 from engine.render.scratch import Scratch
 from engine.render.texturing import colour_inside, colour_samples, corner_table
 
-SAMPLES = 3
+SAMPLES_PER_AXIS = 3
 """Samples to a pixel, along each axis: ten steps from outside to inside along an edge."""
 
-LIGHT = (0.35, 0.75, 0.55)
+LIGHT_DIRECTION = (0.35, 0.75, 0.55)
 """Direction towards the light of the optional shading, in the world."""
 
-AHEAD = 2
+FRAMES_PER_THREAD = 2
 """Frames drawn or waiting for each thread."""
 
 
@@ -90,7 +90,7 @@ def draw_character(
     camera: Camera,
     background: NDArray[np.uint8] | None = None,
     shadow: GroundShadow | None = None,
-    samples: int = SAMPLES,
+    samples: int = SAMPLES_PER_AXIS,
     shading: float = 0.0,
 ) -> Drawn:
     """Draw the character as its vertices `posed` (V, 3) stand.
@@ -100,7 +100,7 @@ def draw_character(
     background : (H, W, 3) sRGB of the camera's size; it is not changed.
     shadow : what the ground y = 0 receives, if there is a background.
     samples : to a pixel, along each axis.
-    shading : how much darker the side turned away from `LIGHT` is, 0 to 1: none by default, since the texture already
+    shading : how much darker the side turned away from `LIGHT_DIRECTION` is, 0 to 1: none by default, since the texture already
         shows the light of its picture.
     """
     height, width = camera.size
@@ -120,7 +120,7 @@ def _draw_over(
     posed: NDArray[np.float32],
     camera: Camera,
     scratch: Scratch,
-    samples: int = SAMPLES,
+    samples: int = SAMPLES_PER_AXIS,
     shading: float = 0.0,
 ) -> NDArray[np.float32]:
     """Draw into `rgb`, which holds the background or, where the character is drawn `alone`, nothing. The alpha that is
@@ -202,7 +202,7 @@ def film_cast(
     with ThreadPoolExecutor(threads, thread_name_prefix="film") as pool:
         for frame in range(max(len(moves) for moves in transforms)):
             waiting.append(pool.submit(draw, frame))
-            if len(waiting) > AHEAD * threads:
+            if len(waiting) > FRAMES_PER_THREAD * threads:
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()
@@ -223,7 +223,7 @@ def _shade(subject: Subject, posed: NDArray[np.float32], shading: float) -> NDAr
     places = np.empty((int(point.max()) + 1, 3), np.float32)
     places[point] = posed
     normals = vertex_normals(places, point[subject.mesh.triangles])
-    towards = np.array(LIGHT, np.float32) / np.linalg.norm(LIGHT)
+    towards = np.array(LIGHT_DIRECTION, np.float32) / np.linalg.norm(LIGHT_DIRECTION)
     return (1 - shading * (1 - normals @ towards) / 2).astype(np.float32)[point]
 
 

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.rasteriser import SHIFT, SUBPIXELS, bias, snapped
+from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXELS, bias, snapped
 
-BLOCK = 3
+BLOCK_SHIFT = 3
 """Binary logarithm of the side, in pixels, of the blocks by which triangles find the chosen pixels that they touch."""
 
 
@@ -36,8 +36,8 @@ def choose(marks: NDArray[np.bool_]) -> Chosen:
     """The pixels that are set in `marks` (H, W)."""
     height, width = marks.shape
     places = np.stack(np.divmod(np.flatnonzero(marks), width), 1).astype(np.int32)
-    down, across = (((side - 1) >> BLOCK) + 1 for side in (height, width))
-    block = (places[:, 0] >> BLOCK) * across + (places[:, 1] >> BLOCK)
+    down, across = (((side - 1) >> BLOCK_SHIFT) + 1 for side in (height, width))
+    block = (places[:, 0] >> BLOCK_SHIFT) * across + (places[:, 1] >> BLOCK_SHIFT)
     starts = np.concatenate([[0], np.cumsum(np.bincount(block, minlength=down * across))])
     return Chosen(places[np.argsort(block, kind="stable")], starts, (height, width))
 
@@ -65,7 +65,7 @@ def draw_samples(
     `offsets` (S, 2) from `sample_offsets`.
     """
     height, width = size
-    blocks, samples = ((width - 1) >> BLOCK) + 1, len(offsets)
+    blocks, samples = ((width - 1) >> BLOCK_SHIFT) + 1, len(offsets)
     ids = np.full((len(pixels), samples), -1, np.int32)
     depths = np.full((len(pixels), samples), np.inf, np.float32)
     reach = np.abs(offsets).max()
@@ -79,10 +79,10 @@ def draw_samples(
         ax, ay = int(places[a, 0]), int(places[a, 1])
         bx, by = int(places[b, 0]), int(places[b, 1])
         cx, cy = int(places[c, 0]), int(places[c, 1])
-        left = max((min(ax, bx, cx) - reach + SUBPIXELS - 1) >> SHIFT, 0)
-        right = min((max(ax, bx, cx) + reach) >> SHIFT, width - 1)
-        top = max((min(ay, by, cy) - reach + SUBPIXELS - 1) >> SHIFT, 0)
-        bottom = min((max(ay, by, cy) + reach) >> SHIFT, height - 1)
+        left = max((min(ax, bx, cx) - reach + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+        right = min((max(ax, bx, cx) + reach) >> SUBPIXEL_BITS, width - 1)
+        top = max((min(ay, by, cy) - reach + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+        bottom = min((max(ay, by, cy) + reach) >> SUBPIXEL_BITS, height - 1)
         if left > right or top > bottom or not _any(starts, blocks, top, bottom, left, right):
             continue
         step_a, step_b, step_c = by - cy, cy - ay, ay - by
@@ -95,13 +95,13 @@ def draw_samples(
         )
         area = np.float32(down_c * (cy - ay) + step_c * (cx - ax))
         za, zb, zc = 1 / (area * points[a, 2]), 1 / (area * points[b, 2]), 1 / (area * points[c, 2])
-        for i in range(top >> BLOCK, (bottom >> BLOCK) + 1):
-            for j in range(left >> BLOCK, (right >> BLOCK) + 1):
+        for i in range(top >> BLOCK_SHIFT, (bottom >> BLOCK_SHIFT) + 1):
+            for j in range(left >> BLOCK_SHIFT, (right >> BLOCK_SHIFT) + 1):
                 for k in range(starts[i * blocks + j], starts[i * blocks + j + 1]):
                     y, x = pixels[k, 0], pixels[k, 1]
                     if y < top or y > bottom or x < left or x > right:
                         continue
-                    px, py = np.int64(x) << SHIFT, np.int64(y) << SHIFT
+                    px, py = np.int64(x) << SUBPIXEL_BITS, np.int64(y) << SUBPIXEL_BITS
                     pa = down_a * (py - by) + step_a * (px - bx)
                     pb = down_b * (py - cy) + step_b * (px - cx)
                     pc = down_c * (py - ay) + step_c * (px - ax)
@@ -123,7 +123,7 @@ def draw_samples(
 @njit(nogil=True, boundscheck=False, inline="always")
 def _any(starts: np.ndarray, blocks: int, top: int, bottom: int, left: int, right: int) -> bool:
     """Whether any pixel is chosen in the blocks that these rows and columns of pixels reach into."""
-    for i in range(top >> BLOCK, (bottom >> BLOCK) + 1):
-        if starts[i * blocks + (left >> BLOCK)] < starts[i * blocks + (right >> BLOCK) + 1]:
+    for i in range(top >> BLOCK_SHIFT, (bottom >> BLOCK_SHIFT) + 1):
+        if starts[i * blocks + (left >> BLOCK_SHIFT)] < starts[i * blocks + (right >> BLOCK_SHIFT) + 1]:
             return True
     return False

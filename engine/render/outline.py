@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.rasteriser import LOST, snapped
+from engine.render.rasteriser import OUT_OF_RANGE, snapped
 
-NEARER = 0.998
+HIDDEN_DEPTH_RATIO = 0.998
 """An edge counts as hidden where all that is seen about it is nearer than this share of its own distance."""
 
 
@@ -44,7 +44,7 @@ def facings(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     for t in range(faces.shape[0]):
         a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]
         ax, bx, cx = int(places[a, 0]), int(places[b, 0]), int(places[c, 0])
-        if min(ax, bx, cx) == LOST or not min(points[a, 2], points[b, 2], points[c, 2]) > 0:
+        if min(ax, bx, cx) == OUT_OF_RANGE or not min(points[a, 2], points[b, 2], points[c, 2]) > 0:
             continue
         ay = int(places[a, 1])
         area = (bx - ax) * (places[c, 1] - ay) - (places[b, 1] - ay) * (cx - ax)
@@ -71,7 +71,7 @@ def mark_outline(
             continue
         if max(xa, xb) < -1 or min(xa, xb) > width or max(ya, yb) < -1 or min(ya, yb) > height:
             continue
-        seen = min(za, zb) * np.float32(NEARER)
+        seen = min(za, zb) * np.float32(HIDDEN_DEPTH_RATIO)
         upright = abs(yb - ya) > abs(xb - xa)
         if upright:  # walk along the longer side; p runs, q follows
             pa, qa, pb, qb, plimit, qlimit = ya, xa, yb, xb, height, width

@@ -19,18 +19,19 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-SHIFT = 8
-SUBPIXELS = 1 << SHIFT
-"""Vertices are snapped to this fraction of a pixel, as graphics hardware does."""
+SUBPIXEL_BITS = 8
+"""Bits of a coordinate's fraction of a pixel."""
+SUBPIXELS = 1 << SUBPIXEL_BITS
+"""Steps of a pixel to which vertices are snapped, as graphics hardware does."""
 
-WIDE = 6
-"""Pixels: triangles up to this wide are walked from their left end."""
+MAX_NARROW_WIDTH = 6
+"""Pixels up to which a triangle's rows are walked from its box's left end."""
 
-FURTHEST = 2.0**21
-"""Triangles with a vertex further out than this many pixels are dropped: their edge functions could overflow."""
+MAX_COORDINATE = 2.0**21
+"""Pixels beyond which a vertex is too far out and its triangles are dropped: their edge functions could overflow."""
 
-LOST = -(1 << 31)
-"""The place of such a vertex."""
+OUT_OF_RANGE = -(1 << 31)
+"""The x of a vertex that is too far out."""
 
 
 class Raster(NamedTuple):
@@ -101,14 +102,14 @@ def _snap(value: float) -> int:
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")
 def snapped(points: np.ndarray) -> np.ndarray:
-    """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXELS`; x is `LOST` where a vertex is too far out."""
+    """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXELS`; x is `OUT_OF_RANGE` where a vertex is too far out."""
     places = np.empty((len(points), 2), np.int32)
     for v in range(len(points)):
         x, y = points[v, 0], points[v, 1]
-        if abs(x) < FURTHEST and abs(y) < FURTHEST:
+        if abs(x) < MAX_COORDINATE and abs(y) < MAX_COORDINATE:
             places[v, 0], places[v, 1] = _snap(x), _snap(y)
         else:
-            places[v, 0], places[v, 1] = LOST, 0
+            places[v, 0], places[v, 1] = OUT_OF_RANGE, 0
     return places
 
 
@@ -152,12 +153,12 @@ def _draw(
     ay, by, cy = int(places[a, 1]), int(places[b, 1]), int(places[c, 1])
     ax, bx, cx = int(places[a, 0]), int(places[b, 0]), int(places[c, 0])
     za, zb, zc = points[a, 2], points[b, 2], points[c, 2]
-    if min(ax, bx, cx) == LOST or (perspective and not min(za, zb, zc) > 0):
+    if min(ax, bx, cx) == OUT_OF_RANGE or (perspective and not min(za, zb, zc) > 0):
         return
-    left = max((min(ax, bx, cx) + SUBPIXELS - 1) >> SHIFT, 0)
-    right = min(max(ax, bx, cx) >> SHIFT, ids.shape[1] - 1)
-    top = max((min(ay, by, cy) + SUBPIXELS - 1) >> SHIFT, first)
-    bottom = min(max(ay, by, cy) >> SHIFT, last)
+    left = max((min(ax, bx, cx) + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+    right = min(max(ax, bx, cx) >> SUBPIXEL_BITS, ids.shape[1] - 1)
+    top = max((min(ay, by, cy) + SUBPIXELS - 1) >> SUBPIXEL_BITS, first)
+    bottom = min(max(ay, by, cy) >> SUBPIXEL_BITS, last)
     if left > right or top > bottom:
         return
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -168,7 +169,7 @@ def _draw(
         area = -area
     if perspective:
         za, zb, zc = 1 / za, 1 / zb, 1 / zc
-    px, py = left << SHIFT, top << SHIFT
+    px, py = left << SUBPIXEL_BITS, top << SUBPIXEL_BITS
     row_a = (cx - bx) * (py - by) - (cy - by) * (px - bx)
     row_b = (ax - cx) * (py - cy) - (ay - cy) * (px - cx)
     row_c = (bx - ax) * (py - ay) - (by - ay) * (px - ax)
@@ -179,9 +180,9 @@ def _draw(
     row_a += bias(cx - bx, cy - by)
     row_b += bias(ax - cx, ay - cy)
     row_c += bias(bx - ax, by - ay)
-    step_a, step_b, step_c = (by - cy) << SHIFT, (cy - ay) << SHIFT, (ay - by) << SHIFT
+    step_a, step_b, step_c = (by - cy) << SUBPIXEL_BITS, (cy - ay) << SUBPIXEL_BITS, (ay - by) << SUBPIXEL_BITS
     # where a row begins is estimated for wide triangles, which are mostly slanted slivers, and then found exactly
-    wide = right - left > WIDE
+    wide = right - left > MAX_NARROW_WIDTH
     to_a = -1 / np.float64(step_a) if wide and step_a > 0 else np.float64(0)
     to_b = -1 / np.float64(step_b) if wide and step_b > 0 else np.float64(0)
     to_c = -1 / np.float64(step_c) if wide and step_c > 0 else np.float64(0)
@@ -200,9 +201,9 @@ def _draw(
                 depths[y, x] = z
                 ids[y, x] = t
             wa, wb, wc, x, w = wa + step_a, wb + step_b, wc + step_c, x + 1, w + right_z
-        row_a += (cx - bx) << SHIFT
-        row_b += (ax - cx) << SHIFT
-        row_c += (bx - ax) << SHIFT
+        row_a += (cx - bx) << SUBPIXEL_BITS
+        row_b += (ax - cx) << SUBPIXEL_BITS
+        row_c += (bx - ax) << SUBPIXEL_BITS
         row_z += down_z
 
 

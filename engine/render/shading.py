@@ -46,7 +46,7 @@ class Lighting:
     mirrored: NDArray[np.float32]
 
 
-AT_ONCE = 32
+SHADOW_MAPS_AT_ONCE = 32
 """Lamps whose shadows are held at a time: each takes a megabyte or two."""
 
 
@@ -62,8 +62,8 @@ def illuminate(
     """Light a surface by every lamp, with shadows cast by the mesh `casters` (vertices, triangles) inside the
     ball of `radius` metres around `centre`. `bias` (metres) keeps a surface from shading itself."""
     irradiance, mirrored = np.zeros_like(surface.position), np.zeros_like(surface.position)
-    for first in range(0, len(lamps.directions), AT_ONCE):
-        directions = lamps.directions[first : first + AT_ONCE]
+    for first in range(0, len(lamps.directions), SHADOW_MAPS_AT_ONCE):
+        directions = lamps.directions[first : first + SHADOW_MAPS_AT_ONCE]
         shadows = [cast_shadow(*casters, direction, centre, radius, map_size) for direction in directions]
         _add(  # in the order in which they are written: numba knows no keywords
             surface.position,
@@ -74,7 +74,7 @@ def illuminate(
             surface.reflectance,
             surface.softness,
             directions,
-            lamps.irradiance[first : first + AT_ONCE],
+            lamps.irradiance[first : first + SHADOW_MAPS_AT_ONCE],
             np.stack([shadow.depth for shadow in shadows]),
             np.stack([shadow.view for shadow in shadows]),
             np.array([bias], np.float32),

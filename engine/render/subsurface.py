@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 
 VARIANCES = (0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41)
-"""Square millimetres."""
+"""Variance of each Gaussian of the profile, square millimetres."""
 
 WEIGHTS = (
     (0.233, 0.455, 0.649),
@@ -26,8 +26,8 @@ WEIGHTS = (
 )
 """Red, green and blue share of each Gaussian."""
 
-NEGLIGIBLE = 0.01
-"""Smaller shares are left to the others: they cost as much as large ones and cannot be seen."""
+MIN_WEIGHT = 0.01
+"""Share of a Gaussian below which the others take it: it would cost as much as a large one and cannot be seen."""
 
 
 def diffuse(
@@ -42,7 +42,7 @@ def diffuse(
     nor goes there); `depth` (H, W) metres, +inf where nothing is: light does not leap from one depth to another.
     """
     shares = np.array(WEIGHTS, np.float32)
-    shares[shares < NEGLIGIBLE] = 0
+    shares[shares < MIN_WEIGHT] = 0
     shares /= shares.sum(0)
     total = np.zeros_like(irradiance)
     weight, turned_weight = np.ascontiguousarray(translucency), np.ascontiguousarray(translucency.T)

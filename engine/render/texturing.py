@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.render.mipmap import look_up
 
-JUMP, SLACK = 4.0, 2.0
-"""Two pixels side by side show one surface where they are apart on the texture by no more than `JUMP` times what a pixel
-covers of it, and `SLACK` texels."""
+MAX_FOOTPRINT_RATIO, TOLERANCE_TEXELS = 4.0, 2.0
+"""Two pixels side by side show one surface where they are apart on the texture by no more than `MAX_FOOTPRINT_RATIO` times what a pixel
+covers of it, and `TOLERANCE_TEXELS` texels."""
 
 
 def corner_table(
@@ -78,7 +78,7 @@ def colour_inside(
             da, db, dc = by - cy, cy - ay, ay - by
             footprint = spread[t] / max(abs(wa + wb + wc) * half, np.float32(1e-6))
             level = half * np.log2(footprint) if footprint > one else np.float32(0)
-            limit = np.float32(JUMP) * np.sqrt(footprint) + np.float32(SLACK)
+            limit = np.float32(MAX_FOOTPRINT_RATIO) * np.sqrt(footprint) + np.float32(TOLERANCE_TEXELS)
             w = wa * corners[a, 2] + wb * corners[b, 2] + wc * corners[c, 2]
             wu = wa * corners[a, 3] + wb * corners[b, 3] + wc * corners[c, 3]
             wv = wa * corners[a, 4] + wb * corners[b, 4] + wc * corners[c, 4]

@@ -14,7 +14,7 @@ from engine.character.measures import pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
 from engine.motion.edit import repeated
-from engine.render.camera_moves import ORBIT, PERIOD, SLIDE, Move
+from engine.render.camera_moves import ORBIT_DEGREES, PERIOD_SECONDS, SLIDE_SHARE, Move
 from engine.render.ground_shadow import GroundShadow
 
 HEIGHT, WIDTH, FOCAL = 240, 200, 360.0
@@ -36,7 +36,7 @@ def filmed(character: Character, move: Move, shadow: GroundShadow = DARK) -> np.
     fitted = FittedBody(nowhere, FOCAL, ((WIDTH - 1) / 2, (HEIGHT - 1) / 2), np.zeros(1, np.bool_))
     plate = np.full((HEIGHT, WIDTH, 3), GREY, np.uint8)
     plate[20:40, 85:105] = GREEN
-    clip = replace(repeated(character.pictured, 2), fps=4 / PERIOD)
+    clip = replace(repeated(character.pictured, 2), fps=4 / PERIOD_SECONDS)
     return np.array(list(film([(character, clip)], fitted, plate, shadow, move, (WIDTH, HEIGHT)))).astype(int)
 
 
@@ -66,10 +66,10 @@ def test_a_fixed_camera_shows_the_plate_wherever_nobody_is(character: Character)
 
 
 def test_parallax_moves_the_wall_and_not_the_person(character: Character) -> None:
-    """A point at the distance d from the camera goes sideways by SLIDE f (1 - p / d); the person is at p."""
+    """A point at the distance d from the camera goes sideways by SLIDE_SHARE f (1 - p / d); the person is at p."""
     first, later = filmed(character, "parallax")
     near = 4.0 - float(character.pictured.root[0, 2])
-    expected = SLIDE * FOCAL * (1 - near / (4.0 + WALL))
+    expected = SLIDE_SHARE * FOCAL * (1 - near / (4.0 + WALL))
     np.testing.assert_allclose(middle(mark(later)) - middle(mark(first)), (0, expected), atol=0.5)
     assert np.abs(middle(person(later)) - middle(person(first))).max() < 1.0
 
@@ -79,7 +79,7 @@ def test_an_orbit_turns_about_the_person(character: Character) -> None:
     first, later = filmed(character, "orbit")
     np.testing.assert_array_equal(first, filmed(character, "fixed")[0])
     assert np.abs(middle(person(later)) - middle(person(first))).max() < 3
-    far, angle = 4.0 + WALL, np.radians(ORBIT)
+    far, angle = 4.0 + WALL, np.radians(ORBIT_DEGREES)
     x = (94.5 - (WIDTH - 1) / 2) / FOCAL * far
     y = ((HEIGHT - 1) / 2 - 29.5) / FOCAL * far
     pivot = character.pictured.root[0]

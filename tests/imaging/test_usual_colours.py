@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.imaging.usual_colours import EDGE, usual_colours
+from engine.imaging.usual_colours import MIXED_PIXELS, usual_colours
 
 
 def test_a_badge_is_rare_on_cloth_and_stripes_are_usual() -> None:
@@ -13,7 +13,7 @@ def test_a_badge_is_rare_on_cloth_and_stripes_are_usual() -> None:
     rgb[40:52, 40:52] = (250, 220, 60)
     usual = usual_colours(rgb, np.ones((100, 100), np.bool_))
     badge = np.zeros((100, 100), np.bool_)
-    badge[40 - EDGE : 52 + EDGE, 40 - EDGE : 52 + EDGE] = True
+    badge[40 - MIXED_PIXELS : 52 + MIXED_PIXELS, 40 - MIXED_PIXELS : 52 + MIXED_PIXELS] = True
     np.testing.assert_array_equal(usual, ~badge)
 
 

@@ -6,7 +6,7 @@ from scipy.ndimage import center_of_mass
 
 from engine.geometry.camera import Camera
 from engine.render.backdrop import Backdrop
-from engine.render.camera_moves import PERIOD, camera_at
+from engine.render.camera_moves import PERIOD_SECONDS, camera_at
 
 CAMERA = Camera((0, 0, 0), 500, (199.5, 129.5), (300, 400)).aimed((0, 1.4, 3), (0, 0.8, 0))
 WALL = 6.0
@@ -40,7 +40,7 @@ def test_points_of_floor_and_wall_move_as_they_must(move: str, spot: str) -> Non
     if spot == "wall":
         point = np.array(CAMERA.eye) + axes.T @ np.array([0.4, 0.9, -WALL])
     assert spot == "wall" or (np.array(CAMERA.eye) - point) @ axes[2] < WALL
-    moved = camera_at(move, CAMERA, (0, 0.8, 0), PERIOD / 16)
+    moved = camera_at(move, CAMERA, (0, 0.8, 0), PERIOD_SECONDS / 16)
     seen = dotted(point).seen_by(moved)[..., 0].astype(float)
     row, column = center_of_mass(seen)
     x, y = moved.project(point[None])[0, :2]

@@ -14,8 +14,8 @@ from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 from engine.render.backdrop import Backdrop
 from engine.render.camera_moves import camera_at
-from engine.render.character import LIGHT, SAMPLES, Actor, draw_character, film_cast, prepare
-from engine.render.ground_shadow import CELL, GroundShadow, shadow_map
+from engine.render.character import LIGHT_DIRECTION, SAMPLES_PER_AXIS, Actor, draw_character, film_cast, prepare
+from engine.render.ground_shadow import CELL_METRES, GroundShadow, shadow_map
 
 ONE = Skeleton(("Hips",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))
 FLAT = Camera(eye=(0, 0, 2.0), focal=64, centre=(31.5, 31.5), size=(64, 64))
@@ -55,8 +55,8 @@ def test_edges_are_as_opaque_as_they_are_covered() -> None:
     mesh = card(noise(8), ((20 - 31.5 - 0.5 + 1 / 3) / 32 + 1, (31.5 - 10 + 0.5 - 2 / 3) / 32 - 1, 0))
     background = noise(64, 1)
     drawn = draw_character(prepare(mesh), mesh.vertices, FLAT, background)
-    assert drawn.alpha[40, 20] == pytest.approx(2 / 3, abs=0.35 / SAMPLES)
-    assert drawn.alpha[10, 40] == pytest.approx(1 / 3, abs=0.35 / SAMPLES)
+    assert drawn.alpha[40, 20] == pytest.approx(2 / 3, abs=0.35 / SAMPLES_PER_AXIS)
+    assert drawn.alpha[10, 40] == pytest.approx(1 / 3, abs=0.35 / SAMPLES_PER_AXIS)
     assert not drawn.alpha[:, :20].any() and not drawn.alpha[:10].any() and (drawn.alpha[11:, 21:] == 1).all()
     np.testing.assert_array_equal(drawn.rgb[drawn.alpha == 0], background[drawn.alpha == 0])
     alone = draw_character(prepare(mesh), mesh.vertices, FLAT)
@@ -85,7 +85,7 @@ def test_where_two_surfaces_pass_through_each_other_a_pixel_shows_both() -> None
     mesh.uv[4:, 0] = 0.75
     row = draw_character(prepare(mesh), mesh.vertices, FLAT).rgb[32, :, 0]
     assert (row[:20] == 50).all() and (row[22:60] == 200).all()
-    assert row[20] == pytest.approx(50 + 150 * 2 / 3, abs=150 / 2 / SAMPLES)
+    assert row[20] == pytest.approx(50 + 150 * 2 / 3, abs=150 / 2 / SAMPLES_PER_AXIS)
 
 
 def test_a_fine_pattern_far_away_is_its_mean() -> None:
@@ -115,7 +115,7 @@ def test_an_open_surface_has_two_sides_and_a_closed_ones_backs_cover_nothing_new
 
 def test_shading_is_none_towards_the_light_and_full_away_from_it() -> None:
     mesh = card(np.full((8, 8, 3), 200, np.uint8), (0, 0, 0))
-    towards = np.array(LIGHT) / np.linalg.norm(LIGHT)
+    towards = np.array(LIGHT_DIRECTION) / np.linalg.norm(LIGHT_DIRECTION)
     for away, expected in ((1, 200), (-1, 100)):
         camera = Camera((0, 0, 0), 64, (31.5, 31.5), (64, 64)).aimed(3 * away * towards, (0, 0, 0))
         right, up, _ = np.array(camera.axes)
@@ -141,7 +141,7 @@ def test_the_shadow_is_dark_under_what_touches_the_ground_and_fades_with_height(
     densities = []
     for height in (0.0, 0.2, 1.0):
         density, corner = shadow_map(lying + np.array([0, height, 0], np.float32), faces, GroundShadow())
-        middle = ((0 - corner) / CELL).astype(int)
+        middle = ((0 - corner) / CELL_METRES).astype(int)
         densities.append(density[middle[1], middle[0]])
         assert density[0].max() < 0.02 and density[:, -1].max() < 0.02
     assert densities[0] > 0.95 and densities[0] > densities[1] > densities[2]
@@ -154,7 +154,7 @@ def test_a_slanted_light_throws_the_shadow_the_other_way() -> None:
     light = GroundShadow(reach=np.inf, light=(-1.0, 1.0, 0.0))
     density, corner = shadow_map(lying, faces, light)
     rows, columns = np.mgrid[: density.shape[0], : density.shape[1]]
-    place = [(density * index).sum() / density.sum() * CELL + CELL / 2 for index in (columns, rows)]
+    place = [(density * index).sum() / density.sum() * CELL_METRES + CELL_METRES / 2 for index in (columns, rows)]
     np.testing.assert_allclose(corner + place, [1, 0], atol=0.01)
 
 
