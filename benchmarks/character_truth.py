@@ -46,7 +46,7 @@ from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.geometry.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms
-from engine.imaging.mask_pieces import mask_height
+from engine.imaging.mask_pieces import rows_apart
 from engine.media.limits import Limits
 
 BODY_METRES = 1.8
@@ -123,7 +123,7 @@ def examine(known: KnownPicture, place: str) -> Result:
         iou=float((found & true).sum() / (found | true).sum()),
         distances=(distances[0], distances[1], distances[2]),
         joints=None if known.person.joints is None else joint_errors(fitted, known.person.joints),
-        reprojection=fitted.fit.reprojection / max(mask_height(true), 1),
+        reprojection=fitted.fit.reprojection / max(rows_apart(true), 1),
         seconds=time.perf_counter() - start,
         aligned=(aligned[0], aligned[2]),
         surfaces=surfaces,

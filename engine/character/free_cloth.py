@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import PARTS
-from engine.imaging.mask_pieces import mask_height
+from engine.imaging.mask_pieces import rows_apart
 
 CLOSE, FREE = 1.12, 1.5
 """How much wider than the template cloth is that still follows the legs, and that hangs freely."""
@@ -117,7 +117,7 @@ def free_cloth(
         return None
     overlap = np.zeros_like(cloth) if overlap is None else overlap
     rings = _rings(cloth, (trunk, left, right), overlap, nearest, furthest)
-    high = mask_height(cloth)
+    high = rows_apart(cloth)
     far = max(2, round(BENEATH * high))
     hangs, goes_on = _hem(rings, cloth, trunk | left | right, far)
     if not hangs:

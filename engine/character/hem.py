@@ -23,7 +23,7 @@ from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
 from engine.imaging.colour_segmentation import FREE, MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
-from engine.imaging.mask_pieces import largest_piece, mask_height, pieces_touching, without_small_pieces
+from engine.imaging.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
 BAND = 0.05
 """How far above and below the last ring of the cloth its hem may be, as a share of the person's height."""
@@ -50,7 +50,7 @@ def with_cloth(labels: Labels, rgb: NDArray[np.uint8], template: PosedTemplate, 
             legs[legs == leg] = -1  # nothing says what shape it has
     lower = cloth.lower.copy()
     first = cloth.rings[-1].row + 1
-    beneath = round(2 * BAND * mask_height(labels.labels >= 0))
+    beneath = round(2 * BAND * rows_apart(labels.labels >= 0))
     lower[first : first + beneath] |= (cloth.worn & (legs < 0))[first : first + beneath]
     cloth = replace(cloth, legs=legs, lower=lower, before=before)
     return replace(labels, apart=np.setdiff1d(labels.apart, LEGS), cloth=cloth)
@@ -75,7 +75,7 @@ def legs_below(
     """The leg (h, w), an index of `PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
     the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'. Each is in one piece, unless the one that is `before` it
     parts it."""
-    end, wide = cloth.rings[-1].row, max(2, round(BAND * mask_height(labels >= 0)))
+    end, wide = cloth.rings[-1].row, max(2, round(BAND * rows_apart(labels >= 0)))
     rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
     person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != PARTS.index("head"))
     below = person & (rows > end) & np.isin(labels, LEGS) & ~cloth.lower

@@ -18,7 +18,7 @@ from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion
 from engine.character.sheets import Layer
-from engine.imaging.mask_pieces import largest_piece, mask_height
+from engine.imaging.mask_pieces import largest_piece, rows_apart
 
 UP = 0.06
 """How far a leg goes on under the cloth, as a share of the person's height."""
@@ -34,7 +34,7 @@ def legs_beneath(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Limb
     if cloth is None or cloth.legs is None:
         return []
     part = vertex_parts(rig)[template.triangles]
-    up = round(UP * mask_height(labels.labels >= 0))
+    up = round(UP * rows_apart(labels.labels >= 0))
     clothed = (labels.labels >= 0) & (cloth.legs < 0)
     found = []
     for leg in np.unique(cloth.legs[cloth.legs >= 0]):

@@ -14,7 +14,7 @@ from engine.character.template_fit import FittedBody
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
-from engine.imaging.mask_pieces import mask_height
+from engine.imaging.mask_pieces import rows_apart
 from engine.motion.clip import Clip
 from engine.render.rasteriser import SUBPIXELS, rasterise
 
@@ -50,7 +50,7 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
     border, crowded = _odd_edges(points[triangles])
     return {
         "silhouette_iou": round(float((drawn & mask).sum() / max((drawn | mask).sum(), 1)), 4),
-        "landmark_reprojection": round(fitted.fit.reprojection / max(mask_height(mask), 1), 4),
+        "landmark_reprojection": round(fitted.fit.reprojection / max(rows_apart(mask), 1), 4),
         "closed": float(is_closed(points[triangles])),
         "holes": float(_loops(border)),
         "non_manifold_edges": float(crowded),

@@ -75,3 +75,8 @@ def mask_height(mask: NDArray[np.bool_]) -> int:
     """Pixels from the first to the last row of a mask (H, W), both counted; 0 of an empty one."""
     rows = np.flatnonzero(mask.any(1))
     return int(rows[-1] - rows[0]) + 1 if len(rows) else 0
+
+
+def rows_apart(mask: NDArray[np.bool_]) -> int:
+    """Pixels between the centres of the first and the last row of a mask (H, W): a length as joints have it; 0 of an empty one."""
+    return max(mask_height(mask) - 1, 0)

@@ -14,6 +14,7 @@ from engine.imaging.mask_pieces import (
     outline,
     pieces_by_area,
     pieces_touching,
+    rows_apart,
     without_small_pieces,
 )
 
@@ -79,7 +80,7 @@ def test_an_empty_mask_has_no_pieces() -> None:
     for found in (largest_piece(nothing), pieces_touching(nothing, everything), without_small_pieces(nothing, 1)):
         assert found.dtype == np.bool_ and not found.any()
     assert not pieces_touching(everything, nothing).any()
-    assert mask_height(nothing) == 0
+    assert mask_height(nothing) == rows_apart(nothing) == 0
     with pytest.raises(ValueError, match="no bounding box"):
         bounding_box(nothing)
     with pytest.raises(ValueError, match="no outline"):
@@ -125,4 +126,4 @@ def test_a_box_holds_all_of_a_mask_and_ends_at_the_picture() -> None:
     assert bounding_box(mask, 8) == (slice(0, 18), slice(0, 19))
     assert bounding_box(mask, 100) == (slice(0, 20), slice(0, 30))
     assert mask[bounding_box(mask)].sum() == mask.sum()
-    assert mask_height(mask) == 6
+    assert mask_height(mask) == 6 and rows_apart(mask) == 5
