@@ -34,11 +34,11 @@ BRIGHTENING = 0.01
 WINDOW = 21
 """Section 6: frames of the temporal Gaussian."""
 WIDE = 0.25
-"""Ratios wider than this, in eye distances, are shading rather than creases ..."""
+"""Ratios wider than this, in eye distances, are shading rather than creases."""
 SHADING = 0.25
-"""... and count this much ..."""
+"""Share by which such wide ratios count in a head that does not turn."""
 TURNED = 12.0
-"""... in a head that does not turn, down to nothing at this many degrees."""
+"""Degrees of turn at which they count no more."""
 TRUSTED, LOST = 8.0, 20.0
 """Degrees of turn up to which a ratio is a crease's, and from which it is the nose's shadow and no crease's."""
 DARKEST = 0.7

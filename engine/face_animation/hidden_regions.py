@@ -16,9 +16,10 @@ from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 EROSION = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
 AREA_FROM, AREA_FULLY = 1.0, 2.0
-"""Section 5: the inside appears between once and twice the neutral mouth's own inner area ..."""
+"""Section 5: the inside appears between once and twice the neutral mouth's own inner area."""
 GAP_FROM, GAP_FULLY = 1.3, 1.7
-"""... and here also between these multiples of the gap between its lips: a smile that becomes an O hardly grows."""
+"""Multiples of the neutral gap between the lips between which it appears as well (ours): a smile that becomes an O hardly
+grows in area."""
 MIN_INNER_AREA, MIN_GAP = 0.012, 0.04
 """Floors of the neutral inner area, in squares of the mouth's width, and of its gap, in widths: a closed mouth has
 almost none."""

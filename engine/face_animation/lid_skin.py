@@ -38,11 +38,11 @@ it would be darker, this share is left."""
 FADES = 0.4
 """Eye widths from a corner over which this comes in."""
 ACROSS = 0.15
-"""Eye widths over which its colours are even from corner to corner ..."""
+"""Eye widths over which a lid's colours are even from corner to corner."""
 GRAIN = 0.1
-"""... and below which what is seen of the skin is its grain ..."""
+"""Eye widths below which what is seen of the skin is its grain."""
 FAINT = 12.0
-"""... as far as it is fainter than this, grey levels: the rest are lashes, brows and paint."""
+"""Grey levels up to which structure counts as grain: what is stronger are lashes, brows and paint."""
 SHADED = 0.12
 """By how much a lid is darker at its edge."""
 _TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)

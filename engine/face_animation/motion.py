@@ -27,11 +27,11 @@ from engine.perception.landmarks import MESH_SIZE, eye_distance
 
 PLANE_SHARE = 0.65
 """Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
-its depth is hardly seen there, and errs ..."""
+its depth is hardly seen there, and errs."""
 SLANTED = (3.0, 10.0)
-"""... from the first of these turns, in degrees, fully from the second ..."""
+"""Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
 INSIDE_FROM = 0.12
-"""... and this far inside the contour, in eye distances."""
+"""Eye distances inside the contour over which the plane's share rises to the full one."""
 CORRECTED_FROM = 0.3
 """Eye distances from the face's rim at which tracked points correct the proxy fully."""
 TURN_TRUSTED, TURN_LOST = 15.0, 30.0

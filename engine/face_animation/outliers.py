@@ -27,9 +27,9 @@ ROTATIONS = (-30.0, -15.0, 0.0, 15.0, 30.0)
 THRESHOLD = 5.0
 """Section 6: a component whose mean best difference is below this, in grey levels, is an outlier."""
 OUTLIER_MARGIN = 20.0
-"""Section 6: pixels closer than this to an outlier are set to one in every frame ..."""
+"""Section 6: pixels closer than this to an outlier are set to one in every frame."""
 RAMP = 6.0
-"""... over a ramp, so that no edge appears."""
+"""Pixels over which that passes into what was there, so that no edge appears."""
 
 
 @dataclass(frozen=True)

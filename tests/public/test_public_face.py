@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import json
 import os
@@ -38,6 +39,19 @@ def test_what_is_exported() -> None:
         *galatea.__all__, "calls", "inputs", "noise", "options", "result"
     } == set()  # fmt: skip
     assert issubclass(InputError, galatea.GalateaError) and issubclass(IncompleteInstallation, galatea.GalateaError)
+
+
+def test_the_calls_have_one_manner() -> None:
+    """What is no matter of one system alone has the same names, kinds and defaults; options are keywords."""
+    shared = ("out", "progress", "cache", "mark_synthetic", "options")
+    animate, wake_up = (
+        {name: given for name, given in inspect.signature(call).parameters.items() if name in shared}
+        for call in (galatea.animate, galatea.wake_up)
+    )
+    assert tuple(animate) == tuple(wake_up) == shared
+    for name in shared:
+        assert (animate[name].kind, animate[name].default) == (wake_up[name].kind, wake_up[name].default)
+    assert all(animate[name].kind is inspect.Parameter.KEYWORD_ONLY for name in shared[1:4])
 
 
 def test_the_types_of_the_options_are_those_of_the_engine() -> None:

@@ -1,1 +1,1 @@
-"""One face followed through a video: its mesh, its surroundings, and how it looks, frame by frame."""
+"""One face followed through a video (`track`): its mesh, its surroundings, and how it looks, frame by frame."""

@@ -17,9 +17,9 @@ from engine.perception.face_track.face_crop import FaceCrop
 from engine.perception.faces import SURE_CONFIDENCE, FaceTracker
 
 LOOK = (80, 72)
-"""Height and width at which looks are compared, pixels ..."""
+"""Height and width at which faces are compared, pixels."""
 FACE = (slice(14, 66), slice(10, 62))
-"""... and where the face is in it, from the brows to the chin."""
+"""Rows and columns of such a picture in which the face is, from the brows to the chin."""
 FINE, COARSE = 1.0, 8.0
 """Pixels: structure between these two counts. Finer is noise, coarser is light."""
 SAME_FACE_CORRELATION = 0.3

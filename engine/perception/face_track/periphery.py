@@ -16,9 +16,9 @@ WORKING_HEIGHT = 360
 FORWARD_BACKWARD = 1.0
 """A point that does not come back to within this many working pixels is not trusted in that frame."""
 ANCHOR = 3.0
-"""How far, in working pixels, the match against the first frame may be from the frame-to-frame track ..."""
+"""How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
 FOUND_AGAIN = 12.0
-"""... or, after frames without a face, from where the face would carry it."""
+"""The same after frames without a face, from where the face would carry it."""
 WINDOW = (21, 21)
 COARSE, NEAR = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from engine.portrait.reactive.excursion import Pose
 
 EXIT_TOLERANCE = 0.4
-"""How far an exit may be from the frames that use it, against the longest step between two frames of its clip ..."""
+"""How far an exit may be from the frames that use it, against the longest step between two frames of its clip."""
 MIN_PACE = 0.5
-"""... or this share of the longest step in all clips, where that is more ..."""
+"""Share of the longest step in all clips that a clip's own longest step counts for at least there."""
 UNSEEN = (0.25, 0.8)
-"""... or these pixels (the head, the furthest point), which nobody sees."""
+"""Pixels by which it may be off in any case, of the head and of the furthest point: nobody sees less."""
 TAPER = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
 CALM_STEP = 0.5
