@@ -56,7 +56,7 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)
     labels = label(figure, silhouette, fitted, None, asked.label_strokes, Limits(), lambda code, message: None)
-    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels, lambda code, message: None)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, asked.triangles, asked.back_texture)
     return Woken(figure, silhouette, fitted, labels, character)

@@ -134,16 +134,16 @@ def examine(known: KnownPicture, place: str) -> Result:
 def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Surfaces:
     """The character posed by its clip `pictured`, the mesh by warped depth, and the fitted template."""
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
-    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels, lambda code, message: None)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
     with depth_is_warped():
         by_depth = build_mesh(figure, silhouette, fitted, labels)
-    bare = pose_template(fitted, fitted.camera(), load_human())
+    bare = pose_template(fitted, fitted.picture_camera(), load_human())
     return Surfaces(
         (pose(character, character.pictured).astype(np.float64) - character.eye, character.mesh.triangles),
-        (silhouette.camera(fitted.camera()).to_metres(by_depth.vertices), by_depth.triangles),
-        (fitted.camera().to_metres(bare.vertices), bare.triangles),
+        (silhouette.camera(fitted.picture_camera()).to_metres(by_depth.vertices), by_depth.triangles),
+        (fitted.picture_camera().to_metres(bare.vertices), bare.triangles),
     )
 
 
@@ -180,7 +180,7 @@ def joint_errors(fitted: FittedBody, truth: NDArray[np.float64]) -> tuple[float,
     """Mean and largest distance, centimetres, of the body's joints (no fingers) after the best similarity."""
     human, fit = load_human(), fitted.fit
     heads = human.space.joints(fit.coefficients)
-    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.root_translation - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     body = [k for k, name in enumerate(human.rig.names) if not any(finger in name for finger in FINGERS)]
     off = 100 * np.linalg.norm(fit_similarity(joints[body], truth[body])(joints[body]) - truth[body], axis=1)

@@ -70,7 +70,7 @@ def render_head(
         focal=zoom * 0.8 * height_px * CAMERA_DISTANCE,
         centre=((width_px - 1) / 2, (height_px - 1) / 2),
         size=(height_px, width_px),
-    ).enlarged(SUPERSAMPLING)
+    ).scaled(SUPERSAMPLING)
     raster = rasterise(camera.project(vertices), scan.triangles, camera.size, perspective=True)
     covered = raster.triangle >= 0
     colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)

@@ -70,7 +70,7 @@ def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True
     # level, so that upright lines stay upright: the picture is shifted, not the camera tilted
     centre = ((width - 1) / 2, (height - 1) / 2 + focal / distance * (person.height / 2 - eye[1]))
     camera = Camera(eye, focal, centre, (height, width))
-    large = camera.enlarged(SUPERSAMPLING)
+    large = camera.scaled(SUPERSAMPLING)
     raster = rasterise(large.project(person.vertices), person.triangles, large.size, perspective=True)
     covered = raster.triangle >= 0
     normals = interpolate(vertex_normals(person.vertices, person.triangles), person.triangles, raster)

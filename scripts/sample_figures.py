@@ -181,7 +181,7 @@ def features(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
     """The picture with brows and lips, which the template's skin does not have; drawn larger, then made small."""
     template, large = load_template(), 2
     picture = np.asarray(cv2.resize(drawn.rgb, None, fx=large, fy=large, interpolation=cv2.INTER_CUBIC), np.uint8)
-    vertices, camera = drawn.person.vertices, drawn.camera.enlarged(large)
+    vertices, camera = drawn.person.vertices, drawn.camera.scaled(large)
     (x, y), tall = head(drawn.person, camera)
     hem = tuple(int(0.82 * c) for c in figure.look.shirt)
     neck, wide = (round(x), round(y + 0.6 * tall)), (round(0.31 * tall), round(0.16 * tall))
@@ -226,7 +226,7 @@ def hairline(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
     rng = np.random.default_rng(5)
     large = 2
     picture = np.asarray(cv2.resize(drawn.rgb, None, fx=large, fy=large, interpolation=cv2.INTER_CUBIC), np.uint8)
-    (x, y), tall = head(drawn.person, drawn.camera.enlarged(large))
+    (x, y), tall = head(drawn.person, drawn.camera.scaled(large))
 
     def hair(places: NDArray[np.float64], wide: float) -> None:
         tone = rng.uniform(0.72, 1.15)

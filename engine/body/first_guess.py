@@ -1,4 +1,4 @@
-"""Where fitting begins: the trunk's turn and each limb's from directions in space, the place from the height seen."""
+"""Where fitting begins: the trunk's turn and each limb's from directions in space, the place from the height view."""
 
 from __future__ import annotations
 
@@ -9,32 +9,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
-from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Seen
 from engine.body.landmarks import LandmarkModel
+from engine.body.observation import LIMBS, Observation
+from engine.body.posing import COEFFICIENTS, FITTED_JOINTS
 from engine.body.rest_pose import STRAIGHT, shortest_turn
 
 
 def first_guess(
-    space: BodySpace, landmarks: LandmarkModel, seen: Seen, trunk: Mapping[str, NDArray[np.floating]]
+    space: BodySpace, landmarks: LandmarkModel, view: Observation, trunk: Mapping[str, NDArray[np.floating]]
 ) -> NDArray[np.float64]:
-    """The first parameters (P,) for `engine.body.fitting.fit_body`.
+    """The first parameters (P,) for `engine.body.fitting.fit_body`, from one view.
 
     `trunk`: places in space of `LeftArm`, `RightArm`, `LeftUpLeg` and `RightUpLeg`, metres, x right, y up, z to the
     viewer.
     """
-    turns = np.zeros((len(TURNED), 3))
-    hips = facing(trunk)
-    turns[0] = _vector(hips)
-    for (first, _), direction in zip(LIMBS, seen.directions, strict=True):
+    to_world = np.array(view.camera.axes).T
+    rotation_vectors = np.zeros((len(FITTED_JOINTS), 3))
+    hips = to_world @ facing(trunk)
+    rotation_vectors[0] = _vector(hips)
+    for (first, _), direction in zip(LIMBS, view.directions, strict=True):
         if not np.linalg.norm(direction):
             continue
         side = "Left" if first.startswith("Left") else "Right"
         upper = f"{side}Arm" if "Arm" in first else f"{side}UpLeg"
         frame = hips
         if first != upper:
-            frame = frame @ cv2.Rodrigues(turns[TURNED.index(upper)])[0]
-        turns[TURNED.index(first)] = _vector(shortest_turn(np.array(STRAIGHT[first]), frame.T @ direction))
-    return np.concatenate([_place(space, landmarks, seen), turns.ravel(), np.zeros(COEFFICIENTS)])
+            frame = frame @ cv2.Rodrigues(rotation_vectors[FITTED_JOINTS.index(upper)])[0]
+        rotation_vectors[FITTED_JOINTS.index(first)] = _vector(
+            shortest_turn(np.array(STRAIGHT[first]), frame.T @ (to_world @ direction))
+        )
+    return np.concatenate([_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(COEFFICIENTS)])
 
 
 def facing(trunk: Mapping[str, NDArray[np.floating]]) -> NDArray[np.float64]:
@@ -51,16 +55,14 @@ def _vector(matrix: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.asarray(cv2.Rodrigues(np.asarray(matrix, np.float64))[0].ravel(), np.float64)
 
 
-def _place(space: BodySpace, landmarks: LandmarkModel, seen: Seen) -> NDArray[np.float64]:
+def _place(space: BodySpace, landmarks: LandmarkModel, view: Observation) -> NDArray[np.float64]:
     """The root's place from how large shoulders, hips and ankles appear."""
     names = landmarks.names
     trunk = [names.index(f"{side}{part}") for part in ("Shoulder", "Hip") for side in ("Left", "Right")]
-    shoulders, hips = seen.points[trunk[:2]].mean(0), seen.points[trunk[2:]].mean(0)
+    shoulders, hips = view.points[trunk[:2]].mean(0), view.points[trunk[2:]].mean(0)
     model = landmarks.mean[trunk]
     length = float(np.linalg.norm(model[:2].mean(0) - model[2:].mean(0)))
     pixels = max(
-        float(np.linalg.norm(shoulders - hips)), float(np.linalg.norm(np.diff(seen.points[trunk[:2]], axis=0))), 2
+        float(np.linalg.norm(shoulders - hips)), float(np.linalg.norm(np.diff(view.points[trunk[:2]], axis=0))), 2
     )
-    distance = seen.focal * length / pixels
-    x, y = (hips - seen.centre) * distance / seen.focal
-    return np.array([x, -y, -distance])
+    return view.camera.unproject(hips, view.camera.focal * length / pixels)

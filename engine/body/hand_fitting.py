@@ -13,62 +13,73 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import BEYOND, rotation_matrices
 from engine.body.hands import FINGERS, HandModel, chain
 from engine.body.least_squares import descend
+from engine.body.pose_prior import JOINT_LIMIT_SIGMA
+from engine.body.posing import rotation_matrices
+from engine.geometry.camera import Camera
 
-WRIST = (1.0, 0.5, 0.7)
+WRIST_SIGMA = (1.0, 0.5, 0.7)
 """Radians about x, y and z of the T-pose by which hands turn on their arms, usually: the forearm turns with them about x."""
-THUMB = (*(0.4, 0.4, 0.4), *(0.4, 0.5))
+THUMB_SIGMA = (*(0.4, 0.4, 0.4), *(0.4, 0.5))
 """Radians by which the thumb turns at its root, and bends at its other joints, usually."""
-FINGER = (0.12, 0.6, 0.7)
+FINGER_SIGMA = (0.12, 0.6, 0.7)
 """Radians by which a finger is spread, and bends at its first and second joint, usually."""
-CURLED, APART = 0.6, 0.3
+CURL_RATIO, CURL_SIGMA = 0.6, 0.3
 """How much the last joint of a finger bends for what the one before it does, for one tendon bends both; and the radians by
 which it usually does otherwise."""
-LEAST = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
-MOST = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
+MIN_ANGLES = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
+MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
 """Radians to which they turn at least and at most from the hand at rest, in which fingers are bent a little."""
 
-NOISE = 0.05
+LANDMARK_SIGMA = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
-ROBUST = 3.0
+CUTOFF = 3.0
 """Deviations at which the pull of a landmark, or of a bone's direction, is at its strongest (Geman-McClure)."""
-LEANS = 0.25
+DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
-SIZE, ELSEWHERE = 0.2, 0.15
+SCALE_SIGMA, SHIFT_SIGMA = 0.2, 0.15
 """By what share a hand seen is larger or smaller than the template's, usually, and by how many of its lengths the body's fit
 has it elsewhere."""
 
-UPWARDS = np.array([1.0, -1.0, 1.0])
+PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
 """From pixels, y down, to the world's axes."""
 BONES = tuple((a, b) for finger in FINGERS for a, b in zip((0, *chain(finger)[:3]), chain(finger), strict=True))
 """The bones of a hand as pairs of landmarks."""
 
 
 @dataclass(frozen=True)
-class Standpoint:
-    """What a hand hangs on. `arm` (3, 3): the axes of the forearm in the world; `wrist` (3,) metres from the camera, x
-    right, y up, -z away; `turn` (3, 3): the hand's on its forearm, as the body's fit has it; `focal` pixels and `centre` (2,) of the camera."""
+class HandAnchor:
+    """What a hand hangs on, and who sees it.
 
-    arm: NDArray[np.floating]
+    `forearm_axes` (3, 3): those of the forearm, as columns, in the world.
+    `wrist` (3,): where it is in the world, metres.
+    `hand_rotation` (3, 3): the hand's turn on its forearm, as the body's fit has it.
+    `camera`: it looks along the world's -z, for what is nearer to it is known as depth along that axis.
+    """
+
+    forearm_axes: NDArray[np.floating]
     wrist: NDArray[np.floating]
-    turn: NDArray[np.floating]
-    focal: float
-    centre: tuple[float, float]
+    hand_rotation: NDArray[np.floating]
+    camera: Camera
 
 
 @dataclass(frozen=True)
 class HandFit:
-    """`joints` (N,) of the space and their `rotations` (N, 3, 3), each in its parent's axes: the hand, then its fingers.
-    `shift` (2,) pixels by which the hand seen is beside the body's fit, and `scale` by which it is larger; with both,
-    `off`: the median distance of the landmarks in lengths of the hand."""
+    """A hand fitted to its landmarks.
+
+    `joints` (N,): of the space, the hand, then its fingers.
+    `rotations` (N, 3, 3): theirs, each in its parent's axes.
+    `shift` (2,) pixels: by which the hand seen is beside the body's fit.
+    `scale`: by which it is larger than the template's.
+    `median_error`: of the landmarks, with shift and scale, in lengths of the hand.
+    """
 
     joints: NDArray[np.intp]
     rotations: NDArray[np.float64]
     shift: NDArray[np.float64]
     scale: float
-    off: float
+    median_error: float
 
 
 class _Hand:
@@ -77,12 +88,12 @@ class _Hand:
 
     count = 6 + 5 + 4 * 4
 
-    def __init__(self, model: HandModel, coefficients: NDArray[np.floating], at: Standpoint):
-        self.model, self.at = model, at
+    def __init__(self, model: HandModel, coefficients: NDArray[np.floating], anchor: HandAnchor):
+        self.model, self.anchor = model, anchor
         rest = model.mean + np.tensordot(np.asarray(coefficients), model.basis[: len(coefficients)], 1)
         self.rest = (rest - rest[0]).astype(np.float64)
 
-    def turns(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotations(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         """(N, 16, 3, 3) the hand's turn in the forearm's axes and those of the joints 1 to 3 of each finger."""
         vectors = np.zeros((len(parameters), 16, 3))
         thumb, others = parameters[:, 6:11], parameters[:, 11:].reshape(-1, 4, 4)
@@ -100,8 +111,8 @@ class _Hand:
 
     def __call__(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         """Landmarks (N, 21, 3) in metres around the wrist, in the world's axes."""
-        turns = self.turns(parameters)
-        hand = self.at.arm @ turns[:, 0]
+        turns = self.rotations(parameters)
+        hand = self.anchor.forearm_axes @ turns[:, 0]
         places = np.zeros((len(parameters), 21, 3))
         for k, finger in enumerate(FINGERS):
             axes, before = hand, 0
@@ -115,21 +126,20 @@ class _Hand:
 
     def pixels(self, parameters: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
         """(N, 21, 2) where they are seen, shift and scale included."""
-        at = self.at.wrist + places * np.exp(parameters[:, 5])[:, None, None]
-        seen = at[..., :2] * [self.at.focal, -self.at.focal] / -at[..., 2:] + self.at.centre
-        return np.asarray(seen + parameters[:, None, 3:5])
+        at = self.anchor.wrist + places * np.exp(parameters[:, 5])[:, None, None]
+        return np.asarray(self.anchor.camera.project(at, np.float64)[..., :2] + parameters[:, None, 3:5])
 
 
 def fit_hand(
-    model: HandModel, coefficients: NDArray[np.floating], at: Standpoint, seen: NDArray[np.floating]
+    model: HandModel, coefficients: NDArray[np.floating], anchor: HandAnchor, seen: NDArray[np.floating]
 ) -> HandFit:
     """Fit a hand to what is seen of it.
 
     `seen` (21, 3): pixels x and y of its landmarks, and by how many each is nearer to the viewer than the wrist.
     """
-    hand = _Hand(model, coefficients, at)
+    hand = _Hand(model, coefficients, anchor)
     length = hand_length(seen)
-    of_body = Rotation.from_matrix(at.turn).as_rotvec()
+    of_body = Rotation.from_matrix(anchor.hand_rotation).as_rotvec()
     residuals = partial(_residuals, hand, seen, length)
     tried = [descend(residuals, _start(hand, seen, turn)) for turn in (_turn(hand, seen), of_body)]
     parameters = min(tried, key=lambda found: float((residuals(found[None]) ** 2).sum()))
@@ -137,7 +147,7 @@ def fit_hand(
     turned = [0, *(landmark for finger in FINGERS for landmark in chain(finger)[:3])]
     return HandFit(
         model.joints[turned],
-        hand.turns(parameters[None])[0],
+        hand.rotations(parameters[None])[0],
         parameters[3:5],
         float(np.exp(parameters[5])),
         float(np.median(off)) / length,
@@ -181,7 +191,9 @@ def _start(hand: _Hand, seen: NDArray[np.floating], turn: NDArray[np.floating]) 
 def _turn(hand: _Hand, seen: NDArray[np.floating]) -> NDArray[np.float64]:
     """The hand's turn by which its palm lies as the one seen in space."""
     palm = [chain(finger)[0] for finger in FINGERS[1:]]
-    turn, _ = Rotation.align_vectors((seen[palm] - seen[0]) * UPWARDS @ hand.at.arm, hand.rest[palm])
+    turn, _ = Rotation.align_vectors(
+        (seen[palm] - seen[0]) * PICTURE_TO_WORLD @ hand.anchor.forearm_axes, hand.rest[palm]
+    )
     return np.asarray(turn.as_rotvec())
 
 
@@ -190,9 +202,11 @@ def _residuals(
 ) -> NDArray[np.float64]:
     """(N, R): what is to be small, in standard deviations."""
     places = hand(parameters)
-    off = (hand.pixels(parameters, places) - seen[:, :2]) / (NOISE * length)
+    off = (hand.pixels(parameters, places) - seen[:, :2]) / (LANDMARK_SIGMA * length)
     starts, ends = np.array(BONES).T
-    bones = (_unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * UPWARDS)) / LEANS
+    bones = (
+        _unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * PICTURE_TO_WORLD)
+    ) / DIRECTION_SIGMA
     angles = parameters[:, 6:]
     fingers = angles[:, 5:].reshape(-1, 4, 4)
     count = len(parameters)
@@ -200,13 +214,13 @@ def _residuals(
         [
             _robust(off).reshape(count, -1),
             _robust(bones).reshape(count, -1),
-            parameters[:, :3] / WRIST,
-            parameters[:, 3:5] / (ELSEWHERE * length),
-            parameters[:, 5:6] / SIZE,
-            angles[:, :5] / THUMB,
-            (fingers[..., :3] / FINGER).reshape(count, -1),
-            (fingers[..., 3] - CURLED * fingers[..., 2]) / APART,
-            (np.maximum(angles - MOST, 0) + np.maximum(LEAST - angles, 0)) / BEYOND,
+            parameters[:, :3] / WRIST_SIGMA,
+            parameters[:, 3:5] / (SHIFT_SIGMA * length),
+            parameters[:, 5:6] / SCALE_SIGMA,
+            angles[:, :5] / THUMB_SIGMA,
+            (fingers[..., :3] / FINGER_SIGMA).reshape(count, -1),
+            (fingers[..., 3] - CURL_RATIO * fingers[..., 2]) / CURL_SIGMA,
+            (np.maximum(angles - MAX_ANGLES, 0) + np.maximum(MIN_ANGLES - angles, 0)) / JOINT_LIMIT_SIGMA,
         ],
         axis=1,
     )
@@ -214,7 +228,7 @@ def _residuals(
 
 def _robust(off: NDArray[np.float64]) -> NDArray[np.float64]:
     """Deviations (..., D) of which large ones pull less and less."""
-    return np.asarray(off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / ROBUST**2))
+    return np.asarray(off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / CUTOFF**2))
 
 
 def _unit(vectors: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.fitting import Crossing
+from engine.body.observation import Crossing
 from engine.character.figure import SEEN, SIDES, Figure
 from engine.imaging.colour_segmentation import ColourMixture
 from engine.perception.body import LANDMARKS

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -76,5 +77,4 @@ def cast_of(people: Sequence[tuple[Character, Clip]]) -> list[Actor]:
 def resized_camera(camera: Camera, size: tuple[int, int]) -> Camera:
     """The camera of the same picture, resized to `size` (width, height)."""
     factor = size[0] / camera.size[1]
-    x, y = ((c + 0.5) * factor - 0.5 for c in camera.centre)
-    return Camera(camera.eye, camera.focal * factor, (x, y), (size[1], size[0]), camera.axes)
+    return replace(camera.scaled(factor), size=(size[1], size[0]))

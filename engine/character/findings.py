@@ -39,8 +39,8 @@ def write_findings(out: Path, people: Sequence[Person]) -> None:
         **_skeleton(first),
         "camera": {
             "eye": np.round(first.character.eye, 5).tolist(),
-            "focal": round(first.fitted.focal, 3),
-            "centre": list(first.fitted.centre),
+            "focal": round(first.fitted.camera.focal, 3),
+            "centre": list(first.fitted.camera.centre),
             "size": [width, height],
             "wall": WALL,
         },

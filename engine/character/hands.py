@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.hand_fitting import HandFit, Standpoint, fingers_apart, fit_hand, hand_length, openness
+from engine.body.hand_fitting import HandAnchor, HandFit, fingers_apart, fit_hand, hand_length, openness
 from engine.character.figure import Figure
 from engine.character.head import joint_axes
 from engine.character.template_fit import FittedBody, load_human
@@ -38,10 +38,10 @@ def turn_hands(fitted: FittedBody, figure: Figure) -> FittedBody:
     for model, hand in zip(human.hands, figure.hands, strict=True):
         if hand is None or (length := hand_length(hand)) < SMALL:
             continue
-        axes, places = joint_axes(human.rig.parents, rotations, heads, fit.place)
+        axes, places = joint_axes(human.rig.parents, rotations, heads, fit.root_translation)
         wrist, arm = (human.rig.index(f"{model.side}{joint}") for joint in ("Hand", "ForeArm"))
-        standpoint = Standpoint(axes[arm], places[wrist], rotations[wrist], fitted.focal, fitted.centre)
-        found = fit_hand(model, fit.coefficients, standpoint, hand)
+        anchor = HandAnchor(axes[arm], places[wrist], rotations[wrist], fitted.camera)
+        found = fit_hand(model, fit.coefficients, anchor, hand)
         if _believed(found, length):
             rotations[found.joints] = found.rotations
             kept[found.joints[1:]] = openness(hand) < OPEN or fingers_apart(hand) < APART
@@ -51,7 +51,7 @@ def turn_hands(fitted: FittedBody, figure: Figure) -> FittedBody:
 
 def _believed(found: HandFit, length: float) -> bool:
     near = np.linalg.norm(found.shift) < BESIDE * length
-    return bool(near and found.off < OFF and 1 / LARGER < found.scale < LARGER)
+    return bool(near and found.median_error < OFF and 1 / LARGER < found.scale < LARGER)
 
 
 def _share_twist(rotations: NDArray[np.float32], arm: int, wrist: int, along: NDArray[np.floating]) -> None:

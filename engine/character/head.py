@@ -32,10 +32,10 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
     fit, human = fitted.fit, load_human()
     rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)
     head = human.rig.index("Head")
-    worlds, places = joint_axes(human.rig.parents, fit.rotations, heads, fit.place)
+    worlds, places = joint_axes(human.rig.parents, fit.rotations, heads, fit.root_translation)
     model = (rest[human.face] - heads[head]).astype(np.float64)
     seen = fiducials(figure.face[:, :2]).astype(np.float64)
-    camera = np.array([[fitted.focal, 0, fitted.centre[0]], [0, fitted.focal, fitted.centre[1]], [0, 0, 1]])
+    camera = fitted.camera.intrinsics
     start = cv2.Rodrigues(FLIP @ worlds[head])[0]
     found, vector, shift = cv2.solvePnP(
         model, seen, camera, np.zeros(4), start, (FLIP @ places[head])[:, None].copy(), True, cv2.SOLVEPNP_ITERATIVE

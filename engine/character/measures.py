@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
@@ -29,7 +31,7 @@ def pose(character: Character, clip: Clip, frame: int = 0) -> NDArray[np.float32
 def picture_camera(character: Character, fitted: FittedBody, size: tuple[int, int]) -> Camera:
     """The picture's camera in the character's world; `size` (height, width) of the picture."""
     x, y, z = (float(value) for value in character.eye)
-    return Camera((x, y, z), fitted.focal, fitted.centre, size)
+    return replace(fitted.camera, eye=(x, y, z), size=size)
 
 
 def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, character: Character) -> dict[str, float]:

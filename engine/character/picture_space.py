@@ -12,40 +12,28 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.camera import Camera
+
 
 @dataclass(frozen=True)
 class PictureCamera:
-    """A pinhole camera at the origin, looking along -z, y up. `focal` pixels, `centre` (x, y) pixels, `distance` metres
-    to the person."""
+    """A picture's `camera`, and the `distance` in metres at which its picture space has the person."""
 
-    focal: float
-    centre: tuple[float, float]
+    camera: Camera
     distance: float
 
     @property
     def pixels_per_metre(self) -> float:
         """At the person's distance."""
-        return self.focal / self.distance
-
-    def scaled(self, factor: float) -> PictureCamera:
-        """The camera of the same picture, resized by `factor` (pixel centres at whole numbers)."""
-        x, y = ((c + 0.5) * factor - 0.5 for c in self.centre)
-        return PictureCamera(self.focal * factor, (x, y), self.distance)
-
-    def moved(self, left: float, top: float) -> PictureCamera:
-        """The camera of a part of the picture that begins at pixel (left, top)."""
-        return PictureCamera(self.focal, (self.centre[0] - left, self.centre[1] - top), self.distance)
+        return self.camera.focal / self.distance
 
     def to_picture(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """(..., 3) metres as the camera sees them to picture space."""
-        away = -np.asarray(points, np.float64)[..., 2]
-        x = points[..., 0] * self.focal / away + self.centre[0]
-        y = -points[..., 1] * self.focal / away + self.centre[1]
-        return np.stack([x, y, (self.distance - away) * self.pixels_per_metre], -1)
+        seen = self.camera.project(points, np.float64)
+        seen[..., 2] = (self.distance - seen[..., 2]) * self.pixels_per_metre
+        return seen
 
     def to_metres(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """The inverse of `to_picture`."""
         away = self.distance - np.asarray(points, np.float64)[..., 2] / self.pixels_per_metre
-        x = (points[..., 0] - self.centre[0]) * away / self.focal
-        y = -(points[..., 1] - self.centre[1]) * away / self.focal
-        return np.stack([x, y, -away], -1)
+        return self.camera.unproject(points[..., :2], away)

@@ -200,7 +200,7 @@ def reconstruct(
         run.warn(
             "hand_in_pocket", "A hand is in a pocket, or behind cloth: the template's is shown where it comes out."
         )
-    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.camera()), labels, run.warn)
+    fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, run.warn)
     mesh = run.stage("build_mesh", build_mesh, figure, silhouette, fitted, labels)
     character = run.stage(
         "make_character",

@@ -59,7 +59,7 @@ def bind(
     rest = rest_skeleton(fitted, space)
     own = np.where(fitted.kept[:, None, None], np.eye(3), fit.rotations.astype(np.float64))
     turns = Rotation.from_matrix(own).as_quat()
-    root = fit.place + eye
+    root = fit.root_translation + eye
     transforms = pose_transforms(rest, turns[None].astype(np.float32), root[None].astype(np.float32))[0].astype(
         np.float64
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -60,8 +60,10 @@ class Silhouette:
 
     def camera(self, picture: PictureCamera) -> PictureCamera:
         """The grid's camera, of the picture's."""
-        x, y = self.to_grid[:, :2] @ np.array(picture.centre) + self.to_grid[:, 2]
-        return PictureCamera(picture.focal * float(self.to_grid[0, 0]), (float(x), float(y)), picture.distance)
+        x, y = (self.to_grid[:, :2] @ np.array(picture.camera.centre) + self.to_grid[:, 2]).tolist()
+        focal = picture.camera.focal * float(self.to_grid[0, 0])
+        height, width = self.mask.shape
+        return replace(picture, camera=replace(picture.camera, focal=focal, centre=(x, y), size=(height, width)))
 
 
 def cut_out(

@@ -76,7 +76,7 @@ def label(
     InputError : `labels_unreadable`, and what `read_labels` may raise. Warns of `labels_unlike_joints`.
     """
     human = load_human()
-    posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     height, width = figure.rgb.shape[:2]
     given = None
     if file is not None:
@@ -128,7 +128,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
     """The mesh in the pictured pose (sections 4.1 and 4.2)."""
     labels = labels.layered
     human = load_human()
-    posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     face = None
     if figure.face is not None and not in_profile(figure):
         seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
@@ -174,7 +174,7 @@ def make_character(
     if face is not None and turned is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)
-    camera = silhouette.camera(fitted.camera())
+    camera = silhouette.camera(fitted.picture_camera())
     inside = cv2.erode(silhouette.mask.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     character = bind(mesh, inside, camera, fitted, load_human().space, texture, uv)
     character = relaxed(replace(character, mesh=fewer_triangles(character, triangles)))

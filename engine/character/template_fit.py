@@ -11,18 +11,20 @@ from numpy.typing import NDArray
 
 from engine.body import load_template
 from engine.body.body_space import BodySpace, load_body_space
+from engine.body.contour import SkinPoints, skin_points, trace_contour
 from engine.body.face_points import face_points
 from engine.body.first_guess import facing, first_guess
-from engine.body.fitting import LIMBS, Fit, Seen, fit_body
+from engine.body.fitting import Fit, fit_body
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
-from engine.body.outline import Skin, skin_model, trace
+from engine.body.observation import LIMBS, Observation
 from engine.body.rig import Rig
 from engine.body.template import load_rig
 from engine.character.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand
 from engine.character.figure import Figure
 from engine.character.picture_space import PictureCamera
 from engine.character.posed_template import PosedTemplate
+from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
 from engine.perception.body import LANDMARKS
@@ -54,18 +56,17 @@ JOINTS = {"Arm": "Shoulder", "ForeArm": "Elbow", "Hand": "Wrist", "UpLeg": "Hip"
 
 @dataclass(frozen=True)
 class FittedBody:
-    """The fit, and the picture's camera: `focal` pixels, `centre` (2,). `kept` (J,): the joints that stay turned as they are
-    in the picture when the character stands in T-pose. `crossed`: the arms, if they are."""
+    """The fit, and the picture's `camera`, which stands at the origin. `kept` (J,): the joints that stay turned as they are in
+    the picture when the character stands in T-pose. `crossed`: the arms, if they are."""
 
     fit: Fit
-    focal: float
-    centre: tuple[float, float]
+    camera: Camera
     kept: NDArray[np.bool_]
     crossed: CrossedArms | None = None
 
-    def camera(self) -> PictureCamera:
-        """The camera of the picture."""
-        return PictureCamera(self.focal, self.centre, -float(self.fit.place[2]))
+    def picture_camera(self) -> PictureCamera:
+        """The camera of the picture, with the person's distance."""
+        return PictureCamera(self.camera, -float(self.fit.root_translation[2]))
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ class Human:
     rig: Rig
     triangles: NDArray[np.int32]
     landmarks: LandmarkModel
-    skin: Skin
+    skin: SkinPoints
     face: NDArray[np.intp]
     hands: tuple[HandModel, HandModel]
 
@@ -91,7 +92,7 @@ def load_human() -> Human:
         rig,
         triangulate(template.quads[template.faces("body")]),
         landmark_model(template, space, rig),
-        skin_model(template, space, rig),
+        skin_points(template, space, rig),
         face_points(template, space),
         (hand_model(template, space, rig, "Left"), hand_model(template, space, rig, "Right")),
     )
@@ -104,7 +105,8 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     at = [LANDMARKS.index(name) for name in landmarks.names]
     trust = np.array([RELIABLE.get(_part(name), 1.0) for name in landmarks.names], np.float32)
     height, width = figure.rgb.shape[:2]
-    focal, centre = FOCAL * max(height, width), ((width - 1) / 2, (height - 1) / 2)
+    centre = (width - 1) / 2, (height - 1) / 2
+    camera = Camera((0.0, 0.0, 0.0), FOCAL * max(height, width), centre, (height, width))
     places = {
         f"{side}{joint}": LANDMARKS.index(f"{side}{mark}")
         for joint, mark in JOINTS.items()
@@ -118,26 +120,26 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
     crossed = crossed_arms(figure, mask)
     confidence = without_hidden_hand(figure, crossed).confidence
-    seen = Seen(
+    seen = Observation(
         figure.points[at],
         confidence[at] * trust,
         limbs.astype(np.float32),
         sure.astype(np.float32),
-        focal,
-        centre,
+        camera,
         crossing=None if crossed is None else crossed.crossing,
+        contour=trace_contour(mask),
     )
     start = first_guess(human.space, landmarks, seen, trunk)
-    fit = fit_body(human.space, landmarks, seen, start, trace(mask), human.skin)
+    fit = fit_body(human.space, landmarks, seen, start, human.skin)
     kept = np.zeros(len(human.space.names), np.bool_)
-    return FittedBody(fit, focal, centre, kept, crossed)
+    return FittedBody(fit, camera, kept, crossed)
 
 
 def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> PosedTemplate:
     """The fitted template in the picture space of a camera: that of the picture, or of a grid on it."""
     fit = fitted.fit
     rest, heads = human.space.vertices(fit.coefficients), human.space.joints(fit.coefficients)
-    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(human.rig.parents, heads, fit.rotations, fit.root_translation - heads[0])
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     vertices = skin(rest, human.rig.bones, human.rig.weights, transforms)
     return PosedTemplate(

@@ -105,7 +105,7 @@ def _turned(fitted: FittedBody, limb: int) -> Iterator[FittedBody]:
     human, fit = load_human(), fitted.fit
     joint, bend = (human.rig.index(name) for name in BONES[limb].split())
     heads = human.space.joints(fit.coefficients)
-    axes, _ = joint_axes(human.rig.parents, fit.rotations, heads, fit.place)
+    axes, _ = joint_axes(human.rig.parents, fit.rotations, heads, fit.root_translation)
     for bent in (fit.rotations[bend], np.eye(3)):
         for degrees in TURNS:
             turn = Rotation.from_euler("z", degrees, degrees=True).as_matrix()

@@ -79,7 +79,7 @@ def carry(first: Exposure, last: Exposure, share: float, scene: Scene, samples: 
 
     None where more than `UNSEEN` pixels were seen in neither.
     """
-    camera = CAMERA.enlarged(samples)
+    camera = CAMERA.scaled(samples)
     raster = rasterise(camera.project(scene.vertices), scene.triangles, camera.size, perspective=True)
     parts = parts_seen(scene, raster)
     light, weight = np.zeros((*camera.size, 3), np.float32), np.zeros(camera.size, np.float32)

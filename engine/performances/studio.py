@@ -56,7 +56,7 @@ def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float
 
 def expose(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1.0) -> Exposure:
     """Light a scene."""
-    camera = CAMERA.enlarged(samples)
+    camera = CAMERA.scaled(samples)
     seen = look(scene, camera)
     matter = materials(actor, scene, seen)
     surface = Surface(
@@ -79,7 +79,7 @@ def expose(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1
 
 def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES) -> NDArray[np.uint8]:
     """Draw the hair over an exposure and develop it: (SIZE, SIZE, 3) uint8."""
-    camera = CAMERA.enlarged(samples)
+    camera = CAMERA.scaled(samples)
     picture = exposure.radiance.copy()
     widths = (actor.crop.widths, *(rooted.widths for rooted in actor.rooted))
     for width, hairs, shine in zip(widths, exposure.scene.hairs, exposure.hair, strict=True):

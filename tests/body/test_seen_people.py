@@ -34,7 +34,7 @@ def fitted_joints(known: KnownPicture, folder: Path) -> NDArray[np.float64]:
     silhouette = cut_out(figure, None, (), Limits(), None, None, lambda code, message: None)
     fit = fit_template(figure, silhouette).fit
     heads = HUMAN.space.joints(fit.coefficients)
-    transforms = bone_transforms(HUMAN.rig.parents, heads, fit.rotations, fit.place - heads[0])
+    transforms = bone_transforms(HUMAN.rig.parents, heads, fit.rotations, fit.root_translation - heads[0])
     return np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
 
 

@@ -13,6 +13,7 @@ from engine.character.film import WALL, film
 from engine.character.measures import pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
+from engine.geometry.camera import Camera
 from engine.motion.edit import repeated
 from engine.render.camera_moves import ORBIT_DEGREES, PERIOD_SECONDS, SLIDE_SHARE, Move
 from engine.render.ground_shadow import GroundShadow
@@ -33,7 +34,9 @@ def filmed(character: Character, move: Move, shadow: GroundShadow = DARK) -> np.
     """(2, H, W, 3): the first frame, and the one in which the camera is furthest to the side. There is a green mark on the
     wall, in the middle of which the pixel is (94.5, 29.5)."""
     nowhere = Fit(np.zeros(1, np.float32), np.zeros((1, 3, 3), np.float32), np.zeros(3, np.float32), 0.0, np.zeros(0))
-    fitted = FittedBody(nowhere, FOCAL, ((WIDTH - 1) / 2, (HEIGHT - 1) / 2), np.zeros(1, np.bool_))
+    fitted = FittedBody(
+        nowhere, Camera((0, 0, 0), FOCAL, ((WIDTH - 1) / 2, (HEIGHT - 1) / 2), (HEIGHT, WIDTH)), np.zeros(1, np.bool_)
+    )
     plate = np.full((HEIGHT, WIDTH, 3), GREY, np.uint8)
     plate[20:40, 85:105] = GREEN
     clip = replace(repeated(character.pictured, 2), fps=4 / PERIOD_SECONDS)

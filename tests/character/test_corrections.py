@@ -190,7 +190,7 @@ def test_an_arm_dragged_aside_is_fitted_there(alone: Path, figure: Figure) -> No
     dragged = found(alone, Choice(placed=placed))
     mask = outlined(figure).alpha > 0.5
     fitted = fit_figure(dragged, mask)
-    posed = pose_template(fitted, fitted.camera(), human)
+    posed = pose_template(fitted, fitted.picture_camera(), human)
     at = posed.joints[human.rig.index("LeftForeArm"), :2]
     assert np.linalg.norm(at - elbow) < 0.35 * arm
 

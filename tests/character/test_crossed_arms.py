@@ -47,7 +47,7 @@ def test_the_arm_whose_hand_is_seen_is_before_the_other(man: tuple[Figure, Silho
     crossed = crossed_arms(figure, silhouette.alpha > 0.5)
     assert crossed is not None and crossed.behind == "Right"
     human = load_human()
-    template = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    template = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     depth = {
         side: template.joints[[human.rig.index(f"{side}{joint}") for joint in ("ForeArm", "Hand")], 2].mean()
         for side in ("Left", "Right")

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import COEFFICIENTS, Fit
+from engine.body.fitting import Fit
 from engine.body.hands import FINGERS
+from engine.body.posing import COEFFICIENTS
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import joint_axes
 from engine.character.template_fit import FittedBody, load_human
+from engine.geometry.camera import Camera
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
 NOBODY = np.zeros(COEFFICIENTS, np.float32)
@@ -25,7 +27,7 @@ def standing(turns: dict[str, np.ndarray] | None = None) -> FittedBody:
     for name, vector in {**DOWN, **(turns or {})}.items():
         own[human.rig.index(name)] = Rotation.from_rotvec(vector).as_matrix()
     fit = Fit(NOBODY, own, PLACE.astype(np.float32), 0.0, np.zeros(1))
-    return FittedBody(fit, FOCAL, CENTRE, np.zeros(len(own), np.bool_))
+    return FittedBody(fit, Camera((0, 0, 0), FOCAL, CENTRE, (800, 600)), np.zeros(len(own), np.bool_))
 
 
 def figure(left: np.ndarray | None) -> Figure:
@@ -38,7 +40,7 @@ def places(body: FittedBody) -> np.ndarray:
     """The left hand's landmarks (21, 3), metres from the camera."""
     human = load_human()
     heads, model = human.space.joints(NOBODY), human.hands[0]
-    axes, joints = joint_axes(human.rig.parents, body.fit.rotations, heads, body.fit.place)
+    axes, joints = joint_axes(human.rig.parents, body.fit.rotations, heads, body.fit.root_translation)
     return joints[model.joints] + np.einsum(
         "nij,nj->ni", axes[model.joints], (model.mean - heads[model.joints]).astype(float)
     )

@@ -7,13 +7,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import COEFFICIENTS, Fit
+from engine.body.fitting import Fit
+from engine.body.posing import COEFFICIENTS
 from engine.character.face_warp import Face, with_face
 from engine.character.figure import Figure
 from engine.character.head import turn_head
 from engine.character.part_surface import Surface, warp_part
 from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody, load_human
+from engine.geometry.camera import Camera
 from engine.geometry.welding import is_closed
 from engine.perception.head_pose import mesh_from_fiducials
 
@@ -24,7 +26,7 @@ def standing() -> FittedBody:
     human = load_human()
     turns = np.broadcast_to(np.eye(3, dtype=np.float32), (len(human.rig.names), 3, 3)).copy()
     fit = Fit(np.zeros(COEFFICIENTS, np.float32), turns, PLACE.astype(np.float32), 0.0, np.zeros(1))
-    return FittedBody(fit, FOCAL, CENTRE, np.zeros(len(turns), np.bool_))
+    return FittedBody(fit, Camera((0, 0, 0), FOCAL, CENTRE, (800, 600)), np.zeros(len(turns), np.bool_))
 
 
 def figure_with(face: np.ndarray | None) -> Figure:

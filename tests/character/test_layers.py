@@ -22,7 +22,7 @@ def layers_of(photo: Path, joint: str) -> tuple[list[Layer], int, int]:
     silhouette = cut_out(figure, None, (), Limits(), None, None, lambda code, message: None)
     fitted, human = fit_template(figure, silhouette), load_human()
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
-    posed = pose_template(fitted, silhouette.camera(fitted.camera()), human)
+    posed = pose_template(fitted, silhouette.camera(fitted.picture_camera()), human)
     x, y = np.rint(silhouette.to_grid[:, :2] @ figure.point(joint) + silhouette.to_grid[:, 2]).astype(int)
     return build_layers(labels, posed, human.rig), x, y
 

@@ -9,8 +9,9 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import COEFFICIENTS, Fit
+from engine.body.fitting import Fit
 from engine.body.parts import PARTS, vertex_parts
+from engine.body.posing import COEFFICIENTS
 from engine.character.label_map import label_parts
 from engine.character.layers import build_layers
 from engine.character.overlapping_legs import as_the_template, leg_before
@@ -18,6 +19,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import close
 from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import side_maps
+from engine.geometry.camera import Camera
 from engine.geometry.welding import is_closed
 from engine.imaging.mask_distance import distance_to
 
@@ -37,12 +39,14 @@ def fitted_as(turns: dict[str, tuple[int, int, int]]) -> FittedBody:
         rotations[human.rig.index(joint)] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     place = np.array([0, 0.05, -3.0], np.float32)
     fit = Fit(np.zeros(COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
-    return FittedBody(fit, 660.0, (SIZE[1] / 2, SIZE[0] / 2), np.zeros(len(rotations), np.bool_))
+    return FittedBody(
+        fit, Camera((0, 0, 0), 660.0, (SIZE[1] / 2, SIZE[0] / 2), SIZE), np.zeros(len(rotations), np.bool_)
+    )
 
 
 def standing(turns: dict[str, tuple[int, int, int]]) -> PosedTemplate:
     fitted = fitted_as(turns)
-    return pose_template(fitted, fitted.camera(), load_human())
+    return pose_template(fitted, fitted.picture_camera(), load_human())
 
 
 def without_arms(template: PosedTemplate) -> np.ndarray:

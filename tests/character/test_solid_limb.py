@@ -29,7 +29,7 @@ def posed(forearm: float) -> PosedTemplate:
     fitted, rig = standing(), load_human().rig
     fitted.fit.rotations[rig.index("LeftArm")] = Rotation.from_euler("z", -90, degrees=True).as_matrix()
     fitted.fit.rotations[rig.index("LeftForeArm")] = Rotation.from_euler("y", -forearm, degrees=True).as_matrix()
-    return pose_template(fitted, fitted.camera(), load_human())
+    return pose_template(fitted, fitted.picture_camera(), load_human())
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.body.fitting import LIMBS
+from engine.body.observation import LIMBS
 from engine.character.template_fit import FLATTENED, legs_apart
 
 FRONT = np.array([0.0, 0, 1])

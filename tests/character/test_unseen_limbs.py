@@ -130,7 +130,7 @@ def test_a_pose_that_would_show_the_arm_gives_way_to_one_that_hides_it(turns: di
     mask = clothed(right)
     labels = labelled(right, mask)
     fitted = fitted_as({"Hips": (0, 90, 0)} | turns)
-    camera = fitted.camera()
+    camera = fitted.picture_camera()
     assert unseen_limbs(labels, pose_template(fitted, camera, human), human.rig) == []
     told: list[str] = []
     hidden = with_limbs_hidden(fitted, camera, labels, lambda code, message: told.append(code))

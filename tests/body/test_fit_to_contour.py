@@ -1,25 +1,31 @@
-"""The outline tells what landmarks do not: how stout somebody is."""
+"""The contour tells what landmarks do not: how stout somebody is."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import cv2
 import numpy as np
 
 from engine.body import load_template
 from engine.body.body_space import load_body_space
+from engine.body.contour import Contour, match_contour, skin_points, trace_contour
 from engine.body.first_guess import first_guess
-from engine.body.fitting import COEFFICIENTS, LIMBS, TURNED, Fit, Seen, fit_body, forward, rotation_matrices
+from engine.body.fitting import Fit, fit_body
 from engine.body.landmarks import landmark_model
-from engine.body.outline import Outline, meet, skin_model, trace
+from engine.body.observation import LIMBS, Observation
+from engine.body.posing import COEFFICIENTS, FITTED_JOINTS, forward, rotation_matrices
 from engine.body.rig import HUMAN
 from engine.body.template import load_rig
+from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
 
 TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN)
-MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_model(TEMPLATE, SPACE, BONES)
+MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_points(TEMPLATE, SPACE, BONES)
 FOCAL, CENTRE, SIZE = 1400.0, (320.0, 400.0), (820, 640)
-LEAST = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(TURNED) + COEFFICIENTS)])
+CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, SIZE)
+LEAST = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + COEFFICIENTS)])
 
 
 def parameters(coefficients: dict[int, float], **turns: tuple[float, float, float]) -> np.ndarray:
@@ -27,13 +33,13 @@ def parameters(coefficients: dict[int, float], **turns: tuple[float, float, floa
     given = {"LeftArm": (0, 0, -0.8), "RightArm": (0, 0, 0.8)} | turns
     found = LEAST.copy()
     for name, turn in given.items():
-        found[3 + 3 * TURNED.index(name) :][:3] = turn
+        found[3 + 3 * FITTED_JOINTS.index(name) :][:3] = turn
     for number, value in coefficients.items():
         found[len(found) - COEFFICIENTS + number] = value
     return found
 
 
-def seen_of(truth: np.ndarray) -> tuple[Seen, dict[str, np.ndarray]]:
+def seen_of(truth: np.ndarray) -> tuple[Observation, dict[str, np.ndarray]]:
     """Exact landmarks."""
     joints, points = forward(SPACE, MARKS, truth)
     pixels = points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE
@@ -41,14 +47,14 @@ def seen_of(truth: np.ndarray) -> tuple[Seen, dict[str, np.ndarray]]:
     limbs = np.stack([place[b] - place[a] for a, b in LIMBS])
     limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
     sure = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
-    return Seen(pixels.astype(np.float32), sure[0], limbs.astype(np.float32), sure[1], FOCAL, CENTRE), place
+    return Observation(pixels.astype(np.float32), sure[0], limbs.astype(np.float32), sure[1], CAMERA), place
 
 
 def mask_of(truth: np.ndarray) -> np.ndarray:
     """The body as the camera sees it."""
     turns, coefficients = truth[3:-COEFFICIENTS].reshape(-1, 3), truth[-COEFFICIENTS:]
     rotations = np.broadcast_to(np.eye(3), (len(SPACE.names), 3, 3)).copy()
-    rotations[[SPACE.names.index(name) for name in TURNED]] = rotation_matrices(turns)
+    rotations[[SPACE.names.index(name) for name in FITTED_JOINTS]] = rotation_matrices(turns)
     heads = SPACE.joints(coefficients)
     transforms = bone_transforms(
         BONES.parents, heads, rotations.astype(np.float32), (truth[:3] - heads[0]).astype(np.float32)
@@ -61,9 +67,10 @@ def mask_of(truth: np.ndarray) -> np.ndarray:
     return mask > 0
 
 
-def fitted(truth: np.ndarray, outline: Outline | None) -> Fit:
+def fitted(truth: np.ndarray, contour: Contour | None) -> Fit:
     seen, place = seen_of(truth)
-    return fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place), outline, SKIN)
+    seen = replace(seen, contour=contour)
+    return fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place), SKIN)
 
 
 def waist(coefficients: np.ndarray) -> float:
@@ -76,25 +83,25 @@ def waist(coefficients: np.ndarray) -> float:
 
 def test_the_outline_of_a_disk_is_its_circle() -> None:
     y, x = np.mgrid[:200, :240]
-    outline = trace((x - 120) ** 2 + (y - 90) ** 2 < 60**2)
-    away = outline.points - [120, 90]
+    contour = trace_contour((x - 120) ** 2 + (y - 90) ** 2 < 60**2)
+    away = contour.points - [120, 90]
     np.testing.assert_allclose(np.linalg.norm(away, axis=1), 60, atol=1.5)
-    np.testing.assert_allclose(outline.normals, away / np.linalg.norm(away, axis=1, keepdims=True), atol=0.15)
+    np.testing.assert_allclose(contour.normals, away / np.linalg.norm(away, axis=1, keepdims=True), atol=0.15)
 
 
 def test_what_the_picture_cuts_is_no_outline() -> None:
     mask = np.zeros((100, 80), np.bool_)
     mask[40:, 20:60] = True
-    outline = trace(mask)
-    assert len(outline.points) and outline.points[:, 1].max() < 98
+    contour = trace_contour(mask)
+    assert len(contour.points) and contour.points[:, 1].max() < 98
 
 
 def test_an_outline_meets_what_faces_the_same_way_outermost() -> None:
-    outline = Outline(np.array([[50.0, 50.0]]), np.array([[1.0, 0.0]]))
+    contour = Contour(np.array([[50.0, 50.0]]), np.array([[1.0, 0.0]]))
     pixels = np.array([[46.0, 50.0], [48.0, 50.5], [51.0, 50.0], [49.0, 58.0]])
     right, left = [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]
-    which, at = meet(
-        outline, pixels, np.array([right, right, left, right]), 100
+    which, at = match_contour(
+        contour, pixels, np.array([right, right, left, right]), 100
     )  # the third faces back, the last is far
     assert which.tolist() == [0] and at.tolist() == [1]
 
@@ -111,7 +118,7 @@ def test_the_outline_draws_the_body_to_the_mask() -> None:
         truth = parameters({number: value})
         mask = mask_of(truth)
         bare.append(overlap(fitted(truth, None), mask))
-        better.append(overlap(fitted(truth, trace(mask)), mask))
+        better.append(overlap(fitted(truth, trace_contour(mask)), mask))
     assert np.mean(better) > np.mean(bare) + 0.002
     assert min(better) > 0.975
 
@@ -120,5 +127,5 @@ def test_wide_clothes_do_not_make_stout_people() -> None:
     """A coat around the same body: the fit stays nearer to the body than to the coat."""
     truth = parameters({})
     coat = cv2.dilate(mask_of(truth).astype(np.uint8), np.ones((61, 61), np.uint8)) > 0
-    found = fitted(truth, trace(coat))
+    found = fitted(truth, trace_contour(coat))
     assert waist(found.coefficients) - waist(truth[-COEFFICIENTS:]) < 0.04

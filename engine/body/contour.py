@@ -1,0 +1,119 @@
+"""A person's contour as a target of fitting: where the body should reach to, seen in the picture.
+
+Each point of the mask's contour asks for the outermost part of the body that faces the same way nearby. People wear
+clothes: a body may stay behind the contour, but must not stand out of it (cf. the interpenetration of body and mask in
+C. Lassner et al., Unite the People, 2017, which counts both ways alike).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from engine.body.body_space import BodySpace
+from engine.body.rig import Rig
+from engine.body.template import Template
+from engine.geometry.surface import triangulate, vertex_normals
+
+CONTOUR_POINTS = 240
+"""Points along a contour."""
+SMOOTHING = 2.0
+"""Steps of the contour over which its direction is averaged."""
+MIN_NORMAL_COSINE = 0.6
+"""The least cosine between the contour's normal and the body's in the picture, for the two to be matched."""
+MAX_NORMAL_DEPTH = 0.75
+"""The most of the body's normal that may point at the viewer or away: where a contour runs, the body lies across the view."""
+SEARCH_HALF_WIDTH = 0.01
+"""Half the width of the strip in which a contour's point looks for the body, as a share of the person's height."""
+SEARCH_INSIDE, SEARCH_OUTSIDE = 0.06, 0.03
+"""How far inside and outside the contour the body may be to be matched, as shares of the person's height."""
+UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Foot", "Toe", "Thumb", "Index", "Middle", "Ring", "Pinky")
+"""Joints whose surface is not matched: hair, fingers and shoes have contours of their own."""
+VERTEX_STRIDE = 2
+"""One of so many vertices of the template is looked at."""
+
+
+@dataclass(frozen=True)
+class Contour:
+    """A mask's contour: `points` (M, 2) pixels along it, and its `normals` (M, 2) there, outwards."""
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SkinPoints:
+    """Points of the template's surface, each carried by one joint.
+
+    `joints` (S,): which carries each.
+    `mean` (S, 3) and `basis` (K, S, 3): where they are at rest, metres, linear in the coefficients.
+    `normals` (S, 3): the mean body's, unit vectors.
+    """
+
+    joints: NDArray[np.intp]
+    mean: NDArray[np.float32]
+    basis: NDArray[np.float32]
+    normals: NDArray[np.float32]
+
+    def subset(self, chosen: NDArray[np.intp]) -> SkinPoints:
+        """Those with the numbers `chosen`."""
+        return SkinPoints(self.joints[chosen], self.mean[chosen], self.basis[:, chosen], self.normals[chosen])
+
+
+def skin_points(template: Template, space: BodySpace, rig: Rig) -> SkinPoints:
+    """Points all over trunk, arms and legs."""
+    normals = vertex_normals(space.mean, triangulate(template.quads[template.faces("body")]))
+    body = template.vertices_of("body")[::VERTEX_STRIDE].astype(np.intp)
+    carried = [k for k in body if not any(leaf in rig.names[rig.bones[k, 0]] for leaf in UNMATCHED_JOINTS)]
+    chosen = np.array(carried, np.intp)
+    at = np.array([space.names.index(rig.names[bone]) for bone in rig.bones[chosen, 0]])
+    return SkinPoints(at, space.mean[chosen], space.basis[:, chosen], normals[chosen])
+
+
+def trace_contour(mask: NDArray[np.bool_]) -> Contour:
+    """The contour of the largest piece of a mask (H, W), at even steps; what the picture's border cuts is left out."""
+    height, width = mask.shape
+    found: Sequence[NDArray[np.int32]] = cv2.findContours(  # type: ignore[assignment]
+        mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+    )[0]
+    line = max(found, key=len)[:, 0].astype(np.float64)
+    steps = np.linspace(0, len(line), CONTOUR_POINTS, endpoint=False).astype(int)
+    width_of_mean = SMOOTHING * len(line) / CONTOUR_POINTS
+    smooth = gaussian_filter1d(line, width_of_mean, axis=0, mode="wrap")
+    along = np.roll(smooth, -1, 0) - np.roll(smooth, 1, 0)
+    normals = np.stack([-along[:, 1], along[:, 0]], 1)
+    signed = float(((line - line.mean(0)) * normals).sum())  # positive where they point outwards
+    normals *= np.sign(signed) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    points, normals = line[steps], normals[steps]
+    within = ((points > 1) & (points < [width - 2, height - 2])).all(1)
+    return Contour(points[within], normals[within])
+
+
+def match_contour(
+    contour: Contour, pixels: NDArray[np.float64], normals: NDArray[np.float64], height: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which points of the contour meet which points of the body, both (R,).
+
+    Parameters
+    ----------
+    pixels : (S, 2) the body's points in the picture; `normals` (S, 3) there: x right, y down, z to the viewer.
+    height : of the person, pixels.
+    """
+    away = pixels[None] - contour.points[:, None]
+    across = (away * contour.normals[:, None]).sum(-1)
+    along = away[..., 0] * contour.normals[:, None, 1] - away[..., 1] * contour.normals[:, None, 0]
+    flat = normals[:, :2] / np.maximum(np.linalg.norm(normals[:, :2], axis=1, keepdims=True), 1e-9)
+    meant = (
+        (np.abs(along) < SEARCH_HALF_WIDTH * height)
+        & (across > -SEARCH_INSIDE * height)
+        & (across < SEARCH_OUTSIDE * height)
+    )
+    meant &= (contour.normals @ flat.T > MIN_NORMAL_COSINE) & (np.abs(normals[:, 2]) < MAX_NORMAL_DEPTH)
+    outermost = np.where(meant, across, -np.inf).argmax(1)
+    which = np.flatnonzero(meant.any(1))
+    return which, outermost[which]
