@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from engine.character.measures import pose, projected_areas
 from engine.character.rigging import Character, at_rest
+from engine.geometry.adjacency import neighbours
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms
 from engine.geometry.welding import weld
@@ -25,7 +25,7 @@ def without_backs_in_view(character: Character, camera: Camera) -> Character:
     mesh = character.mesh
     point = weld(mesh)
     first = np.unique(point, return_index=True)[1]
-    neighbours = _neighbours(point[mesh.triangles], len(first))
+    beside = neighbours(point[mesh.triangles], len(first))
     pictured = pose_transforms(mesh.skeleton, character.pictured.rotations, character.pictured.root)[0]
     best, fewest = character, _backs(character, camera)
     for _ in range(ROUNDS):
@@ -34,7 +34,7 @@ def without_backs_in_view(character: Character, camera: Camera) -> Character:
         posed = pose(best, best.pictured)
         moved = np.unique(point[mesh.triangles[fewest]])
         where = posed[first].astype(np.float64)
-        drawn = (neighbours[moved] @ where) / np.asarray(neighbours[moved].sum(1))
+        drawn = (beside[moved] @ where) / beside[moved].sum(1)[:, None]
         some = np.isin(point, moved)
         goal = drawn[np.searchsorted(moved, point[some])]
         vertices, weights = best.mesh.vertices.copy(), best.mesh.weights.copy()
@@ -54,10 +54,3 @@ def _backs(character: Character, camera: Camera) -> NDArray[np.intp]:
     seen = rasterise(projected, triangles, camera.size, perspective=True).triangle
     seen = seen[seen >= 0]
     return np.asarray(seen[projected_areas(projected, triangles)[seen] < 0], np.intp)
-
-
-def _neighbours(faces: NDArray[np.integer], count: int) -> sparse.csr_matrix:
-    """(N, N) with ones where points have an edge between them."""
-    a, b = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).T
-    edges = sparse.csr_matrix((np.ones(len(a)), (a, b)), (count, count))
-    return sparse.csr_matrix(edges + edges.T > 0, dtype=np.float64)

@@ -1,4 +1,8 @@
-"""Surfaces made of triangles: their normals, and the directions in which a chart runs on them."""
+"""Surfaces made of triangles: their areas and normals, and the directions in which a chart runs on them.
+
+`vertices` are (V, 3) in any unit of length, `triangles` (T, 3) indices, counter-clockwise seen from outside. Which vertices and
+triangles touch is in `engine.geometry.adjacency`, which vertices are one point in `engine.geometry.welding`.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,24 @@ from engine.compiled import njit
 def triangulate(quads: NDArray[np.integer]) -> NDArray[np.int32]:
     """(F, 4) quads to (2F, 3) triangles: the first halves of all, then the second halves."""
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
+
+
+def triangle_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
+    """(T,) area of each triangle, in the vertices' precision and the square of their unit."""
+    return np.asarray(np.linalg.norm(_doubled_areas(vertices, triangles), axis=1) / 2)
+
+
+def vertex_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(V,) float64: a third of the area of each vertex's triangles; together they are the surface's."""
+    thirds = np.repeat(triangle_areas(vertices, triangles) / 3, 3)
+    return np.asarray(np.bincount(triangles.ravel(), thirds, minlength=len(vertices)), np.float64)
+
+
+def face_normals(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
+    """(T, 3) unit normals of the triangles, in the vertices' precision; zero for those without area."""
+    doubled = _doubled_areas(vertices, triangles)
+    length = np.linalg.norm(doubled, axis=1, keepdims=True)
+    return np.asarray(doubled / np.where(length > 0, length, 1))
 
 
 def vertex_normals(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float32]:
@@ -31,6 +53,12 @@ def chart_tangents(
         np.ascontiguousarray(chart, np.float32),
         np.ascontiguousarray(triangles, np.int32),
     )
+
+
+def _doubled_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
+    """(T, 3) normals as long as twice the area of their triangles."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.asarray(np.cross(b - a, c - a))
 
 
 @njit()

@@ -14,13 +14,15 @@ def weld(mesh: SkinnedMesh) -> NDArray[np.int32]:
     Vertices are one point where they lie at the same place and move alike (same bones, same weights): parts that
     merely touch at rest stay apart.
     """
-    key = np.concatenate(
-        [
-            np.ascontiguousarray(column).view(np.uint8).reshape(len(mesh.vertices), -1)
-            for column in (mesh.vertices + np.float32(0), mesh.bones, mesh.weights)  # + 0: no negative zeros
-        ],
-        1,
-    )
+    return same_rows(mesh.vertices, mesh.bones, mesh.weights)
+
+
+def same_rows(*columns: NDArray[np.number]) -> NDArray[np.int32]:
+    """(V,) int32: vertices that are alike to the bit in all `columns`, each (V, ...), have one number, counted from 0. What is no
+    SkinnedMesh is welded by its places alone: `same_rows(vertices)`."""
+    count = len(columns[0])
+    positive = [np.ascontiguousarray(column + column.dtype.type(0)) for column in columns]  # no negative zeros
+    key = np.concatenate([column.view(np.uint8).reshape(count, -1) for column in positive], 1)
     rows = np.ascontiguousarray(key).view(np.dtype((np.void, key.shape[1]))).ravel()
     return np.unique(rows, return_inverse=True)[1].astype(np.int32)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from engine.geometry.surface import triangulate, vertex_normals
+from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
 from engine.performances.chart import AXIS, RADIUS, smooth_curve, step
 from engine.performances.figure import Figure
 
@@ -112,8 +112,7 @@ def _scatter(
     count: int,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Random points on triangles, evenly by area, and the normals there."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    area = triangle_areas(vertices, triangles)
     chosen = triangles[rng.choice(len(triangles), count, p=area / area.sum())]
     u, v = np.sqrt(rng.uniform(size=(count, 1))), rng.uniform(size=(count, 1))
     share = np.stack([1 - u, u * (1 - v), u * v], 1)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
+from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
@@ -26,7 +27,7 @@ from engine.motion.clip import Clip
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
 from engine.render.multisampling import choose, draw_samples, sample_offsets
-from engine.render.outline import edge_table, facings, mark_outline
+from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXELS, draw_into
 from engine.render.scratch import Scratch
 from engine.render.texturing import colour_inside, colour_samples, corner_table
@@ -61,7 +62,7 @@ class Subject:
     point: NDArray[np.int32]
     """(V,) the point of the surface that each vertex is (`engine.geometry.welding.weld`)."""
     edges: NDArray[np.int32]
-    """(E, 4) the edges of the surface, as `engine.render.outline.edge_table` gives them."""
+    """(E, 4) the edges of the surface, as `engine.geometry.adjacency.edge_table` gives them."""
     closed: bool
     """A ray enters a closed surface as often as it leaves it, however it is bent: the backs of its triangles need not
     be drawn, and every pixel is covered as before."""

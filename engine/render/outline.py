@@ -7,32 +7,12 @@ them hides what is behind it whole pixels at a time.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.render.rasteriser import OUT_OF_RANGE, snapped
 
 HIDDEN_DEPTH_RATIO = 0.998
 """An edge counts as hidden where all that is seen about it is nearer than this share of its own distance."""
-
-
-def edge_table(triangles: NDArray[np.int32], point: NDArray[np.int32]) -> NDArray[np.int32]:
-    """(E, 4) int32: the edges of the surface that `triangles` (T, 3) make: two vertices, and the triangles on both sides.
-
-    `point` (V,) says which vertices are one point of the surface (`engine.geometry.welding.weld`). A border, or an edge
-    at which several surfaces meet, is there once for each triangle, with -1 in place of the other.
-    """
-    count = int(point.max()) + 1
-    start, end = triangles.ravel(), np.roll(triangles, -1, 1).ravel()
-    low, high = np.minimum(point[start], point[end]), np.maximum(point[start], point[end])
-    key = low.astype(np.int64) * count + high
-    order = np.argsort(key, kind="stable")
-    _, first, times = np.unique(key[order], return_index=True, return_counts=True)
-    paired = first[times == 2]
-    single = np.setdiff1d(np.arange(len(key)), np.concatenate([paired, paired + 1]))
-    here = order[np.concatenate([paired, single])]
-    there = np.concatenate([order[paired + 1] // 3, np.full(len(single), -1)])
-    return np.stack([start[here], end[here], here // 3, there], 1).astype(np.int32)
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")

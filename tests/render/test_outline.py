@@ -4,27 +4,15 @@ import numpy as np
 import pytest
 from template_character import template_character, walk
 
+from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
 from engine.render.multisampling import choose, draw_samples, sample_offsets
-from engine.render.outline import edge_table, facings, mark_outline
+from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXELS, draw_into, rasterise
 
 EVERYWHERE = choose(np.ones((48, 64), np.bool_))
-
-
-def test_a_tetrahedron_has_six_edges_and_a_square_a_border() -> None:
-    tetrahedron = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], np.int32)
-    edges = edge_table(tetrahedron, np.arange(4, dtype=np.int32))
-    assert sorted(tuple(sorted(edge)) for edge in edges[:, :2].tolist()) == [
-        (a, b) for a in range(4) for b in range(a + 1, 4)
-    ]
-    for a, b, one, other in edges:
-        assert one != other and {a, b} <= set(tetrahedron[one]) & set(tetrahedron[other])
-    # the square's diagonal has two vertices at one end, which are one point
-    square = edge_table(np.array([[0, 1, 2], [0, 4, 3]], np.int32), np.array([0, 1, 2, 3, 2], np.int32))
-    assert (square[:, 3] < 0).sum() == 4 and len(square) == 5
 
 
 @pytest.mark.parametrize("samples", [1, 2, 3, 4])
