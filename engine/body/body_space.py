@@ -23,10 +23,10 @@ COMPONENTS = 40
 SAMPLES = 600
 SEED = 20
 
-CHANGED = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
-"""The parts of the body of which some are changed in each sample ..."""
-CHANGES, STRONGEST = 6, 0.7
-"""... as many changes a sample, and how strong at most."""
+VARIED_REGIONS = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
+"""The parts of the body of which some are changed in each sample."""
+CHANGES_PER_SAMPLE, MAX_CHANGE = 6, 0.7
+"""Local changes of a sample, and how strong they are at most, in [0, 1] of MakeHuman's own range."""
 
 
 @dataclass(frozen=True)
@@ -110,9 +110,9 @@ def _phenotype(random: np.random.Generator) -> Phenotype:
 
 def _changes(space: ShapeSpace, random: np.random.Generator) -> dict[str, float]:
     """Some changes to limbs and torso, the same on both sides."""
-    offered = [name for room in CHANGED for name in space.rooms[room] if not name.startswith("r-")]
-    chosen = random.choice(offered, CHANGES, replace=False)
-    changes = {str(name): float(random.uniform(0, STRONGEST)) for name in chosen}
+    offered = [name for room in VARIED_REGIONS for name in space.rooms[room] if not name.startswith("r-")]
+    chosen = random.choice(offered, CHANGES_PER_SAMPLE, replace=False)
+    changes = {str(name): float(random.uniform(0, MAX_CHANGE)) for name in chosen}
     return changes | {f"r-{name[2:]}": weight for name, weight in changes.items() if name.startswith("l-")}
 
 

@@ -12,9 +12,9 @@ from engine.body.template import Template
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import fiducials
 
-FLIP = np.diag([1.0, -1.0, -1.0])
+PICTURE_TO_TEMPLATE = np.diag([1.0, -1.0, -1.0])
 """From the axes of pictures (y down, z away) to the template's."""
-ROUNDS = 12
+CLOSEST_POINT_ROUNDS = 12
 """Rounds in which the canonical face is laid on the template's."""
 EYE_CORNERS = {"RightEyeOuter": 36, "RightEyeInner": 39, "LeftEyeInner": 42, "LeftEyeOuter": 45}
 MOUTH_CORNERS = {"MouthRight": 48, "MouthLeft": 54}
@@ -29,10 +29,10 @@ def face_points(template: Template, space: BodySpace) -> NDArray[np.intp]:
     body = template.vertices_of("body")
     near = body[np.linalg.norm(mesh[body] - middle, axis=1) < 2.5 * unit]
     face = near[mesh[near, 2] > middle[2] - 0.6 * unit]
-    laid = canonical_face().astype(np.float64) @ FLIP * unit + middle
+    laid = canonical_face().astype(np.float64) @ PICTURE_TO_TEMPLATE * unit + middle
     laid += mesh[nose_tip(template, space)] - laid[1]
     tree = cKDTree(mesh[face])
-    for _ in range(ROUNDS):
+    for _ in range(CLOSEST_POINT_ROUNDS):
         laid = _similar(laid, mesh[face][tree.query(laid)[1]])
     return np.asarray(face[tree.query(fiducials(laid))[1]], np.intp)
 
@@ -46,7 +46,8 @@ def nose_tip(template: Template, space: BodySpace) -> int:
 
 
 def _similar(points: NDArray[np.float64], target: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points moved, turned and scaled so as to come as near as they can to their targets (S. Umeyama, 1991)."""
+    """Points moved, turned and scaled onto their targets, with the scale that both spreads give alike (B. Horn, Closed-form
+    solution of absolute orientation using unit quaternions, 1987): one that is fitted shrinks in rounds of closest points."""
     a, b = points - points.mean(0), target - target.mean(0)
     turn = Rotation.align_vectors(b, a)[0]
     scale = np.sqrt((b**2).sum() / (a**2).sum())

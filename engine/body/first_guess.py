@@ -12,7 +12,7 @@ from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
 from engine.body.observation import LIMBS, Observation
 from engine.body.posing import COEFFICIENTS, FITTED_JOINTS
-from engine.body.rest_pose import STRAIGHT, shortest_turn
+from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
 
 
 def first_guess(
@@ -36,7 +36,7 @@ def first_guess(
         if first != upper:
             frame = frame @ cv2.Rodrigues(rotation_vectors[FITTED_JOINTS.index(upper)])[0]
         rotation_vectors[FITTED_JOINTS.index(first)] = _vector(
-            shortest_turn(np.array(STRAIGHT[first]), frame.T @ (to_world @ direction))
+            shortest_rotation(np.array(T_POSE_DIRECTIONS[first]), frame.T @ (to_world @ direction))
         )
     return np.concatenate([_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(COEFFICIENTS)])
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.contour import CONTOUR_POINTS, SkinPoints, match_contour
 from engine.body.landmarks import LandmarkModel
-from engine.body.least_squares import descend
+from engine.body.least_squares import levenberg_marquardt
 from engine.body.observation import LANDMARK_SIGMA, LIMBS, Crossing, Observation
 from engine.body.pose_prior import joint_limits, pose_prior
 from engine.body.posing import BodyPoser, PosedBodies, rotation_matrices
@@ -103,15 +103,19 @@ def fit_body(
     poser = BodyPoser(space)
     rough = tuple(replace(view, landmark_sigma=max(LANDMARK_SIGMA, view.landmark_sigma)) for view in views)
     unmatched = (None,) * len(views)
-    parameters = descend(partial(_residuals, poser, landmarks, rough, unmatched), np.asarray(start, np.float64))
+    parameters = levenberg_marquardt(
+        partial(_residuals, poser, landmarks, rough, unmatched), np.asarray(start, np.float64)
+    )
     if any(view.landmark_sigma < LANDMARK_SIGMA for view in views):
         # near the end only: robust penalties pull no more at what is many deviations off
-        parameters = descend(partial(_residuals, poser, landmarks, views, unmatched), parameters)
+        parameters = levenberg_marquardt(partial(_residuals, poser, landmarks, views, unmatched), parameters)
     if skin is not None and any(view.contour is not None and len(view.contour.points) for view in views):
         for _ in range(CONTOUR_ROUNDS):
             posed = poser(parameters[None])
             matches = tuple(_match(posed, view, skin) for view in views)
-            parameters = descend(partial(_residuals, poser, landmarks, views, matches), parameters, STEPS_PER_ROUND)
+            parameters = levenberg_marquardt(
+                partial(_residuals, poser, landmarks, views, matches), parameters, STEPS_PER_ROUND
+            )
     return _fit(poser, landmarks, views, parameters)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.body.hands import FINGERS, HandModel, chain
-from engine.body.least_squares import descend
+from engine.body.least_squares import levenberg_marquardt
 from engine.body.pose_prior import JOINT_LIMIT_SIGMA
 from engine.body.posing import rotation_matrices
 from engine.geometry.camera import Camera
@@ -141,7 +141,7 @@ def fit_hand(
     length = hand_length(seen)
     of_body = Rotation.from_matrix(anchor.hand_rotation).as_rotvec()
     residuals = partial(_residuals, hand, seen, length)
-    tried = [descend(residuals, _start(hand, seen, turn)) for turn in (_turn(hand, seen), of_body)]
+    tried = [levenberg_marquardt(residuals, _start(hand, seen, turn)) for turn in (_turn(hand, seen), of_body)]
     parameters = min(tried, key=lambda found: float((residuals(found[None]) ** 2).sum()))
     off = np.linalg.norm(hand.pixels(parameters[None], hand(parameters[None]))[0] - seen[:, :2], axis=1)
     turned = [0, *(landmark for finger in FINGERS for landmark in chain(finger)[:3])]

@@ -14,7 +14,7 @@ from engine.body.template import Template
 from engine.perception.hands import JOINTS
 
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
-TIP = 0.006
+FINGERTIP_DEPTH = 0.006
 """Metres within the skin at which the landmark of a fingertip lies."""
 
 
@@ -52,7 +52,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Le
         along = space.mean[own].mean(0) - space.joint_mean[at]
         along = along / np.linalg.norm(along)
         last = own[np.argmax(space.mean[own] @ along)]
-        means.append(space.mean[last] - TIP * along)
+        means.append(space.mean[last] - FINGERTIP_DEPTH * along)
         bases.append(space.basis[:, last])
     places = np.stack(means)
     bend, spread = _axes(places)

@@ -15,7 +15,7 @@ from engine.body.template import Template
 
 SIDES = (("Left", 1.0), ("Right", -1.0))
 
-AT_JOINTS = {
+JOINT_LANDMARKS = {
     "Shoulder": "Arm",
     "Elbow": "ForeArm",
     "Wrist": "Hand",
@@ -28,7 +28,7 @@ AT_JOINTS = {
 }
 """Landmarks that are joints, both without their side. The others are points of the surface."""
 
-HIGHER = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle": 0.032, "Heel": 0.027}
+LANDMARK_RISE = {"Shoulder": 0.012, "Hip": 0.017, "Knee": 0.007, "Ankle": 0.032, "Heel": 0.027}
 """Metres by which perception sees a landmark above the template's joint: means over renders of the template itself."""
 
 
@@ -50,8 +50,8 @@ def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkMo
     """The landmarks of `engine.perception.body.LANDMARKS` on the template. `rig` has the joints of `space`."""
     found: dict[str, tuple[str, NDArray[np.intp] | None]] = {}
     for side, _ in SIDES:
-        found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in AT_JOINTS.items()}
-    found |= {name: (carrier(name), at) for name, at in surface_points(template, space, rig).items()}
+        found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in JOINT_LANDMARKS.items()}
+    found |= {name: (carrier(name), at) for name, at in surface_landmarks(template, space, rig).items()}
     means, bases = [], []
     for joint, vertices in found.values():
         if vertices is None:
@@ -61,7 +61,7 @@ def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkMo
         else:
             means.append(space.mean[vertices].mean(0))
             bases.append(space.basis[:, vertices].mean(1))
-    higher = [HIGHER.get(name.removeprefix("Left").removeprefix("Right"), 0.0) for name in found]
+    higher = [LANDMARK_RISE.get(name.removeprefix("Left").removeprefix("Right"), 0.0) for name in found]
     return LandmarkModel(
         tuple(found),
         np.array([space.names.index(joint) for joint, _ in found.values()]),
@@ -79,7 +79,7 @@ def carrier(name: str) -> str:
     return "Head"
 
 
-def surface_points(template: Template, space: BodySpace, rig: Rig) -> Mapping[str, NDArray[np.intp]]:
+def surface_landmarks(template: Template, space: BodySpace, rig: Rig) -> Mapping[str, NDArray[np.intp]]:
     """Vertices whose mean is a landmark: nose, eyes, mouth, ears, heels and tips of the feet, found on the mean body."""
     body = template.vertices_of("body")
     mesh = space.mean

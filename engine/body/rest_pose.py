@@ -9,14 +9,14 @@ from engine.body.rig import Rig
 from engine.geometry.skinning import bone_transforms, skin
 from engine.motion.skeleton import Skeleton
 
-STRAIGHT: dict[str, tuple[float, float, float]] = {
+T_POSE_DIRECTIONS: dict[str, tuple[float, float, float]] = {
     **dict.fromkeys(("LeftArm", "LeftForeArm", "LeftHand"), (1.0, 0.0, 0.0)),
     **dict.fromkeys(("RightArm", "RightForeArm", "RightHand"), (-1.0, 0.0, 0.0)),
     **dict.fromkeys(("LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg"), (0.0, -1.0, 0.0)),
 }
 """Where these bones point. Feet stay as they stand, fingers as they are in the hand."""
 
-UNTURNED = ("LeftFoot", "RightFoot")
+WORLD_ALIGNED_BONES = ("LeftFoot", "RightFoot")
 """Bones that keep their place in the world although their parents turn."""
 
 
@@ -32,10 +32,10 @@ def t_pose(
     turns = np.broadcast_to(np.eye(3), (len(rig.names), 3, 3)).copy()  # of each bone in the world
     for bone, name in enumerate(rig.names):
         parent = rig.parents[bone]
-        if name in STRAIGHT:
+        if name in T_POSE_DIRECTIONS:
             ends = _end(rig, heads, tails, bone) - heads[bone]
-            turns[bone] = shortest_turn(ends, np.array(STRAIGHT[name]))
-        elif parent >= 0 and name not in UNTURNED:
+            turns[bone] = shortest_rotation(ends, np.array(T_POSE_DIRECTIONS[name]))
+        elif parent >= 0 and name not in WORLD_ALIGNED_BONES:
             turns[bone] = turns[parent]
     own = np.stack([turns[p].T @ turns[b] if p >= 0 else turns[b] for b, p in enumerate(rig.parents)])
     transforms = bone_transforms(rig.parents, heads, own)
@@ -56,7 +56,7 @@ def _end(rig: Rig, heads: NDArray[np.float32], tails: NDArray[np.float32], bone:
     return heads[rig.index(following)] if following in rig.names else tails[bone]
 
 
-def shortest_turn(start: NDArray[np.floating], end: NDArray[np.floating]) -> NDArray[np.float64]:
+def shortest_rotation(start: NDArray[np.floating], end: NDArray[np.floating]) -> NDArray[np.float64]:
     """The (3, 3) rotation by the smallest angle that brings the direction `start` (3,) to the direction `end` (3,)."""
     a, b = (np.asarray(v, np.float64) / np.linalg.norm(v) for v in (start, end))
     axis, cosine = np.cross(a, b), float(a @ b)

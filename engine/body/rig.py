@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 RIGS = ("default", "mixamo", "game_engine")
 """`default` has 163 bones (fingers, toes, face), `mixamo` 52, `game_engine` those of common game engines."""
 
-TINY = 1e-6
+MIN_WEIGHT = 1e-6
 """Weights below which a bone does not move a vertex."""
 
 HUMAN = "human"
-"""The rig that the project's people are made with: Mixamo's, then the joints of `FACE`."""
-FACE = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
+"""The rig that the project's people are made with: Mixamo's, then the joints of `FACE_JOINTS`."""
+FACE_JOINTS = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
 """Joints of the head that Mixamo's rig lacks, and the bones of `default` that they are."""
 
 
@@ -96,28 +96,28 @@ def build_rig(
 
 
 def with_face(body: Rig, face: Rig) -> Rig:
-    """`body` (Mixamo's rig) and, after its own, the joints of `FACE`, children of `Head`, from `face` (`default`).
+    """`body` (Mixamo's rig) and, after its own, the joints of `FACE_JOINTS`, children of `Head`, from `face` (`default`).
 
     Jaw and eyes take of the weight that the head has at a vertex what they have of it in `face`; lower lip and tongue,
     whose bones hang on the jaw there, go with the jaw.
     """
     carried = face.weights_below("head")
     head = body.weights_below("Head")
-    own = np.stack([face.weights_below(bone) for bone in FACE.values()], 1)
+    own = np.stack([face.weights_below(bone) for bone in FACE_JOINTS.values()], 1)
     moved = head[:, None] * own / np.maximum(carried, 1e-9)[:, None]
-    table = np.zeros((len(head), len(body.names) + len(FACE)))
+    table = np.zeros((len(head), len(body.names) + len(FACE_JOINTS)))
     for rank in range(body.bones.shape[1]):
         table[np.arange(len(head)), body.bones[:, rank]] += body.weights[:, rank]
     table[:, body.index("Head")] -= moved.sum(1)
     table[:, len(body.names) :] = moved
-    order = np.argsort(-table, axis=1, kind="stable")[:, : int((table > TINY).sum(1).max())]
+    order = np.argsort(-table, axis=1, kind="stable")[:, : int((table > MIN_WEIGHT).sum(1).max())]
     weights = np.take_along_axis(table, order, 1)
-    weights = np.where(weights > TINY, weights, 0)
-    at = [face.index(bone) for bone in FACE.values()]
+    weights = np.where(weights > MIN_WEIGHT, weights, 0)
+    at = [face.index(bone) for bone in FACE_JOINTS.values()]
     spans = [face.anchors[face.starts[2 * b + end] : face.starts[2 * b + end + 1]] for b in at for end in (0, 1)]
     return Rig(
-        names=(*body.names, *FACE),
-        parents=np.append(body.parents, [body.index("Head")] * len(FACE)).astype(np.int32),
+        names=(*body.names, *FACE_JOINTS),
+        parents=np.append(body.parents, [body.index("Head")] * len(FACE_JOINTS)).astype(np.int32),
         starts=np.append(body.starts, body.starts[-1] + np.cumsum([len(span) for span in spans])).astype(np.int32),
         anchors=np.concatenate([body.anchors, *spans]),
         rolls=np.append(body.rolls, face.rolls[at]),

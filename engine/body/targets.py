@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-UNIT = 1e-4
+METRES_PER_COUNT = 1e-4
 """Metres to one count of `counts`: the sources are written with this precision, so nothing is lost."""
 
 
@@ -18,7 +18,7 @@ class Targets:
     """Named displacement fields over the same vertices, stored by the vertices that they move.
 
     `starts` (N + 1,) int32: target `i` owns the rows `starts[i]:starts[i + 1]` of
-    `moved` (R,) uint16, the vertices, and `counts` (R, 3) int16, their displacements in `UNIT`.
+    `moved` (R,) uint16, the vertices, and `counts` (R, 3) int16, their displacements in `METRES_PER_COUNT`.
     """
 
     names: tuple[str, ...]
@@ -38,7 +38,7 @@ class Targets:
         for name, weight in weights.items():
             if weight:
                 rows = self._rows(name)
-                total[self.moved[rows]] += np.float32(weight * UNIT) * self.counts[rows]
+                total[self.moved[rows]] += np.float32(weight * METRES_PER_COUNT) * self.counts[rows]
         return total
 
     def moves(self, name: str) -> NDArray[np.intp]:
@@ -61,8 +61,8 @@ def gather(
     fields: Mapping[str, tuple[NDArray[np.integer], NDArray[np.floating]]],
     vertex_count: int,
 ) -> Targets:
-    """Pack `{name: (vertices, displacements in metres)}`; displacements are rounded to `UNIT`."""
-    counts = [np.rint(offsets / UNIT).astype(np.int16).reshape(-1, 3) for _, offsets in fields.values()]
+    """Pack `{name: (vertices, displacements in metres)}`; displacements are rounded to `METRES_PER_COUNT`."""
+    counts = [np.rint(offsets / METRES_PER_COUNT).astype(np.int16).reshape(-1, 3) for _, offsets in fields.values()]
     return Targets(
         names=tuple(fields),
         starts=np.cumsum([0, *(len(c) for c in counts)], dtype=np.int32),

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.face_points import FLIP
+from engine.body.face_points import PICTURE_TO_TEMPLATE
 from engine.character.face_region import in_profile
 from engine.character.figure import Figure
 from engine.character.template_fit import FittedBody, load_human
@@ -36,15 +36,22 @@ def turn_head(fitted: FittedBody, figure: Figure) -> FittedBody:
     model = (rest[human.face] - heads[head]).astype(np.float64)
     seen = fiducials(figure.face[:, :2]).astype(np.float64)
     camera = fitted.camera.intrinsics
-    start = cv2.Rodrigues(FLIP @ worlds[head])[0]
+    start = cv2.Rodrigues(PICTURE_TO_TEMPLATE @ worlds[head])[0]
     found, vector, shift = cv2.solvePnP(
-        model, seen, camera, np.zeros(4), start, (FLIP @ places[head])[:, None].copy(), True, cv2.SOLVEPNP_ITERATIVE
+        model,
+        seen,
+        camera,
+        np.zeros(4),
+        start,
+        (PICTURE_TO_TEMPLATE @ places[head])[:, None].copy(),
+        True,
+        cv2.SOLVEPNP_ITERATIVE,
     )
     if not found:
         return fitted
     back = cv2.projectPoints(model, vector, shift, camera, np.zeros(4))[0][:, 0]
     eyes = float(np.linalg.norm(seen[36:42].mean(0) - seen[42:48].mean(0)))
-    turned = FLIP @ cv2.Rodrigues(vector)[0]
+    turned = PICTURE_TO_TEMPLATE @ cv2.Rodrigues(vector)[0]
     away = np.degrees(np.arccos(np.clip((np.trace(worlds[head].T @ turned) - 1) / 2, -1, 1)))
     if np.sqrt(((back - seen) ** 2).sum(1).mean()) > OFF * eyes or away > TURN or shift[2, 0] <= 0:
         return fitted

@@ -30,7 +30,7 @@ from engine.geometry.surface import triangulate
 from engine.perception.body import LANDMARKS
 
 RIG = "mixamo"
-"""The rig of a character, who is one surface: the joints of `engine.body.rig.FACE` would move nothing that opens or turns."""
+"""The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""
 FOCAL = 2.2
 """Focal length in longer sides of the picture: a moderate telephoto lens, as people are photographed."""
 RELIABLE = {

@@ -18,13 +18,13 @@ from engine.geometry.edge_collapse import collapse_edges
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import weld
 
-BORDER = 30.0
+BORDER_WEIGHT = 30.0
 """Weight of the planes that hold open borders in place, against those of the surface."""
 
-SEAM = 1.0
+SEAM_WEIGHT = 1.0
 """The same for seams of the texture, whose charts should keep their outlines."""
 
-BENDING = 0.02
+INFLUENCE_WEIGHT = 0.02
 """How much points that move with other joints resist each other, as a share of their distance: joints stay supple."""
 
 
@@ -68,7 +68,7 @@ def decimate(mesh: SkinnedMesh, triangles: int, importance: NDArray[np.floating]
         mesh.weights[first].astype(np.float64),
         factors,
         triangles,
-        np.array([BORDER, SEAM, BENDING]),
+        np.array([BORDER_WEIGHT, SEAM_WEIGHT, INFLUENCE_WEIGHT]),
     )
     kept, index = np.unique(left, return_inverse=True)
     return Decimated(

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.geometry.fan import heirs, neighbours
 from engine.geometry.heap import sift_down, sift_up
-from engine.geometry.quadrics import collapse_cost, least_costs, surface_quadrics, texture_seams
+from engine.geometry.one_ring import corner_successors, one_ring
+from engine.geometry.quadrics import cheapest_collapses, collapse_cost, surface_quadrics, texture_seams
 
-MOST_NEIGHBOURS = 64
-"""A point that has more neighbours is left in peace."""
+MAX_NEIGHBOURS = 64
+"""The most neighbours of a point that is collapsed; one that has more stays."""
 
-PATIENCE = 0.05
+PRICE_TOLERANCE = 0.05
 """A collapse goes ahead although it has become dearer by this share since it was priced."""
 
 
@@ -43,7 +43,7 @@ def _best(
     wedges: np.ndarray,
 ) -> tuple:
     """The cheapest collapse of `u`: its cost and where to; (inf, -1) if none is allowed."""
-    count = neighbours(u, faces, alive, head, following, around, seen)
+    count = one_ring(u, faces, alive, head, following, around, seen)
     if count <= 0 or not np.isfinite(factors[u]):
         return np.inf, -1
     border = 0
@@ -69,8 +69,8 @@ def _best(
             return np.inf, -1
         costs[chosen] = np.inf
         v = around[chosen, 0]
-        others = neighbours(v, faces, alive, head, following, around_other, seen)
-        if others < 0 or count + others > MOST_NEIGHBOURS:
+        others = one_ring(v, faces, alive, head, following, around_other, seen)
+        if others < 0 or count + others > MAX_NEIGHBOURS:
             continue
         # link condition: the only points next to both are those of the triangles on the edge
         common = 0
@@ -83,7 +83,7 @@ def _best(
             seen[around[i, 0]] = -1
         if common != around[chosen, 1] or (count == 3 and others == 3 and border == 0):
             continue
-        if heirs(u, v, places, faces, corners, uv, alive, head, following, wedges) > 0:
+        if corner_successors(u, v, places, faces, corners, uv, alive, head, following, wedges) > 0:
             return price, int(v)
 
 
@@ -112,7 +112,7 @@ def collapse_edges(
     hold = np.where(shared == 1, holds[0], np.where(seams, holds[1], 0.0))
     quadrics = surface_quadrics(places, faces, corners, edges, hold)
     ends = np.stack(np.divmod(named, len(places)), 1)
-    first = least_costs(ends, places, quadrics, bones, weights, factors, holds[2])
+    first = cheapest_collapses(ends, places, quadrics, bones, weights, factors, holds[2])
     order = np.argsort(first, kind="stable")
     corners = corners.copy()
     alive = _collapse(places, faces, corners, uv, bones, weights, factors, quadrics, first, order, target, holds[2])
@@ -142,10 +142,10 @@ def _collapse(
         p = faces[corner // 3, corner % 3]
         following[corner] = head[p]
         head[p] = corner
-    around = np.empty((MOST_NEIGHBOURS, 2), np.int32)
-    around_other = np.empty((MOST_NEIGHBOURS, 2), np.int32)
-    costs = np.empty(MOST_NEIGHBOURS)
-    to_mend = np.empty(MOST_NEIGHBOURS, np.int32)
+    around = np.empty((MAX_NEIGHBOURS, 2), np.int32)
+    around_other = np.empty((MAX_NEIGHBOURS, 2), np.int32)
+    costs = np.empty(MAX_NEIGHBOURS)
+    to_mend = np.empty(MAX_NEIGHBOURS, np.int32)
     seen = np.full(points, -1, np.int32)
     wedges = np.empty((8, 2), np.int32)
     waiting = np.zeros(points, np.bool_)
@@ -169,13 +169,13 @@ def _collapse(
         )  # fmt: skip
         if v < 0:
             continue
-        if price > key * (1 + PATIENCE):  # its surroundings have changed: it has to queue again
+        if price > key * (1 + PRICE_TOLERANCE):  # its surroundings have changed: it has to queue again
             heap_keys[size], heap_items[size] = price, u
             sift_up(heap_keys, heap_items, size)
             size += 1
             waiting[u] = True
             continue
-        copies = heirs(u, v, places, faces, corners, uv, alive, head, following, wedges)
+        copies = corner_successors(u, v, places, faces, corners, uv, alive, head, following, wedges)
         corner, last = head[u], head[u]
         while corner >= 0:
             t = corner // 3
@@ -198,7 +198,7 @@ def _collapse(
         for k in range(10):
             quadrics[v, k] += quadrics[u, k]
         # prices only rise, so those who wait may wait; the others might be allowed to go now
-        count = neighbours(v, faces, alive, head, following, around, seen)
+        count = one_ring(v, faces, alive, head, following, around, seen)
         for i in range(count):
             to_mend[i] = around[i, 0]
         for i in range(-1, count):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-ON_IT = 1e-9
+ON_BOUNDARY = 1e-9
 """Points nearer to the outline than this, in its own unit, squared, lie on it."""
 
 
@@ -50,12 +50,12 @@ def _warp(points, polygon, values):  # type: ignore[no-untyped-def]
             br = np.sqrt(bx * bx + by * by)
             cross = ax * by - ay * bx
             dot = ax * bx + ay * by
-            if br * br < ON_IT:
+            if br * br < ON_BOUNDARY:
                 for c in range(channels):
                     out[k, c] = values[i, c]
                 settled = True
                 break
-            if cross * cross < ON_IT * ON_IT and dot <= 0:
+            if cross * cross < ON_BOUNDARY * ON_BOUNDARY and dot <= 0:
                 share = ar / (ar + br)
                 for c in range(channels):
                     out[k, c] = (1 - share) * values[last, c] + share * values[i, c]

@@ -11,7 +11,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-STEEPEST = 6.0
+MAX_SLOPE = 6.0
 """Slopes (depth over width) beyond this are taken as this: where a surface turns away, its normal says little."""
 
 
@@ -25,7 +25,7 @@ def integrate_normals(
 
     Minimises the sum over neighbouring pixels of (difference of depth - mean slope)², one sparse linear system.
     """
-    slopes = np.clip(-normals[..., :2] / np.maximum(normals[..., 2:], 1e-3), -STEEPEST, STEEPEST)
+    slopes = np.clip(-normals[..., :2] / np.maximum(normals[..., 2:], 1e-3), -MAX_SLOPE, MAX_SLOPE)
     index = np.full(mask.shape, -1, np.int64)
     free = mask & ~held
     index[free] = np.arange(free.sum())

@@ -61,7 +61,7 @@ def collapse_cost(
 
 
 @njit(nogil=True)
-def least_costs(
+def cheapest_collapses(
     ends: np.ndarray,
     places: np.ndarray,
     quadrics: np.ndarray,

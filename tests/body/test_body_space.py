@@ -7,7 +7,7 @@ import pytest
 
 from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space, sample_bodies
-from engine.body.rest_pose import shortest_turn, t_pose
+from engine.body.rest_pose import shortest_rotation, t_pose
 from engine.body.rig import HUMAN
 from engine.body.template import load_rig
 
@@ -63,7 +63,7 @@ def test_bones_keep_their_length_on_the_way_to_the_t_pose(template: Template) ->
 
 @pytest.mark.parametrize("end", [(0, 0, 1), (1, 0, 0), (-1, 0, 0), (0.6, -0.8, 0)])
 def test_the_shortest_turn_brings_one_direction_to_another(end: tuple[float, float, float]) -> None:
-    turn = shortest_turn(np.array([2.0, 0, 0]), np.array(end))
+    turn = shortest_rotation(np.array([2.0, 0, 0]), np.array(end))
     np.testing.assert_allclose(turn @ [1, 0, 0], end, atol=1e-12)
     np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
     assert np.isclose(np.linalg.det(turn), 1)

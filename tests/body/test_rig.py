@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body import Template
-from engine.body.rig import FACE, HUMAN, RIGS, Rig
+from engine.body.rig import FACE_JOINTS, HUMAN, RIGS, Rig
 from engine.body.template import load_rig
 from engine.geometry.skinning import bone_transforms, skin
 
@@ -72,8 +72,8 @@ def test_a_turned_head_carries_the_eyes_and_leaves_the_feet(template: Template) 
 
 def test_the_face_takes_its_weights_from_the_head() -> None:
     human, mixamo = load_rig(HUMAN), load_rig("mixamo")
-    assert human.names == (*mixamo.names, *FACE)
-    assert {human.names[human.parents[human.index(joint)]] for joint in FACE} == {"Head"}
+    assert human.names == (*mixamo.names, *FACE_JOINTS)
+    assert {human.names[human.parents[human.index(joint)]] for joint in FACE_JOINTS} == {"Head"}
     for joint in mixamo.names:
         np.testing.assert_allclose(human.weights_below(joint), mixamo.weights_below(joint), atol=1e-5)
 

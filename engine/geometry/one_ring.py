@@ -10,15 +10,15 @@ import numpy as np
 
 from engine.compiled import njit
 
-LEAST_COSINE = 0.2
+MIN_NORMAL_COSINE = 0.2
 """A collapse may not turn a triangle's normal by more than this."""
 
-SLIVER = 1e-3
+MIN_TRIANGLE_QUALITY = 1e-3
 """The area of a triangle over that of a square on its longest edge, below which it may not get."""
 
 
 @njit(nogil=True)
-def neighbours(
+def one_ring(
     p: int,
     faces: np.ndarray,
     alive: np.ndarray,
@@ -61,7 +61,7 @@ def neighbours(
 
 
 @njit(nogil=True, error_model="numpy")
-def heirs(
+def corner_successors(
     u: int,
     v: int,
     places: np.ndarray,
@@ -104,11 +104,11 @@ def heirs(
         if alive[t]:
             k = corner - 3 * t
             b, c = faces[t, (k + 1) % 3], faces[t, (k + 2) % 3]
-            heir = -1
+            successor = -1
             for i in range(count):
                 if wedges[i, 0] == corners[t, k]:
-                    heir = wedges[i, 1]
-            if heir < 0:
+                    successor = wedges[i, 1]
+            if successor < 0:
                 return 0
             if b != v and c != v:
                 ex, ey, ez = places[c, 0] - places[b, 0], places[c, 1] - places[b, 1], places[c, 2] - places[b, 2]
@@ -122,12 +122,15 @@ def heirs(
                     vx * vx + vy * vy + vz * vz,
                     (vx - ex) ** 2 + (vy - ey) ** 2 + (vz - ez) ** 2,
                 )
-                if after <= SLIVER * longest or ax * bx + ay * by + az * bz < LEAST_COSINE * before * after:
+                if (
+                    after <= MIN_TRIANGLE_QUALITY * longest
+                    or ax * bx + ay * by + az * bz < MIN_NORMAL_COSINE * before * after
+                ):
                     return 0
                 mine, right, left = corners[t, k], corners[t, (k + 1) % 3], corners[t, (k + 2) % 3]
                 fx, fy = uv[left, 0] - uv[right, 0], uv[left, 1] - uv[right, 1]
                 was = fx * (uv[mine, 1] - uv[right, 1]) - fy * (uv[mine, 0] - uv[right, 0])
-                now = fx * (uv[heir, 1] - uv[right, 1]) - fy * (uv[heir, 0] - uv[right, 0])
+                now = fx * (uv[successor, 1] - uv[right, 1]) - fy * (uv[successor, 0] - uv[right, 0])
                 if was * now < 0 or (now == 0 and was != 0):
                     return 0
         corner = following[corner]
