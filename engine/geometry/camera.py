@@ -213,6 +213,7 @@ def _undistort(places: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
             step_x, step_y = (yy * off_x - xy * off_y) / determinant, (xx * off_y - xy * off_x) / determinant
             x, y = x + step_x, y + step_y
             if abs(step_x) + abs(step_y) < CONVERGED:
-                found[n, 0], found[n, 1] = x, y
+                if radial > 0 and determinant > 0:  # else it is a solution beyond where the lens folds back
+                    found[n, 0], found[n, 1] = x, y
                 break
     return found
