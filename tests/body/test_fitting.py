@@ -166,7 +166,11 @@ def test_where_the_world_has_its_origin_does_not_matter() -> None:
     plain = replace(view, camera=CAMERA)
     fits = [fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, trunk)) for seen in (plain, view)]
     here, there = (forward(SPACE, MARKS, fit.parameters)[0] for fit in fits)
-    np.testing.assert_allclose((there - view.camera.eye) @ np.array(view.camera.axes).T, here, atol=0.02)
+    there = (there - view.camera.eye) @ np.array(view.camera.axes).T
+    np.testing.assert_allclose(there - there[0], here - here[0], atol=0.03)
+    np.testing.assert_allclose(
+        there[0], here[0], rtol=0.02, atol=0.01
+    )  # one view hardly tells how far away somebody is
     assert fits[1].reprojection == pytest.approx(fits[0].reprojection, rel=0.01)
 
 
