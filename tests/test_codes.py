@@ -109,6 +109,12 @@ def test_every_code_is_documented() -> None:
 def test_the_page_has_words_for_all_that_ends_a_job() -> None:
     found = codes(sources("engine", "worker", "service/jobs"), by=ENDINGS) - {"gl_unavailable"}  # of no job
     assert {"no_face", "disk_full", "attempts_exhausted", "*_size"} <= found
-    words = (ROOT / "web/src/languages/en/failures.ts").read_text()
-    worded = set(re.findall(r"(?m)^    (\w+): '", words[: words.index("remedies")]))
+    pages = [ROOT / "web/src/languages/en/failures.ts", *(ROOT / "web/src/kinds").glob("*/words/en.ts")]
+    assert len(pages) > 2
+    worded = {
+        code
+        for page in pages
+        for block in re.findall(r"(?ms)^  failures: \{$(.*?)^  \}", page.read_text())
+        for code in re.findall(r"(?m)^    (\w+): '", block)
+    }
     assert sorted(code for code in found if not any(fnmatchcase(known, code) for known in worded)) == []

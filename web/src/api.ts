@@ -2,22 +2,16 @@
 
 import createClient from 'openapi-fetch';
 import { randomKey } from './key';
-import type {
-  CharacterChanges,
-  CharacterOptions,
-  Frame,
-  Landmarks,
-  MotionDetails,
-  NewJob,
-  PortraitChanges,
-  PortraitOptions,
-  Report,
-  Skeleton,
-} from './kinds';
+import type { CharacterOptions, MotionDetails, Skeleton } from './kinds/character/types';
+import type { JobRequest } from './kinds/kind';
+import type { Landmarks, PortraitOptions } from './kinds/portrait/types';
 import type { components, paths } from './openapi';
+import type { Frame, Report } from './report';
 import { tellLocked } from './session';
 
-export type * from './kinds';
+export type * from './kinds/character/types';
+export type * from './kinds/portrait/types';
+export type * from './report';
 
 type Schemas = components['schemas'];
 export type Status = Schemas['Status'];
@@ -25,6 +19,9 @@ export type Progress = Schemas['Progress'];
 export type Artifact = Schemas['ArtifactOut'];
 export type Failure = Schemas['JobError'];
 export type Job = Schemas['JobOut'];
+/** A kind of job as the service describes it: enough to draw a form. */
+export type KindDescription = Schemas['KindOut'];
+export type InputDescription = Schemas['InputOut'];
 export type JobPage = Schemas['JobPage'];
 /** A performance that a portrait can act out by name. */
 export type Driver = Schemas['DriverOut'];
@@ -157,20 +154,20 @@ export const getSkeleton = (of: Pick<Job, 'artifacts'>, signal?: AbortSignal): P
   artifact(of, 'skeleton.json', signal);
 
 /** Order something. A key makes the order safe to repeat: it is carried out once. */
-export const createJob = (body: NewJob, key: string): Promise<Job> =>
-  answer(service.POST('/v1/jobs', { params: { header: { 'idempotency-key': key } }, body }));
-
-/** A job again with other options. A key makes it safe to repeat. */
-export const reviseJob = (id: string, options: PortraitChanges, key: string): Promise<Job> =>
+export const createJob = (body: { kind: string } & JobRequest, key: string): Promise<Job> =>
   answer(
-    service.POST('/v1/jobs/{job_id}/revisions', {
-      params: { ...job(id), header: { 'idempotency-key': key } },
-      body: { options },
-    }),
+    service.POST('/v1/jobs', { params: { header: { 'idempotency-key': key } }, body: body as Schemas['JobIn'] }),
   );
 
-/** A character again, with something put right or otherwise. A key makes it safe to repeat. */
-export const reviseCharacter = (id: string, changes: CharacterChanges, key: string): Promise<Job> =>
+/** What is to be different about a job that is made again; null takes something back to what it is by itself. */
+export interface Changes {
+  options?: object;
+  corrections?: object;
+  metadata?: Job['metadata'];
+}
+
+/** A job again, with something put right or otherwise. A key makes it safe to repeat. */
+export const reviseJob = (id: string, changes: Changes, key: string): Promise<Job> =>
   answer(
     service.POST('/v1/jobs/{job_id}/revisions', {
       params: { ...job(id), header: { 'idempotency-key': key } },
@@ -178,22 +175,24 @@ export const reviseCharacter = (id: string, changes: CharacterChanges, key: stri
     }),
   );
 
+/** The kinds of jobs that the service has. */
+export const listKinds = async (signal?: AbortSignal): Promise<KindDescription[]> =>
+  (await answer(service.GET('/v1/kinds', aborted(signal)))).items;
+
 /** A job and all that was made of it, oldest first. */
 export const listRevisions = async (id: string, signal?: AbortSignal): Promise<Job[]> =>
   (await answer(service.GET('/v1/jobs/{job_id}/revisions', { params: job(id), ...aborted(signal) }))).items;
 
-/** The kinds that make something. Searches for moments are jobs too, but what they find is shown with the driver. */
-const MAKING = ['portrait', 'character'];
-
-/** Which jobs are wanted: those of one status or all, found by these words. */
+/** Which jobs are wanted: of these kinds, of one status or all, found by these words. */
 export interface Wanted {
+  kinds: readonly string[];
   status: Status | null;
   words: string;
 }
 
 /** Of each work the newest job that is wanted, newest first: the latest, or those that come after a cursor. */
 export const listWorks = (
-  { status, words }: Wanted,
+  { kinds, status, words }: Wanted,
   size: number,
   cursor: string | null,
   signal?: AbortSignal,
@@ -202,7 +201,7 @@ export const listWorks = (
     service.GET('/v1/jobs', {
       params: {
         query: {
-          ...{ limit: size, kind: MAKING, latest: true },
+          ...{ limit: size, kind: [...kinds], latest: true },
           ...(status && { status: [status] }),
           ...(words && { q: words }),
           ...(cursor && { cursor }),
@@ -215,9 +214,13 @@ export const listWorks = (
 export const listDrivers = async (signal?: AbortSignal): Promise<Driver[]> =>
   (await answer(service.GET('/v1/drivers', aborted(signal)))).items;
 
+/** All motions that a job can name. */
+export const listMotions = async (signal?: AbortSignal): Promise<KeptMotion[]> =>
+  (await answer(service.GET('/v1/motions', aborted(signal)))).items;
+
 /** The motions that the service keeps for the user. */
 export const listOwnMotions = async (signal?: AbortSignal): Promise<KeptMotion[]> =>
-  (await answer(service.GET('/v1/motions', aborted(signal)))).items.filter(({ source }) => source === 'own');
+  (await listMotions(signal)).filter(({ source }) => source === 'own');
 
 /** Whether a motion can move somebody, if need be once its joints are told. */
 export const canMove = ({ check_status, error, missing }: KeptMotion): boolean =>

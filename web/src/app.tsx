@@ -1,19 +1,19 @@
 /** The page around the pages: where one is, and where one can go. */
 
 import { useEffect, useState } from 'preact/hooks';
+import { kindOf } from './kinds';
 import { Footer } from './widgets/footer';
-import { later } from './widgets/lazy';
-import { noCharacter, noPortrait, useDraft } from './drafts';
+import { later, part } from './widgets/lazy';
+import { DraftsHeld } from './studio/draft';
+import { OfferedKinds } from './studio/offered';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
 import { LostPage } from './pages/lost';
 import { SignInPage } from './pages/signin';
-import { StudioPage } from './kinds/portrait/studio';
 import { historyLink, keysLink, type Route, studioLink, useRoute, webhooksLink } from './route';
 import { onLocked } from './session';
 import { strings } from './strings';
 
-const CharacterStudio = later(() => import('./kinds/character/studio'));
 const SharedPage = later(() => import('./pages/shared'));
 const KeysPage = later(() => import('./pages/keys'));
 const WebhooksPage = later(() => import('./pages/webhooks'));
@@ -36,7 +36,15 @@ export function App() {
         {!shared && !locked && <Navigation page={route.page} />}
       </header>
       <main id="content" tabIndex={-1}>
-        {locked && !shared ? <SignInPage onOpen={() => setLocked(false)} /> : <Page route={route} />}
+        {locked && !shared ? (
+          <SignInPage onOpen={() => setLocked(false)} />
+        ) : (
+          <OfferedKinds guest={shared}>
+            <DraftsHeld>
+              <Page route={route} />
+            </DraftsHeld>
+          </OfferedKinds>
+        )}
       </main>
       <Footer guest={shared} />
     </>
@@ -62,11 +70,12 @@ function Navigation({ page }: { page: Route['page'] }) {
 }
 
 function Page({ route }: { route: Route }) {
-  const portrait = useDraft(noPortrait);
-  const character = useDraft(noCharacter);
   switch (route.page) {
-    case 'character':
-      return <CharacterStudio draft={character} />;
+    case 'studio': {
+      const kind = kindOf(route.kind);
+      const Studio = part(kind.loadStudio);
+      return <Studio key={kind.name} kind={kind} />;
+    }
     case 'job':
       return <JobPage key={route.id} id={route.id} />;
     case 'history':
@@ -79,8 +88,6 @@ function Page({ route }: { route: Route }) {
       return <WebhooksPage />;
     case 'lost':
       return <LostPage />;
-    default:
-      return <StudioPage draft={portrait} />;
   }
 }
 

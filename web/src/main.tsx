@@ -6,8 +6,17 @@ import './styles/studio.css';
 import './styles/job.css';
 import { render } from 'preact';
 import { App } from './app';
+import { kindOf } from './kinds';
+import { parseRoute } from './route';
 import { language } from './strings';
+import { fetched } from './widgets/lazy';
 
 document.documentElement.lang = language;
 const root = document.getElementById('app');
-if (root) render(<App />, root);
+const show = (): void => {
+  if (root) render(<App />, root);
+};
+const route = parseRoute(location.hash, location.pathname);
+// a studio comes with the page around it, not after it; where it does not come, the page says so
+if (route.page === 'studio') fetched(kindOf(route.kind).loadStudio).then(show, show);
+else show();

@@ -2,10 +2,11 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { Status } from './api';
+import { kinds } from './kinds';
 
 export type Route =
-  | { page: 'studio' }
-  | { page: 'character' }
+  /** Where something of a kind is ordered. */
+  | { page: 'studio'; kind: string }
   | { page: 'job'; id: string }
   | { page: 'history'; status: Status | null; words: string }
   | { page: 'shared'; token: string }
@@ -17,22 +18,24 @@ export type Route =
 export const statuses: readonly Status[] = ['succeeded', 'running', 'queued', 'failed', 'canceled'];
 
 /** Characters of a search, at most. */
-export const MOST_WORDS = 200;
+export const MAX_SEARCH_CHARACTERS = 200;
 
 /** The page at `path` that `hash` names. */
 export function parseRoute(hash: string, path = '/'): Route {
   if (path !== '/' && path !== '/index.html') return { page: 'lost' };
-  if (!hash.startsWith('#/') || hash === studioLink) return { page: 'studio' };
+  const kind = hash.startsWith('#/') ? kinds.find(({ link }) => link === hash) : kinds[0];
+  if (kind) return { page: 'studio', kind: kind.name };
   const [, place = '', rest, beyond = ''] = /^#\/([a-z]*)(?:\/([^/?#]+))?(.*)$/.exec(hash) ?? [];
   const given = rest && !beyond ? decoded(rest) : null;
+  if (place === 'make' && given) return { page: 'studio', kind: given };
   if (place === 'jobs' && given) return { page: 'job', id: given };
   if (place === 'shared' && given) return { page: 'shared', token: given };
   if (place === 'history' && (!rest || !beyond || beyond.startsWith('?'))) {
     const status = rest ? decoded(rest) : null;
-    const words = (new URLSearchParams(beyond.replace(/^.*\?/, '')).get('q') ?? '').trim().slice(0, MOST_WORDS);
+    const words = (new URLSearchParams(beyond.replace(/^.*\?/, '')).get('q') ?? '').trim().slice(0, MAX_SEARCH_CHARACTERS);
     return { page: 'history', status: statuses.find((one) => one === status) ?? null, words };
   }
-  if ((place === 'character' || place === 'keys' || place === 'webhooks') && !rest && !beyond) return { page: place };
+  if ((place === 'keys' || place === 'webhooks') && !rest && !beyond) return { page: place };
   return { page: 'lost' };
 }
 
@@ -48,8 +51,8 @@ function decoded(part: string): string | null {
 export const jobLink = (id: string): string => `#/jobs/${encodeURIComponent(id)}`;
 export const historyLink = (status: Status | null, words = ''): string =>
   `#/history${status ? `/${status}` : ''}${words && `?q=${encodeURIComponent(words)}`}`;
-export const studioLink = '#/';
-export const characterLink = '#/character';
+/** The start page. */
+export const studioLink = kinds[0].link;
 export const keysLink = '#/keys';
 export const webhooksLink = '#/webhooks';
 

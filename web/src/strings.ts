@@ -23,15 +23,16 @@ export const language = chooseLanguage(wishes, ['en', ...Object.keys(files).map(
 /** The language with the visitor's region, for numbers and dates: `en-GB` where the words are those of `en`. */
 export const locale = wishes.find((wish) => wish.toLowerCase().startsWith(language.toLowerCase())) ?? language;
 
-export const strings: Strings = (await files[`./languages/${language}.ts`]?.())?.default ?? english;
+/** These words in the page's language, where there is a file of them for it; files are named by their tags. */
+export async function inLanguage<Words>(english: Words, files: Record<string, () => Promise<{ default: Words }>>): Promise<Words> {
+  const file = Object.entries(files).find(([path]) => tagOf(path) === language);
+  return (await file?.[1]())?.default ?? english;
+}
+
+export const strings: Strings = await inLanguage(english, files);
 
 /** A name from the engine or the library in plain words: `expression_ratios` becomes `Expression ratios`. */
 export function plain(name: string): string {
   const words = name.replace(/[_-]+/g, ' ').replace('/', ': ').trim();
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
-
-export const stageName = (stage: string): string => strings.stages[stage] ?? plain(stage);
-export const failureTitle = (code: string): string => strings.failures[code] ?? strings.failed;
-export const failureRemedy = (code: string, detail: string): string =>
-  detail || (strings.remedies[code] ?? strings.remedy);

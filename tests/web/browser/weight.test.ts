@@ -22,7 +22,7 @@ it('is there at the first load with less than 200 kB', async () => {
       ours.map(async (url) => gzipSync(Buffer.from(await (await fetch(url)).arrayBuffer())).length),
     );
     expect(sizes.reduce((sum, size) => sum + size, 0)).toBeLessThan(BUDGET);
-    for (const part of ['editor', 'recorder', 'keys', 'webhooks', 'character', 'motions', 'joints', 'painter']) {
+    for (const part of ['editor', 'recorder', 'keys', 'webhooks', 'panel', 'result', 'model', 'motions', 'joints', 'painter']) {
       expect(ours.some((url) => url.includes(`/${part}-`)), `${part} is fetched when it is needed`).toBe(false);
     }
   } finally {

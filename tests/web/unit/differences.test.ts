@@ -1,5 +1,7 @@
-import { differences } from '@web/differences';
-import { keptName, ofDriver, workName } from '@web/names';
+import { ofDriver } from '@web/kinds/portrait/drivers';
+import { keptName } from '@web/names';
+import { differences } from '@web/works/differences';
+import { workName } from '@web/works/names';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';
 

@@ -1,4 +1,5 @@
-import { driverName, performanceName, performanceUrl, pictureName, pictureUrl } from '@web/names';
+import { driverName, performanceUrl } from '@web/kinds/portrait/drivers';
+import { performanceName, pictureName, pictureUrl } from '@web/works/names';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';
 

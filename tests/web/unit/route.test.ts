@@ -1,4 +1,4 @@
-import { characterLink, historyLink, jobLink, parseRoute } from '@web/route';
+import { historyLink, jobLink, parseRoute } from '@web/route';
 import { describe, expect, it } from 'vitest';
 
 describe('addresses', () => {
@@ -14,7 +14,8 @@ describe('addresses', () => {
     expect(parseRoute('#/history/nonsense')).toEqual({ page: 'history', status: null, words: '' });
     expect(parseRoute('#/shared/abc-_1')).toEqual({ page: 'shared', token: 'abc-_1' });
     expect(parseRoute('#/keys')).toEqual({ page: 'keys' });
-    expect(parseRoute(characterLink)).toEqual({ page: 'character' });
+    expect(parseRoute('#/character')).toEqual({ page: 'studio', kind: 'character' });
+    expect(parseRoute('#/make/a%20toy')).toEqual({ page: 'studio', kind: 'a toy' });
   });
 
   it('keeps the words of a search, whatever letters they have', () => {
@@ -26,7 +27,7 @@ describe('addresses', () => {
   });
 
   it('finds the start page', () => {
-    for (const hash of ['', '#', '#/', '#content']) expect(parseRoute(hash)).toEqual({ page: 'studio' });
+    for (const hash of ['', '#', '#/', '#content']) expect(parseRoute(hash)).toEqual({ page: 'studio', kind: 'portrait' });
   });
 
   it('knows what means nothing, damaged links among them', () => {

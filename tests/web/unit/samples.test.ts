@@ -1,6 +1,6 @@
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { fileName, figureSamples, portraitSamples, sampleUrl, smallUrl } from '@web/samples';
+import { fileName, figureSamples, portraitSamples, sampleUrl, smallUrl } from '@web/studio/sample_pictures';
 import { describe, expect, it } from 'vitest';
 
 const root = resolve(import.meta.dirname, '../../..');

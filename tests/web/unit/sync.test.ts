@@ -1,4 +1,4 @@
-import { apart, AT_REST, followerTime, TOLERANCE } from '@web/sync';
+import { apart, AT_REST, followerTime, TOLERANCE } from '@web/result/sync';
 import { describe, expect, it } from 'vitest';
 
 describe('two videos in step', () => {

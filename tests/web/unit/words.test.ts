@@ -1,6 +1,7 @@
 import { problemFrom } from '@web/api';
 import { isMotion, isPicture, isVideo } from '@web/media';
-import { chooseLanguage, failureRemedy, failureTitle, plain } from '@web/strings';
+import { failureRemedy, failureTitle } from '@web/failures';
+import { chooseLanguage, plain } from '@web/strings';
 import { describe, expect, it } from 'vitest';
 
 describe('trouble in plain words', () => {

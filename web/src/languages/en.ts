@@ -1,7 +1,7 @@
-/** Every word of the page, in English. Another language is another file beside this one, named by its tag. */
+/** Every word of the page, in English, but for those in the folders of the kinds. Another language is another file beside this one, named by its tag. */
 
-import { character } from './en/character';
 import { failures } from './en/failures';
+import { generic } from './en/generic';
 import { history } from './en/history';
 import { integrators } from './en/integrators';
 import { job } from './en/job';
@@ -13,7 +13,7 @@ const english = {
   home: 'Galatea, start page',
   skip: 'Skip to the content',
   justNow: 'just now',
-  make: { label: 'What to make', portrait: 'Portrait', character: 'Character' },
+  make: { label: 'What to make' },
 
   recent: {
     title: 'Recent',
@@ -46,7 +46,7 @@ const english = {
   reveal: 'Show',
 
   ...studio,
-  ...character,
+  ...generic,
   ...viewer,
   ...job,
   ...history,

@@ -1,18 +1,24 @@
 /** Everything that was made, newest first; all of it, what came to one end, or what is found by words. */
 
 import type { ComponentChildren } from 'preact';
-import type { Wanted } from '../api';
+import type { Status } from '../api';
 import { Heading } from '../widgets/heading';
 import { SearchField } from '../widgets/search';
 import { Trouble } from '../widgets/trouble';
 import { Work } from '../works/work';
-import { useWorks } from '../jobs';
-import { historyLink, MOST_WORDS, replaceAddress, statuses, studioLink } from '../route';
+import { useWorks } from '../works/works';
+import { historyLink, MAX_SEARCH_CHARACTERS, replaceAddress, statuses, studioLink } from '../route';
 import { strings } from '../strings';
 import '../styles/history.css';
 
-const PAGE = 24;
+/** Works of a page of the list. */
+const PAGE_SIZE = 24;
 const words = strings.history;
+
+interface Wanted {
+  status: Status | null;
+  words: string;
+}
 
 export function HistoryPage(wanted: Wanted) {
   return (
@@ -22,7 +28,7 @@ export function HistoryPage(wanted: Wanted) {
         <SearchField
           label={words.search}
           hint={words.searchHint}
-          longest={MOST_WORDS}
+          longest={MAX_SEARCH_CHARACTERS}
           value={wanted.words}
           onSearch={(query) => replaceAddress(historyLink(wanted.status, query))}
         />
@@ -44,7 +50,7 @@ export function HistoryPage(wanted: Wanted) {
 }
 
 function Works(wanted: Wanted) {
-  const { jobs, versions, stale, problem, retry, more } = useWorks(PAGE, wanted);
+  const { jobs, versions, stale, problem, retry, more } = useWorks(PAGE_SIZE, wanted);
   const settled = jobs !== null && !stale && !problem;
   return (
     <>

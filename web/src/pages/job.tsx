@@ -3,31 +3,28 @@
 import { useEffect, useState } from 'preact/hooks';
 import { cancelJob, deleteJob, type Job, type Problem } from '../api';
 import { Heading } from '../widgets/heading';
-import { later } from '../widgets/lazy';
+import { part } from '../widgets/lazy';
 import { Picture } from '../widgets/picture';
-import { type Pose, Redo, Versions } from '../result/revise';
+import { kindOf } from '../kinds';
+import type { Proposal } from '../kinds/kind';
+import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
-import { Result } from '../kinds/portrait/result';
 import { Stages } from '../result/stages';
 import { Sure } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
-import { LONGEST_TITLE, performanceName, pictureUrl, workName } from '../names';
-import { characterLink, studioLink } from '../route';
+import { MAX_TITLE_CHARACTERS, performanceName, pictureUrl, workName } from '../works/names';
+import { studioLink } from '../route';
 import { strings } from '../strings';
-import { useTitle } from '../titles';
+import { useTitle } from '../works/titles';
 
-const CharacterResult = later(() => import('../kinds/character/result'));
 const words = strings.job;
-
-/** The kinds that can be made again with something changed. */
-const REDONE = ['portrait', 'character'];
 
 export function JobPage({ id }: { id: string }) {
   const { job, problem, stages, interrupted } = useJob(id);
   const [failure, setFailure] = useState<Problem | null>(null);
-  const [pose, setPose] = useState<Pose | null>(null);
+  const [proposal, setProposal] = useState<Proposal | null>(null);
 
   if (problem?.status === 404) {
     return (
@@ -43,25 +40,23 @@ export function JobPage({ id }: { id: string }) {
   if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
   if (!job) return interrupted ? <Trouble code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
 
+  const kind = kindOf(job.kind);
   const remove = async (): Promise<void> => {
     try {
       await deleteJob(id);
-      location.hash = job.kind === 'character' ? characterLink : studioLink;
+      location.hash = kind.link;
     } catch (error) {
       setFailure(asProblem(error));
     }
   };
 
-  const ofCharacter = job.kind === 'character';
   const performance = performanceName(job);
   return (
     <article class="job" aria-busy={!finished(job)}>
       <Title key={job.tree} job={job} />
       <p class="status">
         <span class={`chip ${job.status}`}>{strings.status[job.status]}</span>
-        {performance && (
-          <span>{ofCharacter ? strings.character.does(performance) : words.performance(performance)}</span>
-        )}
+        {performance && <span>{kind.performed(performance)}</span>}
       </p>
       <Versions key={job.id} job={job} />
       <p class="unseen" role="status">
@@ -72,14 +67,21 @@ export function JobPage({ id }: { id: string }) {
           {words.interrupted}
         </p>
       )}
-      <Body job={job} stages={stages} onProblem={setFailure} onPose={setPose} />
-      {finished(job) && REDONE.includes(job.kind) && (
-        <Redo key={job.id} job={job} pose={pose} onPoseTaken={() => setPose(null)} onProblem={setFailure} />
+      <Body job={job} stages={stages} onProblem={setFailure} onPropose={setProposal} />
+      {finished(job) && kind.loadCorrections && (
+        <Revise
+          key={job.id}
+          load={kind.loadCorrections}
+          job={job}
+          proposal={proposal}
+          onProposalTaken={() => setProposal(null)}
+          onProblem={setFailure}
+        />
       )}
       {failure && <Trouble code={failure.code} detail={failure.detail} />}
       {finished(job) && (
         <footer class="actions">
-          <Back to={ofCharacter ? characterLink : studioLink} />
+          <Back to={kind.link} />
           <Sure
             label={words.remove}
             question={words.removeQuestion}
@@ -98,7 +100,7 @@ function Title({ job }: { job: Job }) {
   const [arrived, setArrived] = useState(false);
   useEffect(() => setArrived(true), []);
   return (
-    <Rename name={name} label={strings.history.titleOf(name)} longest={LONGEST_TITLE} onRename={rename}>
+    <Rename name={name} label={strings.history.titleOf(name)} longest={MAX_TITLE_CHARACTERS} onRename={rename}>
       <Heading text={words.title(name)} still={arrived} />
     </Rename>
   );
@@ -110,10 +112,12 @@ interface BodyProps {
   onProblem: (problem: Problem) => void;
 }
 
-function Body({ job, stages, onProblem, onPose }: BodyProps & { onPose: (pose: Pose) => void }) {
+function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (proposal: Proposal) => void }) {
   switch (job.status) {
-    case 'succeeded':
-      return job.kind === 'character' ? <CharacterResult job={job} onPose={onPose} /> : <Result job={job} />;
+    case 'succeeded': {
+      const Result = part(kindOf(job.kind).loadResult);
+      return <Result job={job} onPropose={onPropose} />;
+    }
     case 'failed':
       return (
         <div class="ended">

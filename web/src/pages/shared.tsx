@@ -2,7 +2,8 @@
 
 import { getShared, type Shared } from '../api';
 import { Heading } from '../widgets/heading';
-import { later } from '../widgets/lazy';
+import { kindOf } from '../kinds';
+import { part } from '../widgets/lazy';
 import { Player } from '../result/player';
 import { Trouble } from '../widgets/trouble';
 import { moment, size } from '../format';
@@ -10,15 +11,8 @@ import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import '../styles/share.css';
 
-const Viewer = later(() => import('../viewer/panel'));
 const words = strings.shared;
 
-/** Files that most people have a use for, by how they begin; the rest is listed. */
-const TAKEN: readonly [name: RegExp, label: string][] = [
-  [/^character\.glb$/, strings.character.glb],
-  [/^character\.usdz$/, strings.character.usdz],
-  [/^animation\./, strings.job.download],
-];
 /** What the page itself needs, for whom all files are not meant. */
 const INNER = /^(poster\.jpg|skeleton\.json|background\.png)$/;
 
@@ -35,13 +29,14 @@ export default function SharedPage({ token }: { token: string }) {
   if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
   if (!shared) return <div aria-busy="true" />;
 
+  const kind = kindOf(shared.kind);
   const files = Object.entries(shared.artifacts);
-  const taken = TAKEN.flatMap(([like, label]) => files.filter(([name]) => like.test(name)).map((file) => ({ file, label })));
+  const taken = kind.shared.downloads.flatMap(([like, label]) => files.filter(([name]) => like.test(name)).map((file) => ({ file, label })));
   const others = files.filter(([name]) => !INNER.test(name) && !taken.some(({ file }) => file[0] === name));
   const listed = others.length ? files : [];
   return (
     <article class="shared">
-      <Heading text={shared.title ?? (shared.kind === 'character' ? words.titleCharacter : words.title)} />
+      <Heading text={shared.title ?? kind.shared.title} />
       <Result token={token} shared={shared} />
       <div class="actions">
         {taken.map(({ file: [name, { url, size: bytes }], label }, index) => (
@@ -67,13 +62,14 @@ export default function SharedPage({ token }: { token: string }) {
   );
 }
 
-/** A character in 3D, its video at hand; of a portrait the video. */
+/** The animation, and whatever else the kind has to show. */
 function Result({ token, shared }: { token: string; shared: Shared }) {
-  const { artifacts } = shared;
-  const film = <Film shared={shared} />;
-  if (!artifacts['character.glb']) return film;
+  const { loadShared } = kindOf(shared.kind);
+  const film = filmOf(shared) && <Film shared={shared} />;
+  if (!loadShared) return film ?? null;
   const renew = (signal: AbortSignal): Promise<Shared> => getShared(token, signal);
-  return <Viewer job={shared} renew={renew} first="wall" film={filmOf(shared) ? film : undefined} />;
+  const Shown = part(loadShared);
+  return <Shown shared={shared} renew={renew} film={film} />;
 }
 
 const filmOf = ({ artifacts }: Shared) =>
@@ -82,8 +78,7 @@ const filmOf = ({ artifacts }: Shared) =>
 function Film({ shared }: { shared: Shared }) {
   const film = filmOf(shared);
   if (!film) return null;
-  const ofCharacter = shared.kind === 'character';
-  const alt = ofCharacter ? strings.character.result : strings.job.resultAlt;
+  const { alt, hasSound } = kindOf(shared.kind).shared;
   if (film.content_type.startsWith('image/')) {
     return (
       <figure>
@@ -100,7 +95,7 @@ function Film({ shared }: { shared: Shared }) {
       driver={null}
       chosen={null}
       start={0}
-      hasSound={!ofCharacter}
+      hasSound={hasSound}
     />
   );
 }

@@ -3,7 +3,7 @@
 import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { plain, strings } from '../strings';
-import { apart, AT_REST, followerTime, TOLERANCE } from '../sync';
+import { apart, AT_REST, followerTime, TOLERANCE } from './sync';
 import { Transport } from './transport';
 
 interface Props {

@@ -2,7 +2,8 @@
 
 import type { Job } from '../api';
 import { duration, percent } from '../format';
-import { stageName, strings } from '../strings';
+import { strings } from '../strings';
+import { stageName } from './stage_names';
 
 const words = strings.job;
 
@@ -15,7 +16,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
   const queued = job.status === 'queued';
   const { fraction = 0, eta_seconds: eta = null, stage: current } = job.progress;
   const preparing = queued && current === prepareEngine;
-  const headline = queued && !preparing ? words.queued : current ? stageName(current) : words.starting;
+  const headline = queued && !preparing ? words.queued : current ? stageName(job.kind, current) : words.starting;
 
   return (
     <div class="stages">
@@ -32,7 +33,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
         <ol aria-label={words.stages}>
           {stages.map((stage) => (
             <li key={stage} class={stage === current ? 'current' : 'done'} aria-current={stage === current && 'step'}>
-              {stageName(stage)}
+              {stageName(job.kind, stage)}
               <span class="unseen"> {stage === current ? words.stageRunning : words.stageDone}</span>
             </li>
           ))}

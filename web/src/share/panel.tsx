@@ -5,6 +5,7 @@ import { createLink, type Job, listLinks, type PublicLink, revokeLink } from '..
 import { Copyable } from '../widgets/copyable';
 import { Trouble } from '../widgets/trouble';
 import { moment } from '../format';
+import { kindOf } from '../kinds';
 import { useDoing, useLoaded } from '../loading';
 import { strings } from '../strings';
 import { isLoopback } from './host';
@@ -89,9 +90,8 @@ export default function SharePanel({ job }: { job: Job }) {
   );
 }
 
-/**
- * What a link opens unless it is to open everything: the animation and the picture that stands for it; the characters, and
- * what hangs their picture on a wall, empty once they have stepped out of it.
- */
-const SHOWN = /^(animation\..+|poster\.jpg|character(-\d+)?\.(glb|usdz)|skeleton\.json|background\.png)$/;
-const shownTo = (job: Job): string[] => Object.keys(job.artifacts).filter((name) => SHOWN.test(name));
+/** What a link opens unless it is to open everything. */
+const shownTo = (job: Job): string[] => {
+  const { opened } = kindOf(job.kind).shared;
+  return Object.keys(job.artifacts).filter((name) => opened.test(name));
+};

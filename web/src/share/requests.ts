@@ -1,7 +1,9 @@
 /** How a program asks for what a job made: the request, ready to be copied. */
 
 import type { Job } from '../api';
-import { isFileId, isUrl, pictureName } from '../names';
+import { kindOf } from '../kinds';
+import { isFileId } from '../names';
+import { pictureName } from '../works/names';
 
 /** For a shell: nothing in it is read as more than text. */
 const quoted = (text: string): string => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
@@ -15,16 +17,15 @@ const pythonic = (value: unknown): string => {
   return `{${Object.entries(value).map(([name, one]) => `${JSON.stringify(name)}: ${pythonic(one)}`).join(', ')}}`;
 };
 
-const ENDINGS: Record<string, string> = { image: 'jpg', photo: 'jpg', driver: 'mp4', motion: 'bvh' };
-
 /** Inputs that are files stand for files of the visitor's own, by names that say which is which. */
 function inputsOf(job: Job): { name: string; file: boolean; value: string }[] {
   const picture = pictureName(job).toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'picture';
+  const { endings, pictureInput } = kindOf(job.kind);
   return Object.entries(job.inputs).flatMap(([name, value]) => {
     if (typeof value !== 'string') return [];
     const file = isFileId(value);
-    const stem = name === 'image' || name === 'photo' ? picture : name;
-    return [{ name, file, value: file ? `${stem}.${ENDINGS[name] ?? 'bin'}` : isUrl(value) ? value : value }];
+    const stem = name === pictureInput ? picture : name;
+    return [{ name, file, value: file ? `${stem}.${endings[name] ?? 'bin'}` : value }];
   });
 }
 

@@ -3,7 +3,8 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { useDoing } from '../loading';
 import { keptName } from '../names';
-import { failureRemedy, strings } from '../strings';
+import { failureRemedy } from '../failures';
+import { strings } from '../strings';
 import { Rename } from '../widgets/rename';
 import { Sure } from '../widgets/confirm';
 import '../styles/kept.css';

@@ -1,19 +1,16 @@
 /** What can be made here, each with a page of its own. */
 
-import { characterLink, studioLink } from '../route';
 import { strings } from '../strings';
+import { useOffered } from './offered';
 
-const words = strings.make;
-
-export function Making({ kind }: { kind: 'portrait' | 'character' }) {
+export function KindLinks({ current }: { current: string }) {
   return (
-    <nav class="making" aria-label={words.label}>
-      <a href={studioLink} aria-current={kind === 'portrait' ? 'page' : undefined}>
-        {words.portrait}
-      </a>
-      <a href={characterLink} aria-current={kind === 'character' ? 'page' : undefined}>
-        {words.character}
-      </a>
+    <nav class="making" aria-label={strings.make.label}>
+      {useOffered().map(({ name, label, link }) => (
+        <a key={name} href={link} aria-current={name === current ? 'page' : undefined}>
+          {label}
+        </a>
+      ))}
     </nav>
   );
 }

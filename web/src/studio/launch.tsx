@@ -1,5 +1,6 @@
 /** The end of a form that orders something: what an earlier page left, what went wrong, how far it is, or the button. */
 
+import type { OrderNames } from '../kinds/kind';
 import { namesOf } from '../order';
 import type { useSending } from '../sending';
 import { strings } from '../strings';
@@ -13,7 +14,7 @@ interface Props {
   /** What is still to be chosen; empty where nothing is. */
   missing: string;
   /** What the order will be called, once all is chosen. */
-  chosen: { picture: string; performance: string } | null;
+  chosen: OrderNames | null;
   label: string;
 }
 

@@ -1,7 +1,7 @@
 /** Pictures to begin with: one click puts one where a file of one's own would be. */
 
 import { useId, useState } from 'preact/hooks';
-import { figureSamples, isSample, sampleFile, type SampleName, smallUrl } from '../samples';
+import { figureSamples, isSample, sampleFile, type SampleName, smallUrl } from './sample_pictures';
 import { strings } from '../strings';
 
 const words = strings.samples;

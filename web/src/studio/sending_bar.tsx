@@ -2,17 +2,9 @@
 
 import { percent } from '../format';
 import type { Sending } from '../order';
-import { strings } from '../strings';
+import { plain, strings } from '../strings';
 
 const words = strings.studio;
-const parts = {
-  portrait: words.uploadingPortrait,
-  video: words.uploadingVideo,
-  photo: words.uploadingPhoto,
-  motion: words.uploadingMotion,
-  mask: words.uploadingMask,
-  labels: words.uploadingLabels,
-};
 
 interface Props {
   step: Sending;
@@ -25,7 +17,7 @@ export function SendingBar({ step, paused, onPause, onStop }: Props) {
   const ordering = step.step === 'ordering';
   const label = ordering
     ? words.ordering
-    : (paused ? words.pausedAt : words.uploading)(parts[step.step], percent(step.fraction));
+    : (paused ? words.pausedAt : words.uploading)(words.uploaded[step.part] ?? plain(step.part).toLowerCase(), percent(step.fraction));
   return (
     <div class="sending">
       <label>

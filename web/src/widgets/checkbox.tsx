@@ -7,7 +7,7 @@ interface Props {
   onChange: (on: boolean) => void;
 }
 
-export function Check({ label, checked, disabled = false, onChange }: Props) {
+export function Checkbox({ label, checked, disabled = false, onChange }: Props) {
   return (
     <label class="check">
       <input

@@ -3,7 +3,8 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { useDoing } from '../loading';
-import { failureRemedy, strings } from '../strings';
+import { failureRemedy } from '../failures';
+import { strings } from '../strings';
 
 const words = strings.rename;
 

@@ -5,6 +5,7 @@ import { strings } from '../strings';
 
 interface Props<Value, Choice extends Value> {
   label: string;
+  hint?: string;
   /** One of the choices; where a job was made with another, the list says that it is as before. */
   value: Value;
   choices: readonly Choice[];
@@ -12,7 +13,7 @@ interface Props<Value, Choice extends Value> {
   onChange: (choice: Choice) => void;
 }
 
-export function SelectField<Value, Choice extends Value>({ label, value, choices, nameOf, onChange }: Props<Value, Choice>) {
+export function SelectField<Value, Choice extends Value>({ label, hint, value, choices, nameOf, onChange }: Props<Value, Choice>) {
   const id = useId();
   const known = choices.findIndex((choice) => JSON.stringify(choice) === JSON.stringify(value));
   return (
@@ -20,6 +21,7 @@ export function SelectField<Value, Choice extends Value>({ label, value, choices
       <label for={id}>{label}</label>
       <select
         id={id}
+        aria-describedby={hint ? `${id}-hint` : undefined}
         value={String(known)}
         onChange={({ currentTarget }) => onChange(choices[Number(currentTarget.value)]!)}
       >
@@ -34,6 +36,7 @@ export function SelectField<Value, Choice extends Value>({ label, value, choices
           </option>
         ))}
       </select>
+      {hint && <small id={`${id}-hint`}>{hint}</small>}
     </div>
   );
 }

@@ -1,7 +1,7 @@
 /** What went wrong and what to do, in plain words. */
 
 import type { ComponentChildren } from 'preact';
-import { failureRemedy, failureTitle } from '../strings';
+import { failureRemedy, failureTitle } from '../failures';
 
 interface Props {
   code: string;

@@ -2,7 +2,7 @@
 
 import type { Job } from '../api';
 import { ago, percent } from '../format';
-import { performanceName, pictureUrl, workName } from '../names';
+import { performanceName, pictureUrl, workName } from './names';
 import { jobLink } from '../route';
 import { strings } from '../strings';
 import { Picture } from '../widgets/picture';

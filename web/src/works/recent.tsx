@@ -1,6 +1,6 @@
 /** The latest works, each with its poster. */
 
-import { everything, useWorks } from '../jobs';
+import { everything, useWorks } from './works';
 import { historyLink } from '../route';
 import { strings } from '../strings';
 import { Entry } from './entry';

@@ -2,12 +2,12 @@
 
 import { useState } from 'preact/hooks';
 import { type Job, listRevisions } from '../api';
-import { differences } from '../differences';
+import { differences } from './differences';
 import { useLoaded } from '../loading';
-import { LONGEST_TITLE, workName } from '../names';
+import { MAX_TITLE_CHARACTERS, workName } from './names';
 import { jobLink } from '../route';
 import { strings } from '../strings';
-import { useTitle } from '../titles';
+import { useTitle } from './titles';
 import { Details, Poster, State } from './entry';
 import { Rename } from '../widgets/rename';
 import { Trouble } from '../widgets/trouble';
@@ -21,7 +21,7 @@ export function Work({ job, versions }: { job: Job; versions: number }) {
     <li class="work">
       <div class="entry">
         <Poster job={job} />
-        <Rename name={name} label={words.titleOf(name)} longest={LONGEST_TITLE} onRename={rename}>
+        <Rename name={name} label={words.titleOf(name)} longest={MAX_TITLE_CHARACTERS} onRename={rename}>
           <a class="name" href={jobLink(job.id)} title={name} aria-describedby={`of-${job.id}`}>
             {name}
           </a>

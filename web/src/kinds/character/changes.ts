@@ -1,10 +1,10 @@
 /** What a revision of a character asks for: nothing but what differs from the job before. */
 
 import { characterOptions, type CharacterChanges, type Frame, type Job, type MotionJoints } from '../../api';
-import type { Pose } from '../../result/revise';
+import type { Pose } from './types';
 import { stem } from '../../format';
-import { USUAL_MOTION } from '../../names';
-import type { Motion } from '../../order';
+import { DEFAULT_MOTION } from './motion_names';
+import type { Motion } from './order';
 import { plain } from '../../strings';
 import { changedOptions, type Choices, choicesOf } from './choices';
 import type { Joints } from './skeleton';
@@ -60,7 +60,7 @@ export function wishesOf(job: Job): Wishes {
     labels: made.label_strokes ?? [],
     maskFile: held('mask'),
     labelsFile: held('labels'),
-    motion: held('motion') ?? { by: 'name', name: made.motion ?? USUAL_MOTION },
+    motion: held('motion') ?? { by: 'name', name: made.motion ?? DEFAULT_MOTION },
     motionJoints: made.motion_joints ?? {},
     motionClip: made.motion_clip ?? null,
     pose: (made.pose as Pose | undefined) ?? {},

@@ -2,13 +2,13 @@
 
 import { useId } from 'preact/hooks';
 import type { BodyPart, CharacterOptions } from '../../api';
-import { Check } from '../../widgets/checkbox';
+import { Checkbox } from '../../widgets/checkbox';
 import { SelectField } from '../../widgets/select';
 import { type Format, FormatField, RateField, type Size, SizeField } from '../../studio/video_fields';
 import { count, duration } from '../../format';
-import { strings } from '../../strings';
+import { words as characterWords } from './words';
 
-const words = strings.character;
+const words = characterWords.character;
 
 export const bodyParts: readonly BodyPart[] = ['head', 'torso', 'left_arm', 'right_arm', 'left_leg', 'right_leg'];
 /** Names that stand for two parts. */
@@ -115,7 +115,7 @@ export function KeepField({ value, onChange }: Props) {
       <legend>{words.keep}</legend>
       <div class="checks">
         {bodyParts.map((part) => (
-          <Check
+          <Checkbox
             key={part}
             label={words.parts[part]}
             checked={value.keep.includes(part)}
@@ -191,9 +191,9 @@ export function CharacterFields({ value, onChange }: Props) {
       />
       <div class="field whole">
         <div class="checks">
-          <Check label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
-          <Check label={words.lit} checked={value.lit} onChange={(lit) => onChange({ lit })} />
-          <Check label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
+          <Checkbox label={words.partial} checked={value.partial} onChange={(partial) => onChange({ partial })} />
+          <Checkbox label={words.lit} checked={value.lit} onChange={(lit) => onChange({ lit })} />
+          <Checkbox label={words.vrm} checked={value.vrm} onChange={(vrm) => onChange({ vrm })} />
         </div>
       </div>
       {value.vrm && (

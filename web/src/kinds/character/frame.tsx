@@ -6,10 +6,10 @@ import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
 import { EditorWindow } from '../../stage/editor';
 import { inside, type Point } from '../../stage/place';
 import { type Drag, Surface, type Touch } from '../../stage/surface';
-import { strings } from '../../strings';
 import { enlarged, frameBetween, movedFrame, rounded } from './framing';
+import { words as characterWords } from './words';
 
-const words = strings.framePerson;
+const words = characterWords.framePerson;
 
 /** What one press of a key does, as a share of the picture's longer side. */
 const NUDGE = 1 / 100;

@@ -7,9 +7,10 @@ import { useLoaded } from '../../loading';
 import { strings } from '../../strings';
 import { detailsOf, keyOf, type OwnMotion } from './motiondetails';
 import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './motionjoints';
+import { words as characterWords } from './words';
 import '../../styles/jointmap.css';
 
-const words = strings.motionJoints;
+const words = characterWords.motionJoints;
 const inHands: readonly Group[] = ['leftFingers', 'rightFingers'];
 const names = Object.keys(groups) as Group[];
 

@@ -1,7 +1,7 @@
 /** The joints of a person, to be dragged where they belong: a window of its own over the page. */
 
 import { useId, useMemo, useState } from 'preact/hooks';
-import { Check } from '../../widgets/checkbox';
+import { Checkbox } from '../../widgets/checkbox';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
 import { EditorWindow } from '../../stage/editor';
 import { Lens } from '../../stage/lens';
@@ -10,11 +10,11 @@ import { boxOf, grown, inside, nearest, type Point } from '../../stage/place';
 import { type Drag, Surface, type Touch } from '../../stage/surface';
 import { Tool } from '../../stage/tools';
 import { around } from '../../stage/view';
-import { strings } from '../../strings';
 import { isDetail, type Joints, labelOf, sharesOf, swapped } from './skeleton';
 import { SkeletonDrawing } from './drawing';
+import { words as characterWords } from './words';
 
-const words = strings.joints;
+const words = characterWords.joints;
 
 /** What one press of a key does, as a share of the picture's longer side; with Shift so many times as far. */
 const NUDGE = 1 / 600;
@@ -109,8 +109,8 @@ export default function JointEditor({ url, size, start, found, onDone, onClose }
       toolsLabel={words.tools}
       tools={
         <>
-          <Check label={words.whole} checked={all} onChange={setAll} />
-          {names.some(isDetail) && <Check label={words.details} checked={details} onChange={setDetails} />}
+          <Checkbox label={words.whole} checked={all} onChange={setAll} />
+          {names.some(isDetail) && <Checkbox label={words.details} checked={details} onChange={setDetails} />}
           {all && (
             <span class="cluster">
               <Tool label={words.smaller} onUse={() => grow(1 / GROW)} icon="M9 4v5H4m11-5v5h5M9 20v-5H4m11 5v-5h5" />

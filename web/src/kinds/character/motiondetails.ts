@@ -12,7 +12,7 @@ import {
 } from '../../api';
 import { finished } from '../../events';
 import { isFileId, isUrl } from '../../names';
-import type { Motion } from '../../order';
+import type { Motion } from './order';
 
 /** Milliseconds between questions how far the job is. */
 const PAUSE = 400;

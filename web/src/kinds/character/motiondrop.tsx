@@ -2,9 +2,9 @@
 
 import { Dropzone } from '../../widgets/dropzone';
 import { isMotion, motionTypes } from '../../media';
-import { strings } from '../../strings';
+import { words as characterWords } from './words';
 
-const words = strings.character;
+const words = characterWords.character;
 
 interface Props {
   file: File | null;

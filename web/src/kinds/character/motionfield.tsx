@@ -3,14 +3,16 @@
 import { useId } from 'preact/hooks';
 import { canMove, type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../../api';
 import { useLoaded } from '../../loading';
-import { isFileId, isUrl, motionName } from '../../names';
-import { plain, strings } from '../../strings';
+import { isFileId, isUrl } from '../../names';
+import { motionName } from './motion_names';
+import { plain } from '../../strings';
 import { type Held, type Wishes, wishesOf } from './changes';
 import { JointMap } from './jointmap';
 import { MotionDrop } from './motiondrop';
 import { detailsIn, motionNames } from './motions';
+import { words as characterWords } from './words';
 
-const words = strings.character;
+const words = characterWords.character;
 /** What an error may name that is put right in the table of the motion. */
 const wanted = ['motion_joints', 'motion_clip'];
 

@@ -2,6 +2,7 @@
 
 import type { MotionDetails, MotionJoints } from '../../api';
 import { strings } from '../../strings';
+import { words as characterWords } from './words';
 
 const sides = ['Left', 'Right'] as const;
 const fingers = ['Thumb', 'Index', 'Middle', 'Ring', 'Pinky'] as const;
@@ -60,5 +61,5 @@ export function jointName(joint: string): string {
   const { bones } = strings.viewer;
   const [, side, finger, number] = /^(Left|Right)Hand(\D+)(\d)$/.exec(joint) ?? [];
   if (!side || !finger) return bones[joint] ?? joint;
-  return strings.motionJoints.finger(strings.joints[side === 'Left' ? 'left' : 'right'](strings.motionJoints.fingers[finger] ?? finger), number ?? '');
+  return characterWords.motionJoints.finger(characterWords.joints[side === 'Left' ? 'left' : 'right'](characterWords.motionJoints.fingers[finger] ?? finger), number ?? '');
 }

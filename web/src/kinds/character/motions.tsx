@@ -4,14 +4,15 @@ import { canMove, deleteMotion, type KeptMotion, listOwnMotions, type MotionDeta
 import { SymbolCard } from '../portrait/performance_card';
 import { KeptList } from '../../studio/kept_list';
 import { useLoaded } from '../../loading';
-import { motionName, USUAL_MOTION } from '../../names';
-import type { Motion } from '../../order';
-import { plain, strings } from '../../strings';
+import { DEFAULT_MOTION, motionName } from './motion_names';
+import type { Motion } from './order';
+import { plain } from '../../strings';
 import { JointMap } from './jointmap';
 import { MotionDrop } from './motiondrop';
+import { words as characterWords } from './words';
 import '../../styles/motions.css';
 
-const words = strings.character;
+const words = characterWords.character;
 
 /** A head at a place of the square of 48. */
 const head = (x: number, y: number): string => `M${x - 4} ${y}a4 4 0 1 0 8 0a4 4 0 1 0-8 0`;
@@ -100,7 +101,7 @@ export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Pr
           own.reload();
         }}
         onRemoved={(name) => {
-          if (chosen.by === 'kept' && chosen.name === name) onChoose({ by: 'name', name: USUAL_MOTION });
+          if (chosen.by === 'kept' && chosen.name === name) onChoose({ by: 'name', name: DEFAULT_MOTION });
           own.reload();
         }}
       />

@@ -2,19 +2,19 @@
 
 import { useId, useState } from 'preact/hooks';
 import type { BodyPart } from '../../api';
-import { Check } from '../../widgets/checkbox';
+import { Checkbox } from '../../widgets/checkbox';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
 import { EditorWindow } from '../../stage/editor';
 import type { Point } from '../../stage/place';
 import { type Drag, Surface, type Touch } from '../../stage/surface';
 import { Tool } from '../../stage/tools';
-import { strings } from '../../strings';
 import { bodyParts } from './choices';
 import { Painting } from './painting';
 import { type LabelStroke, type MaskStroke, partColours, radii, simplified } from './strokes';
+import { words as characterWords } from './words';
 import '../../styles/painter.css';
 
-const words = strings.painter;
+const words = characterWords.painter;
 
 /** What one press of a key does: a share of the picture's longer side, and of the brush's width. */
 const NUDGE = 1 / 300;
@@ -131,7 +131,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
               onInput={({ currentTarget }) => setRadius(Math.exp(currentTarget.valueAsNumber))}
             />
           </label>
-          <Check label={words.overlay} checked={coloured} onChange={setColoured} />
+          <Checkbox label={words.overlay} checked={coloured} onChange={setColoured} />
           <span class="cluster">
             <Tool
               label={words.drag}
@@ -191,7 +191,7 @@ function Paints({ what, value, onChange }: PaintsProps) {
         ]
       : bodyParts.map((part) => ({
           saying: { part },
-          label: strings.character.parts[part],
+          label: characterWords.character.parts[part],
           colour: partColours[part],
         }));
   const keyOf = (saying: Saying): string => JSON.stringify(saying);

@@ -6,14 +6,14 @@ import type { Shown } from '../../widgets/boxed_picture';
 import { FileButton } from '../../widgets/file_button';
 import { later } from '../../widgets/lazy';
 import { maskTypes } from '../../media';
-import { strings } from '../../strings';
 import type { Wishes } from './changes';
 import { type Misfit, misfitOf, type Painted, previewOf, sizeOf } from './maskfile';
 import { Painting } from './painting';
+import { words as characterWords } from './words';
 import '../../styles/painter.css';
 
 const Painter = later(() => import('./painter'));
-const words = strings.correct;
+const words = characterWords.correct;
 
 interface Props {
   job: Job;

@@ -1,11 +1,11 @@
 /** Everything about a character that can be put right by hand, and the order to make it again. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { foundPeople, getReport, getSkeleton, type Job, type Problem } from '../../api';
+import { foundPeople, getReport, getSkeleton, type Pose } from '../../api';
 import { later } from '../../widgets/lazy';
-import type { Pose } from '../../result/revise';
+import type { CorrectionsProps } from '../kind';
 import { SendingBar } from '../../studio/sending_bar';
-import { usePicture } from '../portrait/corrections/picture';
+import { usePicture } from '../../result/use_picture';
 import { randomKey } from '../../key';
 import { useLoaded } from '../../loading';
 import { strings } from '../../strings';
@@ -16,22 +16,15 @@ import { Paintings } from './paintings';
 import { People } from './people';
 import { useRevision } from './revision';
 import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from './skeleton';
+import { words as characterWords } from './words';
 import '../../styles/corrections.css';
 import '../../styles/character.css';
 
 const JointEditor = later(() => import('./joints'));
 const FrameEditor = later(() => import('./frame'));
-const words = strings.correct;
+const words = characterWords.correct;
 
-interface Props {
-  job: Job;
-  /** From the viewer: it is to be made. */
-  pose: Pose | null;
-  onPoseTaken: () => void;
-  onProblem: (problem: Problem | null) => void;
-}
-
-export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Props) {
+export default function CharacterPanel({ job, proposal, onProposalTaken, onProblem }: CorrectionsProps) {
   const before = useMemo(() => wishesOf(job), [job.id]);
   const [wishes, setWishes] = useState<Wishes>(before);
   const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
@@ -48,11 +41,12 @@ export default function CharacterPanel({ job, pose, onPoseTaken, onProblem }: Pr
   };
   const sending = useRevision(job, key, onProblem);
   useEffect(() => {
-    if (!pose) return;
-    onPoseTaken();
+    if (!proposal) return;
+    const pose = proposal.pose as Pose; // from the viewer: it is to be made
+    onProposalTaken();
     wish({ pose });
     sending.send(before, { ...wishes, pose }); // whatever else is wished for comes along
-  }, [pose]);
+  }, [proposal]);
 
   // what was not made, for whatever reason, may be tried again as it is
   const again = isChanged(before, wishes) || job.status !== 'succeeded';

@@ -2,11 +2,11 @@
 
 import type { Frame } from '../../api';
 import { BoxedPicture, type Shown } from '../../widgets/boxed_picture';
-import { strings } from '../../strings';
 import { SkeletonDrawing } from './drawing';
 import { isDetail, type Joints } from './skeleton';
+import { words as characterWords } from './words';
 
-const words = strings.correct;
+const words = characterWords.correct;
 
 interface Props {
   picture: Shown;

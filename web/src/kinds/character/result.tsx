@@ -3,23 +3,17 @@
 import { type Artifact, characterOptions, getJob, getReport, getSkeleton, type Job } from '../../api';
 import { size } from '../../format';
 import { useLoaded } from '../../loading';
-import { strings } from '../../strings';
 import { peopleOf } from '../../viewer/people';
 import { later } from '../../widgets/lazy';
 import { Left, Took, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
-import type { Pose } from '../../result/revise';
+import type { ResultProps } from '../kind';
+import { words as characterWords } from './words';
 
 const Viewer = later(() => import('../../viewer/panel'));
-const words = strings.character;
+const words = characterWords.character;
 
-interface Props {
-  job: Job;
-  /** The character is to be made again in a pose that was set by hand. */
-  onPose: (pose: Pose) => void;
-}
-
-export default function CharacterResult({ job, onPose }: Props) {
+export default function CharacterResult({ job, onPropose }: ResultProps) {
   const report = useLoaded((signal) => getReport(job, signal), job.id);
   const { artifacts } = job;
   const several = peopleOf(job, null).length > 1;
@@ -34,7 +28,7 @@ export default function CharacterResult({ job, onPose }: Props) {
           renew={(signal) => getJob(job.id, signal)}
           first="wall"
           pose={characterOptions(job).pose ?? undefined}
-          onPose={onPose}
+          onPose={(pose) => onPropose({ pose })}
           film={shown || undefined}
         />
       ) : (

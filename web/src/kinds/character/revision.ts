@@ -1,8 +1,9 @@
 /** Sends the files of a revision, if there are any, then the revision; the page turns to its job. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { type Job, type Problem, reviseCharacter } from '../../api';
+import { type Job, type Problem, reviseJob } from '../../api';
 import { asProblem } from '../../loading';
+import type { Sending } from '../../order';
 import { usePausing } from '../../pausing';
 import { jobLink } from '../../route';
 import { GIVEN_UP, uploadFile } from '../../upload';
@@ -12,7 +13,7 @@ type Part = keyof Sent;
 
 export function useRevision(job: Job, key: { current: string }, onProblem: (problem: Problem | null) => void) {
   const [busy, setBusy] = useState(false);
-  const [step, setStep] = useState<{ step: Part; fraction: number } | null>(null);
+  const [step, setStep] = useState<Sending | null>(null);
   const { valve, paused, pause } = usePausing();
   const stopper = useRef<AbortController | null>(null);
   /** What has arrived need not be sent again. */
@@ -22,7 +23,7 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
   const upload = async (part: Part, file: File, signal: AbortSignal): Promise<string> => {
     const known = arrived.current.get(file);
     if (known) return known;
-    const progress = (sent: number): void => setStep({ step: part, fraction: file.size ? sent / file.size : 1 });
+    const progress = (sent: number): void => setStep({ step: 'uploading', part, fraction: file.size ? sent / file.size : 1 });
     progress(0);
     const id = await uploadFile(file, progress, valve, signal);
     arrived.current.set(file, id);
@@ -42,7 +43,7 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
       }
       setStep(null);
       const changes = changesOf(before, wishes, sent);
-      const revised = await reviseCharacter(job.id, { ...changes, ...notesFor(job, wishes) }, key.current);
+      const revised = await reviseJob(job.id, { ...changes, ...notesFor(job, wishes) }, key.current);
       location.hash = jobLink(revised.id);
     } catch (error) {
       if (signal.aborted) arrived.current.clear(); // what had arrived is gone

@@ -2,7 +2,7 @@
 
 import type { Frame, Skeleton } from '../../api';
 import type { Point } from '../../stage/place';
-import { strings } from '../../strings';
+import { words as characterWords } from './words';
 
 /** Places by name, in pixels of the picture. */
 export type Joints = Readonly<Record<string, Point>>;
@@ -66,7 +66,7 @@ export const sideOf = (name: string): 'left' | 'right' | null =>
 
 /** `Left elbow`. */
 export function labelOf(name: string): string {
-  const words = strings.joints;
+  const words = characterWords.joints;
   const plain = name.replace(/^(Left|Right)|(Left|Right)$/g, '');
   const known = words.names[plain] ?? plain;
   const side = sideOf(name);

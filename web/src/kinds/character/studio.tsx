@@ -2,24 +2,27 @@
 
 import { useEffect } from 'preact/hooks';
 import type { CharacterOptions, MotionJoints } from '../../api';
-import { CharacterFields, type Choices, KeepField, optionsOf, VideoFields } from './choices';
+import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from './choices';
 import { Motions } from './motions';
 import { Capture } from '../../studio/capture';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { Dropzone } from '../../widgets/dropzone';
 import { Launch } from '../../studio/launch';
-import { Making } from '../../studio/kind_links';
+import { KindLinks } from '../../studio/kind_links';
 import { Recent } from '../../works/recent';
 import { Samples } from '../../studio/samples';
-import type { CharacterDraft, Draft } from '../../drafts';
+import { useDraft } from '../../studio/draft';
 import { isMotion, isPicture, pictureTypes } from '../../media';
-import { characterOrder, type Motion, namesOf } from '../../order';
-import { figureSamples } from '../../samples';
+import type { StudioProps } from '../kind';
+import { DEFAULT_MOTION } from './motion_names';
+import { characterOrder, type Motion, namesOf } from './order';
+import { figureSamples } from '../../studio/sample_pictures';
 import { useSending } from '../../sending';
 import { strings } from '../../strings';
+import { words as characterWords } from './words';
 
-const words = strings.character;
+const words = characterWords.character;
 
 /** What is said of the motion, where there is something to say. */
 const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
@@ -27,8 +30,21 @@ const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
   ...(clip !== null && { motion_clip: clip }),
 });
 
-export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft> }) {
-  const [{ photo, motion, joints, clip, choices }, alter] = draft;
+interface Draft {
+  photo: File | null;
+  motion: Motion;
+  joints: MotionJoints;
+  /** Which of the motion's animations. */
+  clip: string | null;
+  choices: Choices;
+}
+
+const NOTHING: Draft = {
+  ...{ photo: null, motion: { by: 'name', name: DEFAULT_MOTION }, joints: {}, clip: null, choices: usual },
+};
+
+export default function CharacterStudio({ kind }: StudioProps) {
+  const [{ photo, motion, joints, clip, choices }, alter] = useDraft(kind.name, NOTHING);
   const setPhoto = (photo: File): void => alter({ photo });
   const sending = useSending();
   // another motion has other joints, and other animations
@@ -38,7 +54,7 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
     else if (await isMotion(file)) move({ by: 'file', file });
   });
   useEffect(() => {
-    document.title = `${strings.make.character} · ${strings.name}`;
+    document.title = `${kind.label} · ${strings.name}`;
   }, []);
 
   const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
@@ -52,14 +68,14 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
       <form class="studio" onSubmit={start}>
         <header>
           <div>
-            <Making kind="character" />
+            <KindLinks current={kind.name} />
             <h1>{words.title}</h1>
             <p>{words.lead}</p>
           </div>
           <Demo
             still="/samples/woman-in-red-still.jpg"
             moving="/samples/woman-in-red-walk.mp4"
-            alt={strings.demo.character}
+            alt={characterWords.demo}
             width={400}
             height={532}
           />

@@ -3,7 +3,7 @@
 import { useId } from 'preact/hooks';
 import type { Part, PortraitOptions } from '../../api';
 import { strings } from '../../strings';
-import { Check } from '../../widgets/checkbox';
+import { Checkbox } from '../../widgets/checkbox';
 
 export const parts: readonly Part[] = ['eyes', 'brows', 'mouth', 'head'];
 
@@ -84,7 +84,7 @@ export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
         <legend>{words.follow}</legend>
         <div class="checks">
           {parts.map((part) => (
-            <Check
+            <Checkbox
               key={part}
               label={strings.parts[part]}
               checked={value.follow.includes(part)}
@@ -96,9 +96,9 @@ export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
         </div>
       </fieldset>
       <div class="field">
-        <Check label={words.loop} checked={value.loop} onChange={(loop) => onChange({ ...value, loop })} />
+        <Checkbox label={words.loop} checked={value.loop} onChange={(loop) => onChange({ ...value, loop })} />
         {mayHaveSound && (
-          <Check label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
+          <Checkbox label={words.sound} checked={value.sound} onChange={(sound) => onChange({ ...value, sound })} />
         )}
       </div>
     </>

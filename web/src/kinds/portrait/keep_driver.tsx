@@ -4,7 +4,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { createDriver, type Problem } from '../../api';
 import { stem } from '../../format';
 import { asProblem } from '../../loading';
-import { driverName } from '../../names';
+import { driverName } from './drivers';
 import type { Sending } from '../../order';
 import { usePausing } from '../../pausing';
 import { strings } from '../../strings';
@@ -41,10 +41,10 @@ export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
     const { signal } = (stopper.current = new AbortController());
     setProblem(null);
     pause(false);
-    setStep({ step: 'video', fraction: 0 });
+    setStep({ step: 'uploading', part: 'video', fraction: 0 });
     onKeeping(true);
     try {
-      const progress = (bytes: number): void => setStep({ step: 'video', fraction: file.size ? bytes / file.size : 1 });
+      const progress = (bytes: number): void => setStep({ step: 'uploading', part: 'video', fraction: file.size ? bytes / file.size : 1 });
       arrived.current ??= await uploadFile(file, progress, valve, signal);
       setStep({ step: 'ordering' });
       const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);

@@ -2,7 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import type { Driver, Moment } from '../../api';
-import { momentName } from '../../names';
+import { momentName } from './drivers';
 import { plain, strings } from '../../strings';
 
 const words = strings.studio;

@@ -3,7 +3,7 @@
 import { useState } from 'preact/hooks';
 import { deleteDriver, type Driver, renameDriver } from '../../api';
 import { isVideo, videoTypes } from '../../media';
-import { AUTO, ofDriver } from '../../names';
+import { AUTO, ofDriver } from './drivers';
 import { plain, strings } from '../../strings';
 import { Capture } from '../../studio/capture';
 import { Card, shownOf, SymbolCard, symbols } from './performance_card';

@@ -8,7 +8,7 @@ const words = strings.job;
 
 /** What of the component the page uses; `web/reactive` makes it. */
 interface ReactivePortrait extends HTMLElement {
-  readonly states: string[];
+  readonly states: readonly string[];
   readonly state: string;
   play(state: string): void;
 }

@@ -3,7 +3,8 @@
 import { type Artifact, getReport, type Job, portraitOptions } from '../../api';
 import { size } from '../../format';
 import { useLoaded } from '../../loading';
-import { performanceUrl } from '../../names';
+import type { ResultProps } from '../kind';
+import { performanceUrl } from './drivers';
 import { strings } from '../../strings';
 import { Left, Took, Warnings } from '../../result/actions';
 import { Living } from './reactive_player';
@@ -19,7 +20,7 @@ function animation(job: Job): [string, Artifact] | null {
   return Object.entries(job.artifacts).find(shown) ?? null;
 }
 
-export function Result({ job }: { job: Job }) {
+export default function PortraitResult({ job }: ResultProps) {
   const report = useLoaded((signal) => getReport(job, signal), job.id);
   const found = animation(job);
   const profile = job.artifacts['profile.json'];

@@ -3,44 +3,55 @@
 import { useEffect, useState } from 'preact/hooks';
 import { listDrivers } from '../../api';
 import { Capture } from '../../studio/capture';
-import { FoldedChoices, optionsOf } from './choices';
+import { type Choices, FoldedChoices, optionsOf, usual as defaults } from './choices';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { Dropzone } from '../../widgets/dropzone';
 import { Launch } from '../../studio/launch';
-import { Making } from '../../studio/kind_links';
+import { KindLinks } from '../../studio/kind_links';
 import { type Performance, Performances } from './performances';
 import { Recent } from '../../works/recent';
 import { Samples } from '../../studio/samples';
 import { Trouble } from '../../widgets/trouble';
-import type { Draft, PortraitDraft } from '../../drafts';
+import { useDraft } from '../../studio/draft';
 import { useLoaded } from '../../loading';
 import { isPicture, isVideo, pictureTypes } from '../../media';
-import { namesOf, portraitOrder } from '../../order';
-import { portraitSamples } from '../../samples';
+import type { StudioProps } from '../kind';
+import { namesOf, portraitOrder } from './order';
+import { words as portraitWords } from './words';
+import { portraitSamples } from '../../studio/sample_pictures';
 import { useSending } from '../../sending';
 import { strings } from '../../strings';
 
 const words = strings.studio;
 
 /** How often drivers that are being searched for moments are looked at. */
-const LOOK_MS = 2000;
+const SEARCH_POLL_MS = 2000;
 
 /** What is acted out where nothing else is chosen: the mood of the clip above. */
-const USUAL = 'happy';
+const DEFAULT_PERFORMANCE = 'happy';
 
-export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
-  const [{ portrait, performance: chosen, choices }, change] = draft;
+interface Draft {
+  portrait: File | null;
+  /** Null: nobody has chosen yet. */
+  performance: Performance | null;
+  choices: Choices;
+}
+
+const NOTHING: Draft = { portrait: null, performance: null, choices: defaults };
+
+export default function PortraitStudio({ kind }: StudioProps) {
+  const [{ portrait, performance: chosen, choices }, change] = useDraft(kind.name, NOTHING);
   const setPortrait = (portrait: File): void => change({ portrait });
   const setPerformance = (performance: Performance): void => change({ performance });
   const [keeping, setKeeping] = useState(false);
   const drivers = useLoaded(listDrivers, 'drivers');
-  const usual = drivers.value?.find(({ name }) => name === USUAL);
+  const usual = drivers.value?.find(({ name }) => name === DEFAULT_PERFORMANCE);
   const performance: Performance | null = chosen ?? (usual ? { by: 'name', name: usual.name } : null);
   const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
   useEffect(() => {
     if (!searching) return;
-    const timer = setInterval(drivers.reload, LOOK_MS);
+    const timer = setInterval(drivers.reload, SEARCH_POLL_MS);
     return () => clearInterval(timer);
   }, [searching]);
   const sending = useSending();
@@ -67,14 +78,14 @@ export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
       <form class="studio" onSubmit={start}>
         <header>
           <div>
-            <Making kind="portrait" />
+            <KindLinks current={kind.name} />
             <h1>{words.title}</h1>
             <p>{words.lead}</p>
           </div>
           <Demo
             still="/samples/grace-hopper-still.jpg"
             moving="/samples/grace-hopper-happy.mp4"
-            alt={strings.demo.portrait}
+            alt={portraitWords.demo}
             width={400}
             height={480}
           />

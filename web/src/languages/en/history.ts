@@ -1,7 +1,5 @@
 /** English: what was made: found again, called something, its versions; and what is kept under a name. */
 
-import type { CharacterCorrections, CharacterOptions, PortraitOptions } from '../../kinds';
-
 export const history = {
   history: {
     title: 'History',
@@ -39,47 +37,4 @@ export const history = {
     removeQuestion: (name: string) => `Delete “${name}”? Results made with it stay.`,
     gone: (name: string) => `“${name}” was deleted.`,
   },
-
-  /** Options and corrections, as they are named where versions of a work are told apart. */
-  differences: {
-    driver: 'performance',
-    image: 'picture',
-    photo: 'picture',
-    size: 'size',
-    fps: 'frames per second',
-    format: 'file format',
-    neutral_frame: 'neutral frame',
-    face_index: 'face',
-    driver_face_index: 'face in the video',
-    strength: 'strength',
-    follow: 'what moves',
-    head_3d: 'turn of the head',
-    crop: 'crop',
-    trim: 'part of the performance',
-    loop: 'loop',
-    sound: 'sound',
-    landmarks: 'landmarks',
-    reactive: 'interactive',
-    motion: 'motion',
-    motion_joints: 'joints of the motion',
-    motion_clip: 'animation of the motion',
-    keep: 'what stays still',
-    seconds: 'length',
-    camera: 'camera',
-    triangles: 'triangles',
-    levels: 'levels of detail',
-    vrm: 'VRM file',
-    vrm_author: 'author',
-    lit: 'lit preview image',
-    partial: 'incomplete figure',
-    pose: 'pose',
-    joints: 'joints',
-    person_box: 'person',
-    person_index: 'person',
-    mask: 'mask',
-    mask_strokes: 'mask',
-    labels: 'body parts',
-    label_strokes: 'body parts',
-    back_texture: 'back',
-  } satisfies Record<keyof (PortraitOptions & CharacterOptions & CharacterCorrections), string> & Record<string, string>,
 };

@@ -158,30 +158,10 @@ export const job = {
     canceled: 'Canceled',
   } satisfies Record<Status, string>,
 
-  /** Stages by the names that the engine gives them; a new one is shown under its own name. */
+  /** Stages that every job may have; those of a kind stand in its folder. Another is shown under its own name. */
   stages: {
     prepare_engine: 'Preparing the engine',
     fetch: 'Downloading the inputs',
-    find_face: 'Finding the face',
-    choose_driver: 'Choosing the performance',
-    driver_looks: 'Comparing the performances',
-    separate_layers: 'Separating the person from the background',
-    rig_target: 'Rigging the portrait',
-    track_driver: 'Tracking the performance',
-    register_driver: 'Tracking the skin',
-    ratio_images: 'Finding creases and wrinkles',
-    glance_at_driver: 'Checking the performance',
-    look_again: 'Comparing the face with the performance',
-    animate: 'Animating',
-    find_figure: 'Finding the person',
-    cut_out: 'Cutting the person out',
-    fit_template: 'Fitting the body model',
-    label_parts: 'Separating arms, legs and body',
-    build_mesh: 'Building the 3D mesh',
-    make_character: 'Creating the character',
-    write_character: 'Adding the motions',
-    fill_background: 'Filling in the background',
-    measure: 'Measuring the fit',
   } as Record<string, string>,
 
   share: {
@@ -205,8 +185,6 @@ export const job = {
   },
 
   shared: {
-    title: 'A portrait brought to life',
-    titleCharacter: 'A person who walked out of their picture',
     gone: 'This link does not work',
     goneDetail: 'It has expired, was revoked, or is incomplete. Ask whoever sent it for a new one.',
   },

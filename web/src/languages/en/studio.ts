@@ -1,7 +1,7 @@
 /** English: the start page of portraits, and the camera. */
 
 import type { Part } from '../../api';
-import type { SampleName } from '../../samples';
+import type { SampleName } from '../../studio/sample_pictures';
 
 export const studio = {
   samples: {
@@ -20,8 +20,6 @@ export const studio = {
   demo: {
     before: 'The picture',
     after: 'The result',
-    portrait: 'The portrait smiling',
-    character: 'The painted woman walking out of her picture',
     play: 'Play animation',
     pause: 'Pause animation',
   },
@@ -83,12 +81,15 @@ export const studio = {
     needPortrait: 'Choose a portrait to begin.',
     needPerformance: 'Now choose a performance.',
     uploading: (part: string, percent: string) => `Uploading ${part}: ${percent}`,
-    uploadingPortrait: 'the portrait',
-    uploadingVideo: 'the video',
-    uploadingPhoto: 'the picture',
-    uploadingMotion: 'the motion',
-    uploadingMask: 'the mask',
-    uploadingLabels: 'the body parts',
+    /** Files, by what they are to an order; others are named as the order names them. */
+    uploaded: {
+      portrait: 'the portrait',
+      video: 'the video',
+      photo: 'the picture',
+      motion: 'the motion',
+      mask: 'the mask',
+      labels: 'the body parts',
+    } as Record<string, string>,
     ordering: 'Starting',
     stop: 'Stop',
     pause: 'Pause',

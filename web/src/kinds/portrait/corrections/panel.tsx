@@ -1,8 +1,9 @@
 /** Everything about a portrait that can be put right by hand, and the order to make it again. */
 
 import { useMemo, useRef, useState } from 'preact/hooks';
-import { foundFaces, getLandmarks, getReport, type Job, portraitOptions, type PortraitChanges, type Problem, reviseJob } from '../../../api';
-import { Check } from '../../../widgets/checkbox';
+import { foundFaces, getLandmarks, getReport, portraitOptions, type PortraitChanges, reviseJob } from '../../../api';
+import { Checkbox } from '../../../widgets/checkbox';
+import type { CorrectionsProps } from '../../kind';
 import { ChoiceFields } from '../choices';
 import { later } from '../../../widgets/lazy';
 import { SelectField } from '../../../widgets/select';
@@ -11,25 +12,22 @@ import { randomKey } from '../../../key';
 import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
 import { asProblem, useLoaded } from '../../../loading';
-import { AUTO, isFileId, performanceUrl } from '../../../names';
+import { isFileId } from '../../../names';
+import { AUTO, performanceUrl } from '../drivers';
 import { jobLink } from '../../../route';
 import { strings } from '../../../strings';
 import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
 import { NeutralFrame } from './neutral';
 import { DriverFaceField, TrimField } from './performance';
-import { FaceChoice, usePicture } from './picture';
+import { usePicture } from '../../../result/use_picture';
+import { FaceChoice } from './picture';
 import '../../../styles/corrections.css';
 
 const LandmarkEditor = later(() => import('../landmarks/editor'));
 const words = strings.redo;
 const crops = ['none', 'bust', 'face'] as const;
 
-interface Props {
-  job: Job;
-  onProblem: (problem: Problem | null) => void;
-}
-
-export default function CorrectionPanel({ job, onProblem }: Props) {
+export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
   const made = portraitOptions(job);
   const asMade = useMemo(() => wishesOf(made), [job.id]);
   const [wishes, setWishes] = useState<Wishes>(asMade);
@@ -62,7 +60,7 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
     setSending(true);
     onProblem(null);
     try {
-      const revised = await reviseJob(job.id, options, key.current);
+      const revised = await reviseJob(job.id, { options }, key.current);
       location.hash = jobLink(revised.id);
     } catch (error) {
       onProblem(asProblem(error));
@@ -121,7 +119,7 @@ export default function CorrectionPanel({ job, onProblem }: Props) {
         <ChoiceFields value={wishes} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
         <div class="field">
           <div class="checks">
-            <Check label={words.solid} checked={wishes.solid} onChange={(solid) => wish({ solid })} />
+            <Checkbox label={words.solid} checked={wishes.solid} onChange={(solid) => wish({ solid })} />
           </div>
           <small>{words.solidHint}</small>
         </div>

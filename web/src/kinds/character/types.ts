@@ -1,11 +1,9 @@
-/** What the kinds of jobs take, and what they leave: options, corrections, and the artifacts that are read here. */
+/** What a character takes, and what it leaves that is read here. */
 
-import type { components } from './openapi';
+import type { components } from '../../openapi';
+import type { Frame } from '../../report';
 
 type Schemas = components['schemas'];
-
-export type PortraitOptions = Partial<Schemas['PortraitOptions']>;
-export type Part = NonNullable<PortraitOptions['follow']>[number];
 
 /** A path of a brush over the picture, both in its pixels. */
 export interface Stroke {
@@ -13,8 +11,6 @@ export interface Stroke {
   radius: number;
 }
 export type BodyPart = 'head' | 'torso' | 'left_arm' | 'right_arm' | 'left_leg' | 'right_leg';
-/** x, y, width and height in pixels of the picture. */
-export type Frame = [x: number, y: number, width: number, height: number];
 /** Which joint of a motion's file moves which of ours, where it is not as found; null leaves one out. */
 export type MotionJoints = Readonly<Record<string, string | null>>;
 export interface CharacterCorrections {
@@ -39,31 +35,6 @@ export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof 
     back_texture?: 'mirror' | 'inpaint';
   };
 export type MotionName = NonNullable<CharacterOptions['motion']>;
-
-/** What a finished run says about itself (report.json); only what this page reads. */
-export interface Report {
-  warnings: { code: string; message: string }[];
-  inputs: {
-    fps: number;
-    frames: number;
-    neutral_frame: number;
-    /** The driver that the job took where it was asked to choose. */
-    driver_chosen?: string | null;
-    /** The faces found in the picture, the largest first: x, y, width and height in pixels of the picture. */
-    faces: Frame[];
-    /** Likewise those of the performance; earlier versions did not say it. */
-    driver_faces?: Frame[];
-    /** The people found in the picture of a character, the largest first; and which of them was taken. */
-    people?: Frame[];
-    person?: number | 'all' | null;
-  };
-}
-
-/** The 68 landmarks that a job found in its picture, in pixels of the picture (landmarks.json). */
-export interface Landmarks {
-  size: [number, number];
-  landmarks: [number, number][];
-}
 
 /** The joints that a job found in its picture, or was given, in pixels of the picture (skeleton.json). */
 export interface Skeleton {
@@ -102,15 +73,6 @@ export interface MotionDetails {
   clips?: readonly string[];
 }
 
-/** What is ordered; `metadata` holds the names that this page gives it. */
-export type NewJob = { metadata: Record<string, string> } & (
-  | { kind: 'portrait'; inputs: { image: string; driver?: string }; options: PortraitOptions }
-  | { kind: 'character'; inputs: { photo: string; motion: string }; options: CharacterOptions }
-);
-
-/** A portrait's options where null takes one back to its default. */
-export type PortraitChanges = { [Name in keyof PortraitOptions]: PortraitOptions[Name] | null };
-
 /** Null takes one back: to what is found by itself, or to the default. */
 type Changes<T> = { [Name in keyof T]?: T[Name] | null };
 export interface CharacterChanges {
@@ -118,3 +80,6 @@ export interface CharacterChanges {
   options: Changes<CharacterOptions>;
   metadata?: Schemas['JobOut']['metadata'];
 }
+
+/** Joints turned on from the pictured pose, by name: degrees about x, y and z. */
+export type Pose = Record<string, [number, number, number]>;

@@ -1,7 +1,7 @@
 /** What works are called by their user. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { type Job, renameWork } from './api';
+import { type Job, renameWork } from '../api';
 import { pictureName } from './names';
 
 /** A job with the title that its work was given on this page, and what gives it another. */

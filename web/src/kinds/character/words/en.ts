@@ -1,8 +1,86 @@
-/** English: characters: their start page, and what is put right by hand. */
+/** English: characters: their studio, what is put right by hand, and what is said of them wherever kinds are named. */
 
-import type { BodyPart, MotionName } from '../../api';
+import type { BodyPart, CharacterCorrections, CharacterOptions, MotionName } from '../../../api';
 
-export const character = {
+const english = {
+  label: 'Character',
+  demo: 'The painted woman walking out of her picture',
+  sharedTitle: 'A person who walked out of their picture',
+
+  /** By the names that the engine gives them. */
+  stages: {
+    find_figure: 'Finding the person',
+    cut_out: 'Cutting the person out',
+    fit_template: 'Fitting the body model',
+    label_parts: 'Separating arms, legs and body',
+    build_mesh: 'Building the 3D mesh',
+    make_character: 'Creating the character',
+    write_character: 'Adding the motions',
+    fill_background: 'Filling in the background',
+    animate: 'Animating',
+    measure: 'Measuring the fit',
+  },
+
+  /** What went wrong, by code. The sentence that says what to do comes from the service. */
+  failures: {
+    no_person: 'No person was found',
+    not_full_body: 'The whole body must be visible',
+    person_too_small: 'The person is too small',
+    person_lying: 'The person is lying down',
+    crowd: 'The picture shows a crowd',
+    person_index_out_of_range: 'There are fewer people in the picture',
+    person_box_outside: 'The box lies outside the picture',
+    unknown_joint: 'There is no such joint',
+    joint_outside: 'A joint lies outside the picture',
+    joints_invalid: 'The joints do not form a person',
+    motion_unreadable: 'The motion cannot be read',
+    motion_truncated: 'The motion is incomplete',
+    motion_empty: 'The motion is empty',
+    motion_channels: 'The motion cannot be read',
+    motion_extension: 'The motion is packed in a way that is not known here',
+    motion_too_large: 'The motion is too large',
+    motion_not_finite: 'The motion is broken',
+    motion_without_skeleton: 'The motion has no skeleton',
+    motion_without_animation: 'Nothing moves in the motion',
+    motion_not_humanoid: 'The motion is not of a person',
+    motion_joint_unknown: 'The motion has no such joint',
+    motion_clip_unknown: 'The motion’s file has no such animation',
+    mask_size: 'The mask is not as large as the picture',
+    one_outline_for_all: 'A mask works for one person only',
+    labels_size: 'The map of the parts is not as large as the picture',
+    labels_unreadable: 'The map of the parts cannot be read',
+    character_unreadable: 'The character cannot be shown',
+  },
+
+  /** Inputs, options and corrections, as they are named where versions of a work are told apart. */
+  differences: {
+    photo: 'picture',
+    size: 'size',
+    fps: 'frames per second',
+    format: 'file format',
+    motion: 'motion',
+    motion_joints: 'joints of the motion',
+    motion_clip: 'animation of the motion',
+    keep: 'what stays still',
+    seconds: 'length',
+    camera: 'camera',
+    triangles: 'triangles',
+    levels: 'levels of detail',
+    vrm: 'VRM file',
+    vrm_author: 'author',
+    lit: 'lit preview image',
+    partial: 'incomplete figure',
+    pose: 'pose',
+    joints: 'joints',
+    person_box: 'person',
+    person_index: 'person',
+    mask: 'mask',
+    mask_strokes: 'mask',
+    labels: 'body parts',
+    label_strokes: 'body parts',
+    back_texture: 'back',
+  } satisfies Record<keyof (CharacterOptions & CharacterCorrections) | 'photo', string>,
+
   character: {
     title: 'Let a person walk out of their picture',
     lead: 'Choose a full-body picture and a motion. The person becomes a rigged 3D character and steps out of the picture.',
@@ -206,3 +284,7 @@ export const character = {
     up: 'The brush is lifted.',
   },
 };
+
+export type CharacterWords = typeof english;
+
+export default english;

@@ -1,12 +1,13 @@
 /** A list of works, page by page, each as its newest job; what is under way is looked at again from time to time. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { type Job, listWorks, type Problem, type Wanted } from './api';
-import { asProblem, useLoaded } from './loading';
+import { type Job, listWorks, type Problem, type Wanted } from '../api';
+import { asProblem, useLoaded } from '../loading';
+import { useOffered } from '../studio/offered';
 
 const REFRESH_MS = 4000;
 
-export const everything: Wanted = { status: null, words: '' };
+export const everything = { status: null, words: '' };
 
 export interface WorkList {
   /** Null while the first page is loaded. */
@@ -30,8 +31,9 @@ interface Later {
 }
 
 /** The works that are wanted; a page has `size` of them. */
-export function useWorks(size: number, wanted: Wanted): WorkList {
-  const key = `${wanted.status} ${wanted.words}`;
+export function useWorks(size: number, { status, words }: Omit<Wanted, 'kinds'>): WorkList {
+  const wanted: Wanted = { kinds: useOffered().map(({ name }) => name), status, words };
+  const key = `${wanted.kinds} ${status} ${words}`;
   const first = useLoaded(async (signal) => ({ key, page: await listWorks(wanted, size, null, signal) }), key);
   const [later, setLater] = useState<Later | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);

@@ -1,0 +1,96 @@
+/** An input of a job: a file, several, or the name of something that the service keeps. */
+
+import { type InputDescription, listDrivers, listMotions } from '../../api';
+import { useLoaded } from '../../loading';
+import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../media';
+import { plain, strings } from '../../strings';
+import { Dropzone } from '../../widgets/dropzone';
+import { SelectField } from '../../widgets/select';
+import type { Given } from './order';
+
+const words = strings.generic;
+
+const media: Record<string, { accept: string; accepts: (file: File) => Promise<boolean> }> = {
+  image: { accept: pictureTypes, accepts: isPicture },
+  video: { accept: videoTypes, accepts: isVideo },
+  motion: { accept: motionTypes, accepts: isMotion },
+};
+const anything = { accept: '', accepts: async () => true };
+
+interface Props {
+  input: InputDescription;
+  value: Given | undefined;
+  onChange: (value: Given | undefined) => void;
+}
+
+export function InputField({ input, value, onChange }: Props) {
+  const label = plain(input.name);
+  const files = typeof value === 'object' ? value : [];
+  const last = input.many ? undefined : files[0];
+  return (
+    <section class="panel" aria-label={label}>
+      <h2>{label}</h2>
+      <p class="hint">{input.description}</p>
+      {input.library && (
+        <LibraryField library={input.library} value={typeof value === 'string' ? value : undefined} onChange={onChange} />
+      )}
+      {input.many && files.length > 0 && (
+        <ul class="plain">
+          {files.map((file, index) => (
+            <li key={index}>
+              {file.name}{' '}
+              <button
+                type="button"
+                class="button quiet"
+                aria-label={words.remove(file.name)}
+                onClick={() => onChange(files.length > 1 ? files.filter((one) => one !== file) : undefined)}
+              >
+                {strings.job.remove}
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+      <Dropzone
+        media={input.media === 'image' || input.media === 'video' ? input.media : 'motion'}
+        file={last ?? null}
+        {...(media[input.media] ?? anything)}
+        words={{
+          drop: input.many && files.length ? words.more : (words.file[input.media] ?? words.otherFile),
+          browse: words.browse,
+          chosen: (name) => words.chosen(label, name),
+          wrong: words.wrong,
+        }}
+        onFile={(file) => onChange(input.many ? [...files, file] : [file])}
+      />
+    </section>
+  );
+}
+
+const AUTO = 'auto';
+
+interface LibraryProps {
+  library: string;
+  value: string | undefined;
+  onChange: (name: string | undefined) => void;
+}
+
+function LibraryField({ library, value, onChange }: LibraryProps) {
+  const named = useLoaded((signal) => namesIn(library, signal), library).value ?? [];
+  return (
+    <SelectField
+      label={words.named}
+      value={value}
+      choices={[undefined, ...named]}
+      nameOf={(name) => (name === undefined ? words.none : name === AUTO ? words.auto : plain(name))}
+      onChange={onChange}
+    />
+  );
+}
+
+/** What an input may name, by the library that it takes names of. */
+async function namesIn(library: string, signal: AbortSignal): Promise<string[]> {
+  if (library === 'performances') return [AUTO, ...(await listDrivers(signal)).map(({ name }) => name)];
+  if (library === 'motions') return (await listMotions(signal)).map(({ name }) => name);
+  return [];
+}

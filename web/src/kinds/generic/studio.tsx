@@ -1,0 +1,88 @@
+/** Where a job of any kind is ordered: its inputs and options as the service describes them. */
+
+import { useEffect } from 'preact/hooks';
+import type { KindDescription } from '../../api';
+import { useSending } from '../../sending';
+import { plain, strings } from '../../strings';
+import { useDraft } from '../../studio/draft';
+import { KindLinks } from '../../studio/kind_links';
+import { Launch } from '../../studio/launch';
+import { useDescriptions } from '../../studio/offered';
+import { Recent } from '../../works/recent';
+import type { Kind, StudioProps } from '../kind';
+import { OptionFields, type Options } from './fields';
+import { InputField } from './input';
+import { genericOrder, type Given, namesOf } from './order';
+import { fieldsOf } from './schema';
+
+const words = strings.generic;
+
+interface Draft {
+  inputs: Readonly<Record<string, Given>>;
+  options: Options;
+}
+
+const NOTHING: Draft = { inputs: {}, options: {} };
+
+export default function GenericStudio({ kind }: StudioProps) {
+  const descriptions = useDescriptions();
+  const description = descriptions?.find(({ name }) => name === kind.name);
+  useEffect(() => {
+    document.title = `${kind.label} · ${strings.name}`;
+  }, []);
+  if (!descriptions) return <div aria-busy="true" />;
+  return (
+    <>
+      {description ? <Form kind={kind} description={description} /> : <p>{words.notOffered}</p>}
+      <Recent />
+    </>
+  );
+}
+
+function Form({ kind, description }: { kind: Kind; description: KindDescription }) {
+  const [{ inputs, options }, change] = useDraft(kind.name, NOTHING);
+  const sending = useSending();
+  const required = (description.inputs_schema.required ?? []) as string[];
+  const absent = required.find((name) => inputs[name] === undefined);
+  const give = (name: string, value: Given | undefined): void => {
+    const { [name]: _before, ...others } = inputs;
+    change({ inputs: value === undefined ? others : { ...others, [name]: value } });
+  };
+  const many = description.inputs.filter((input) => input.many).map(({ name }) => name);
+  const order = () => genericOrder(kind.name, inputs, many, options);
+  const start = (event: Event): void => {
+    event.preventDefault();
+    if (absent === undefined) sending.begin(order());
+  };
+  const fields = fieldsOf(description.options_schema);
+  return (
+    <form class="studio" onSubmit={start}>
+      <header>
+        <div>
+          <KindLinks current={kind.name} />
+          <h1>{kind.label}</h1>
+          <p>{description.summary}</p>
+        </div>
+      </header>
+      {description.inputs.map((input) => (
+        <InputField key={input.name} input={input} value={inputs[input.name]} onChange={(value) => give(input.name, value)} />
+      ))}
+      {fields.length > 0 && (
+        <section class="panel" aria-label={words.options}>
+          <details class="choices">
+            <summary>{words.options}</summary>
+            <div class="fields paired">
+              <OptionFields fields={fields} value={options} onChange={(options) => change({ options })} />
+            </div>
+          </details>
+        </section>
+      )}
+      <Launch
+        sending={sending}
+        missing={absent === undefined ? '' : words.required(plain(absent))}
+        chosen={absent === undefined ? namesOf(order()) : null}
+        label={words.start}
+      />
+    </form>
+  );
+}

@@ -1,0 +1,47 @@
+/** An order of a portrait: the picture, and what it is to act out. */
+
+import { type PortraitOptions } from '../../api';
+import { randomKey } from '../../key';
+import { fileTitle } from '../../names';
+import { plain, strings } from '../../strings';
+import type { JobRequest, Order, OrderNames, Upload } from '../kind';
+import { AUTO } from './drivers';
+import type { Performance } from './performances';
+
+export interface PortraitOrder extends Order {
+  kind: 'portrait';
+  portrait: File;
+  performance: Performance;
+  options: PortraitOptions;
+}
+
+export const portraitOrder = (portrait: File, performance: Performance, options: PortraitOptions): PortraitOrder => ({
+  ...{ kind: 'portrait', portrait, performance, options },
+  ...{ key: randomKey(), sent: {} },
+});
+
+function performanceOf(performance: Performance): string {
+  switch (performance.by) {
+    case 'name':
+      return performance.name === AUTO ? strings.studio.auto : plain(performance.name);
+    case 'file':
+      return fileTitle(performance.file);
+    case 'reactive':
+      return strings.studio.reactive;
+  }
+}
+
+export const namesOf = (order: PortraitOrder): OrderNames => ({
+  picture: fileTitle(order.portrait),
+  performance: performanceOf(order.performance),
+});
+
+export async function request(order: PortraitOrder, upload: Upload): Promise<JobRequest> {
+  const { performance, options } = order;
+  const image = await upload(order.portrait, 'portrait');
+  const names = namesOf(order);
+  const metadata = { portrait: names.picture, performance: names.performance };
+  if (performance.by === 'reactive') return { inputs: { image }, options: { ...options, reactive: true }, metadata };
+  const driver = performance.by === 'name' ? performance.name : await upload(performance.file, 'video');
+  return { inputs: { image, driver }, options, metadata };
+}
