@@ -16,6 +16,13 @@ declare module 'vitest' {
 const root = resolve(import.meta.dirname, '../../..');
 
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
+  const { address, end } = await serve();
+  project.provide('address', address);
+  return end;
+}
+
+/** A service of its own, with these settings besides; and what ends it. */
+export async function serve(settings: Record<string, string> = {}): Promise<{ address: string; end: () => Promise<void> }> {
   const data = mkdtempSync(join(tmpdir(), 'galatea-web-'));
   const log = join(data, 'serve.log');
   const address = `http://127.0.0.1:${await freePort()}`;
@@ -23,7 +30,11 @@ export default async function setup(project: TestProject): Promise<() => Promise
   const service = spawn(
     join(root, '.venv/bin/python'),
     ['-m', 'shell.main', 'serve', '--host', '127.0.0.1', '--port', new URL(address).port],
-    { cwd: root, env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data'), GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8' }, stdio: ['ignore', output, output] },
+    {
+      cwd: root,
+      env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data'), GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...settings },
+      stdio: ['ignore', output, output],
+    },
   );
   try {
     await untilReady(service, address, log);
@@ -31,11 +42,11 @@ export default async function setup(project: TestProject): Promise<() => Promise
     await stop(service);
     throw error;
   }
-  project.provide('address', address);
-  return async () => {
+  const end = async (): Promise<void> => {
     await stop(service);
     rmSync(data, { recursive: true, force: true });
   };
+  return { address, end };
 }
 
 async function untilReady(service: ChildProcess, address: string, log: string): Promise<void> {
