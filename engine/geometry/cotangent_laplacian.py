@@ -1,0 +1,63 @@
+"""The Laplace operator of a triangle mesh: by how much a vertex differs from its neighbours, each by its cotangents.
+
+Source: U. Pinkall, K. Polthier, Computing discrete minimal surfaces and their conjugates, Experimental Mathematics 2, 1993.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+MIN_WEIGHT, MAX_WEIGHT = 1e-3, 10.0
+"""Of an edge. Obtuse pairs of triangles have negative cotangents, slivers boundless ones: within these bounds harmonic
+functions keep between the values that they are given, and no system is nearly singular."""
+
+
+def cotangent_edges(
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """The edges of a mesh, (E, 2), each once with the smaller number first, and their weights (E,): half the sum of the
+    cotangents of the angles opposite, from `MIN_WEIGHT` to `MAX_WEIGHT`.
+
+    `vertices` (V, 3) in any unit, `triangles` (T, 3). A triangle without area gives its edges finite weights, too.
+    Raises ValueError where a vertex's place is not finite.
+    """
+    if not np.isfinite(vertices).all():
+        raise ValueError("the surface has places that are not finite")
+    corners = np.asarray(triangles, np.intp)
+    points = np.asarray(vertices, np.float64)[corners]
+    ends, cotangents = [], []
+    for k in range(3):
+        one, other = points[:, (k + 1) % 3] - points[:, k], points[:, (k + 2) % 3] - points[:, k]
+        across = np.linalg.norm(np.cross(one, other), axis=1)
+        along = (one * other).sum(1)
+        steepest = MAX_WEIGHT * np.maximum(across, np.finfo(np.float64).tiny)
+        cotangents.append(np.clip(along, -2 * steepest, 2 * steepest) / np.maximum(across, np.finfo(np.float64).tiny))
+        ends.append(np.sort(corners[:, [(k + 1) % 3, (k + 2) % 3]], 1))
+    pairs = np.concatenate(ends)
+    apart = pairs[:, 0] != pairs[:, 1]
+    edges, index = np.unique(pairs[apart], axis=0, return_inverse=True)
+    weights = np.bincount(index.ravel(), np.concatenate(cotangents)[apart] / 2, len(edges))
+    return edges, np.clip(weights, MIN_WEIGHT, MAX_WEIGHT)
+
+
+def edge_differences(edges: NDArray[np.integer], count: int) -> sp.csr_array:
+    """(E, V) sparse: the second end of each edge minus the first, for `count` vertices."""
+    rows = np.arange(len(edges))
+    return sp.csr_array((np.tile([-1.0, 1.0], len(edges)), (rows.repeat(2), edges.ravel())), shape=(len(edges), count))
+
+
+def cotangent_laplacian(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> sp.csr_array:
+    """(V, V) sparse, symmetric, positive semi-definite: row `i` times values is the sum over the neighbours `j` of
+    weight * (value i - value j), with the weights of `cotangent_edges`. Zero for vertices of no triangle."""
+    edges, weights = cotangent_edges(vertices, triangles)
+    differences = edge_differences(edges, len(vertices))
+    return sp.csr_array(differences.T @ sp.diags_array(weights) @ differences)
+
+
+def vertex_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(V,) a third of the area of the triangles about each vertex, in the square of the vertices' unit."""
+    a, b, c = (np.asarray(vertices, np.float64)[triangles[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return np.asarray(np.bincount(np.asarray(triangles).ravel(), areas.repeat(3) / 3, len(vertices)), np.float64)
