@@ -1,4 +1,4 @@
-"""Labels for pixels, as they fit each and as neighbours agree: energies minimised by graph cuts.
+"""Labels for pixels or triangles, as they fit each and as neighbours agree: energies minimised by graph cuts.
 
 Source: Y. Boykov, O. Veksler, R. Zabih, Fast approximate energy minimization via graph cuts, PAMI 2001 (expansion moves);
 V. Kolmogorov, R. Zabih, What energy functions can be minimized via graph cuts?, PAMI 2004 (how a move becomes a graph).
@@ -6,6 +6,8 @@ V. Kolmogorov, R. Zabih, What energy functions can be minimized via graph cuts?,
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,23 @@ STEPS = 1 << 22
 """The largest cost of a graph in whole numbers: flows are computed in these."""
 
 
+PairCost = Callable[[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]], NDArray[np.floating]]
+"""What labels cost side by side: `cost(which, first, second)` are the costs (n,) >= 0 of the edges numbered `which` (n,) when
+their ends, in the order of `edges`, have the labels `first` and `second` (n,). It is asked for different labels alone: equal
+ones cost nothing."""
+
+
+@dataclass(frozen=True)
+class Labelling:
+    """`labels` (N,), and the `energy` that they have. `truncated`: how many times, in all moves, an edge's costs did not keep
+    to the triangle inequality, cost(a, b) <= cost(a, c) + cost(c, b), and so were taken for larger in that move: where it
+    is 0 the bounds of Boykov, Veksler and Zabih hold."""
+
+    labels: NDArray[np.intp]
+    energy: float
+    truncated: int
+
+
 def alpha_expansion(
     unary: NDArray[np.floating],
     edges: NDArray[np.integer],
@@ -26,52 +45,134 @@ def alpha_expansion(
 ) -> NDArray[np.intp]:
     """Labels (N,) that make sum of unary[p, label p] + sum of weights[e] where the ends of edge e differ small.
 
+    As `expansion_moves`, with `weights` (E,) >= 0: the Potts model. The result is within twice the best energy.
+    """
+    return expansion_moves(unary, edges, potts(weights), labels, sweeps).labels
+
+
+def expansion_moves(
+    unary: NDArray[np.floating],
+    edges: NDArray[np.integer],
+    pair_cost: PairCost,
+    labels: NDArray[np.integer],
+    sweeps: int = 4,
+) -> Labelling:
+    """Labels that make sum of unary[p, label p] + sum of the pairs' costs small.
+
     Parameters
     ----------
-    unary : (N, L) cost of each label at each node.
-    edges : (E, 2) neighbours, each pair once. `weights` (E,) >= 0: the Potts model.
+    unary : (N, L) cost of each label at each node; infinite where a node cannot have it.
+    edges : (E, 2) neighbours, each pair once.
+    pair_cost : any cost >= 0 of an edge and two labels, as the difference of two textures along a seam. Where it is a
+        metric of the labels for each edge, a move is the best of all moves, and in the end the energy is at most 2 c
+        times the least there is, c being the largest ratio of two costs of one edge. Other costs are taken for larger in
+        a move where that is needed (C. Rother, S. Kumar, V. Kolmogorov, A. Blake, Digital tapestry, CVPR 2005): no move
+        makes the energy rise.
     labels : (N,) to begin with. The result is never worse; with two labels it is the best there is.
     sweeps : most rounds over all labels; it ends when a round changes nothing.
+
+    Raises ValueError where a node begins with a label that it cannot have.
     """
     current = np.asarray(labels, np.intp).copy()
-    cost = energy(unary, edges, weights, current)
+    nodes, ends = np.arange(len(current)), np.asarray(edges, np.intp).reshape(-1, 2)
+    if not np.isfinite(unary[nodes, current]).all():
+        raise ValueError("a node begins with a label that it cannot have")
+    pairs = _costs(pair_cost, np.arange(len(ends)), current[ends[:, 0]], current[ends[:, 1]])
+    cost, truncated = _sum(unary, ends, pairs, current), 0
     for _ in range(sweeps):
         before = cost
         for label in range(unary.shape[1]):
-            tried = np.where(_expansion(unary, edges, weights, current, label), label, current)
-            if (found := energy(unary, edges, weights, tried)) < cost:
-                current, cost = tried, found
+            takes, bent = _expansion(unary, ends, pair_cost, pairs, current, label)
+            truncated += bent
+            if not takes.any():
+                continue
+            tried = np.where(takes, label, current)
+            moved = np.flatnonzero(takes[ends].any(1))
+            new = pairs.copy()
+            new[moved] = _costs(pair_cost, moved, tried[ends[moved, 0]], tried[ends[moved, 1]])
+            if (found := _sum(unary, ends, new, tried)) < cost:
+                current, cost, pairs = tried, found, new
         if cost >= before:
             break
-    return current
+    return Labelling(current, cost, truncated)
+
+
+def potts(weights: NDArray[np.floating]) -> PairCost:
+    """The cost of an edge, (E,), whatever two labels differ there."""
+    return lambda which, first, second: weights[which]
 
 
 def energy(
     unary: NDArray[np.floating],
     edges: NDArray[np.integer],
-    weights: NDArray[np.floating],
+    pairs: NDArray[np.floating] | PairCost,
     labels: NDArray[np.integer],
 ) -> float:
-    """What `alpha_expansion` makes small."""
-    differ = labels[edges[:, 0]] != labels[edges[:, 1]]
-    return float(unary[np.arange(len(labels)), labels].sum() + weights[differ].sum())
+    """What is made small: by `alpha_expansion` with weights (E,) for `pairs`, by `expansion_moves` with costs."""
+    ends, own = np.asarray(edges, np.intp).reshape(-1, 2), np.asarray(labels, np.intp)
+    cost = pairs if callable(pairs) else potts(pairs)
+    return _sum(unary, ends, _costs(cost, np.arange(len(ends)), own[ends[:, 0]], own[ends[:, 1]]), own)
+
+
+def _sum(
+    unary: NDArray[np.floating], ends: NDArray[np.intp], pairs: NDArray[np.float64], labels: NDArray[np.intp]
+) -> float:
+    differ = labels[ends[:, 0]] != labels[ends[:, 1]]
+    return float(unary[np.arange(len(labels)), labels].sum() + pairs[differ].sum())
+
+
+def _costs(
+    pair_cost: PairCost, which: NDArray[np.intp], first: NDArray[np.intp], second: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """(n,) the costs of edges, nothing where both labels are equal."""
+    out = np.zeros(len(which))
+    differ = np.flatnonzero(first != second)
+    if len(differ):
+        out[differ] = pair_cost(which[differ], first[differ], second[differ])
+    return out
 
 
 def _expansion(
     unary: NDArray[np.floating],
-    edges: NDArray[np.integer],
-    weights: NDArray[np.floating],
+    ends: NDArray[np.intp],
+    pair_cost: PairCost,
+    pairs: NDArray[np.float64],
     labels: NDArray[np.intp],
     label: int,
-) -> NDArray[np.bool_]:
-    """Who takes `label` in the best move in which each node either keeps its own or takes it: (N,)."""
+) -> tuple[NDArray[np.bool_], int]:
+    """Who takes `label` in the best move in which each node either keeps its own or takes it: (N,); and for how many edges
+    costs were truncated."""
     count = len(labels)
-    take = unary[:, label] - unary[np.arange(count), labels]
-    p, q = edges[:, 0], edges[:, 1]
-    keep_both = weights * (labels[p] != labels[q])
-    only_q, only_p = weights * (labels[p] != label), weights * (labels[q] != label)
-    take = take + np.bincount(p, only_p - keep_both, count) - np.bincount(q, only_p, count)
+    free = np.isfinite(unary[:, label]) & (labels != label)
+    takes = np.zeros(count, np.bool_)
+    if not free.any():
+        return takes, 0
+    around = np.flatnonzero(free[ends].any(1))
+    p, q = ends[around, 0], ends[around, 1]
+    keep_both, every = pairs[around], np.full(len(around), label)
+    only_q, only_p = _costs(pair_cost, around, labels[p], every), _costs(pair_cost, around, every, labels[q])
     between = only_q + only_p - keep_both
+    # the cost of an edge is keep_both + (only_p - keep_both) p - only_p q + between (1 - p) q, where 1 is to take
+    take = np.zeros(count)
+    take[free] = unary[free, label] - unary[free, labels[free]]
+    take = take + np.bincount(p, only_p - keep_both, count) - np.bincount(q, only_p, count)
+    barred = ~free[p] & (labels[p] != label)  # p cannot take it: 1 - p is 1
+    take = take + np.bincount(q[barred], between[barred], count)
+    both = free[p] & free[q]
+    p, q, between = p[both], q[both], between[both]
+    wrong = between < -1e-9 * np.maximum(keep_both[both], 1e-9)
+    number = np.cumsum(free) - 1
+    keeps = _source_side(take[free], number[p], number[q], np.maximum(between, 0))
+    takes[free] = ~keeps
+    return takes, int(wrong.sum())
+
+
+def _source_side(
+    take: NDArray[np.float64], p: NDArray[np.intp], q: NDArray[np.intp], between: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(n,) who stays with the source in the least cut of a graph: a node that leaves it costs `take` (n,), which may be
+    negative, and an edge of which q leaves and p stays costs `between` >= 0."""
+    count = len(take)
     scale = STEPS / max(float(np.abs(take).max(initial=0)), float(between.max(initial=0)), 1e-12)
     source, sink = count, count + 1
     nodes = np.arange(count)
@@ -85,7 +186,7 @@ def _expansion(
     rest.eliminate_zeros()
     kept = np.zeros(count + 2, np.bool_)
     kept[breadth_first_order(rest, source, return_predecessors=False)] = True
-    return ~kept[:count]
+    return kept[:count]
 
 
 def grid_edges(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
