@@ -1,0 +1,244 @@
+"""Pictures onto the texture of a surface: each texel gets the colours of the pixels that show it.
+
+A view gives to a texel what it sees of it: nothing behind other parts of the surface (depth buffer), nothing beside an
+edge of them, where cameras that are a little off take the wrong one, and the less the more it is seen from the side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.compiled import njit
+from engine.geometry.camera import Camera
+from engine.geometry.surface import vertex_normals
+from engine.geometry.texture_atlas import TextureAtlas
+from engine.imaging.nearest import nearest_in
+from engine.render.rasteriser import Raster, rasterise
+
+SLACK = 4e-3
+"""By how much a point may lie behind what the depth buffer has and still be seen, in the unit of the vertices (metres)."""
+JUMP = 3e-2
+"""A jump of depth from which two pixels side by side show two parts of the surface, in the same unit."""
+BESIDE = 5
+"""Pixels across about such a jump in which nothing is taken."""
+STEEPEST = 45.0
+"""Degrees between a view and the surface's normal up to which it gives anything."""
+STRIP = 1 << 18
+"""Texels that are worked on at once: memory stays within the texture's own."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A `picture` (H, W, 3) uint8 of the surface by a `camera` of its size.
+
+    `trust` (H, W) float32 >= 0: what each of its pixels weighs, all the same by default. `paints` (T,) bool: the triangles to
+    which it gives anything, all by default. `gain`: what its colours are multiplied by, for exposures that differ.
+    """
+
+    picture: NDArray[np.uint8]
+    camera: Camera
+    trust: NDArray[np.float32] | None = None
+    paints: NDArray[np.bool_] | None = None
+    gain: float = 1.0
+
+
+@dataclass(frozen=True)
+class BakedTexture:
+    """`colours` (S, S, 3) float32, 0 to 255, zero where no view gave any; `weights` (S, S) float32: what all views gave to
+    each texel; `charts` (S, S) int32: which chart each texel shows, -1 beside them."""
+
+    colours: NDArray[np.float32]
+    weights: NDArray[np.float32]
+    charts: NDArray[np.int32]
+
+
+def texel_raster(atlas: TextureAtlas, size: int) -> Raster:
+    """What each texel's centre shows of the surface, (S, S); its depth says nothing. Of charts that lie on each other, the
+    triangle that comes first."""
+    flat = np.zeros((len(atlas.uv), 3), np.float32)
+    flat[:, :2] = atlas.uv * size - 0.5
+    return rasterise(flat, atlas.corners, (size, size))
+
+
+def bake(
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    atlas: TextureAtlas,
+    views: Iterable[View],
+    size: int,
+    *,
+    normals: NDArray[np.floating] | None = None,
+    steepest: float = STEEPEST,
+    power: float = 1.0,
+    slack: float = SLACK,
+    jump: float = JUMP,
+) -> BakedTexture:
+    """The mean of what all views see, weighted by what each texel weighs in them.
+
+    Parameters
+    ----------
+    vertices, triangles : the surface, (V, 3) float and (T, 3), counter-clockwise seen from outside; triangle `t` lies on
+        the texture as the atlas' triangle `t`.
+    views : one after the other; only one of them is held at a time.
+    size : texels along a side of the texture, whose centres are looked up.
+    normals : (V, 3) unit normals by which to judge from where a point is seen; by default the surface's own. Smooth ones
+        make fewer patches.
+    steepest : degrees from the normal up to which a view gives anything.
+    power : of the cosine to the normal, which weighs a view: 0 gives all alike, much makes the most frontal win.
+    slack, jump : in the unit of the vertices, as `SLACK` and `JUMP` say.
+
+    Colours are taken bilinearly. Raises ValueError where triangles and atlas, or a view's arrays, do not fit.
+    """
+    if len(triangles) != len(atlas.corners):
+        raise ValueError("the atlas has other triangles than the surface")
+    points, faces = np.asarray(vertices, np.float64), np.ascontiguousarray(triangles, np.int32)
+    towards = np.asarray(vertex_normals(points, faces) if normals is None else normals, np.float64)
+    texels = texel_raster(atlas, size)
+    covered = np.flatnonzero(texels.triangle >= 0)
+    shown, places = texels.triangle.ravel()[covered], texels.barycentrics.reshape(-1, 3)[covered]
+    sums, weights = np.zeros((size * size, 3), np.float32), np.zeros(size * size, np.float32)
+    for view in views:
+        _check(view, len(faces))
+        cosine = _cosines(view.camera, points, towards)
+        pixels = view.camera.project(points)
+        seen = rasterise(pixels, faces, view.camera.size, perspective=True)
+        depth, edge = seen.depth, _beside_edges(seen.depth, jump)
+        fronting = (cosine[faces] > 0).any(1) & (pixels[faces, 2] > 0).all(1)
+        if view.paints is not None:
+            fronting &= view.paints
+        own = np.flatnonzero(fronting[shown])
+        trust = np.ones(view.camera.size, np.float32) if view.trust is None else view.trust
+        for start in range(0, len(own), STRIP):
+            here = own[start : start + STRIP]
+            corners, share = faces[shown[here]], places[here]
+            where = view.camera.project(np.einsum("nk,nkd->nd", share, points[corners]))
+            facing = (share * cosine[corners]).sum(1)
+            _gather(
+                *(view.picture, np.asarray(trust, np.float32), depth, edge, where, facing),
+                *(covered[here], view.gain, np.cos(np.radians(steepest)), power, slack, sums, weights),
+            )
+    np.divide(sums, weights[:, None], out=sums, where=weights[:, None] > 0)
+    charts = np.where(texels.triangle >= 0, atlas.charts[texels.triangle], -1).astype(np.int32)
+    return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts)
+
+
+def padded(texture: NDArray, known: NDArray[np.bool_], charts: NDArray[np.int32]) -> NDArray:
+    """A texture (S, S, C) whose texels beside the charts have the colour of the nearest that is `known` (S, S) on the nearest
+    chart, so that neither filtering nor smaller sizes of it bring in anything else; `charts` (S, S) as `BakedTexture` has
+    them. Texels of the charts stay, those that are not known, too.
+
+    Smaller sizes keep charts apart as long as the gap between two (`chart_gap`) is four of their texels. A chart of which
+    nothing is known takes from others.
+    """
+    on = charts >= 0
+    told = known & on
+    if not told.any():
+        return texture
+    rows, columns = nearest_in(told)
+    if (~told & on).any():  # first to the nearest chart, then to the nearest of it that is known
+        chart_rows, chart_columns = nearest_in(on)
+        nearest_chart = charts[chart_rows, chart_columns]
+        wrong = ~on & (nearest_chart != charts[rows, columns])
+        for chart in np.unique(nearest_chart[wrong]):
+            own, here = told & (charts == chart), wrong & (nearest_chart == chart)
+            if own.any():
+                box = tuple(slice(at.min(), at.max() + 1) for at in np.nonzero(own | here))
+                found = nearest_in(own[box])
+                for numbers, near, first in zip((rows, columns), found, box, strict=True):
+                    numbers[box][here[box]] = near[here[box]] + first.start
+    return np.where(on[..., None], texture, texture[rows, columns])
+
+
+def chart_gap(charts: NDArray[np.int32]) -> float:
+    """The least number of texels between texels of two charts (S, S), -1 beside them, to 5%; infinite where there is one."""
+    on = charts >= 0
+    if not on.any():
+        return float("inf")
+    rows, columns = nearest_in(on)
+    owner = charts[rows, columns]
+    away = np.hypot(rows - np.arange(len(charts))[:, None], columns - np.arange(charts.shape[1])).astype(np.float32)
+    gaps = [float("inf")]
+    for axis in (0, 1):
+        first, second = (np.take(owner, range(k, charts.shape[axis] - 1 + k), axis) for k in (0, 1))
+        apart = first != second
+        between = np.take(away, range(charts.shape[axis] - 1), axis) + np.take(away, range(1, charts.shape[axis]), axis)
+        if apart.any():
+            gaps.append(float(between[apart].min()))
+    return min(gaps)
+
+
+def _check(view: View, triangles: int) -> None:
+    size = view.camera.size
+    if view.picture.shape != (*size, 3) or view.picture.dtype != np.uint8:
+        raise ValueError(f"a view's picture is (H, W, 3) uint8, of its camera's size {size}: {view.picture.shape}")
+    if view.trust is not None and view.trust.shape != size:
+        raise ValueError("a view's trust has another size than its picture")
+    if view.paints is not None and view.paints.shape != (triangles,):
+        raise ValueError("a view paints other triangles than the surface has")
+
+
+def _cosines(camera: Camera, points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(V,) of the angle between each normal and the way back to the camera; -1 behind it."""
+    pixels = camera.project(points)
+    before = pixels[:, 2] > 0
+    out = np.full(len(points), -1, np.float32)
+    rays = camera.rays(pixels[before, :2])
+    out[before] = -(rays * normals[before]).sum(1) / np.linalg.norm(rays, axis=1)
+    return out
+
+
+def _beside_edges(depth: NDArray[np.float32], jump: float) -> NDArray[np.bool_]:
+    """(H, W) close to where the depth jumps, or the surface ends: a slope, however steep, does not jump."""
+    known = np.where(np.isfinite(depth), depth, np.float32(0))
+    framed = np.pad(known, 1, mode="reflect", reflect_type="odd")
+    down = np.abs(framed[:-2, 1:-1] - 2 * known + framed[2:, 1:-1])
+    across = np.abs(framed[1:-1, :-2] - 2 * known + framed[1:-1, 2:])
+    jumps = (np.maximum(down, across) > jump).astype(np.uint8)
+    return np.asarray(cv2.dilate(jumps, np.ones((BESIDE, BESIDE), np.uint8)) > 0)
+
+
+@njit(nogil=True, boundscheck=False, error_model="numpy")
+def _gather(
+    picture: np.ndarray,
+    trust: np.ndarray,
+    depth: np.ndarray,
+    edge: np.ndarray,
+    where: np.ndarray,
+    facing: np.ndarray,
+    texels: np.ndarray,
+    gain: float,
+    least: float,
+    power: float,
+    slack: float,
+    sums: np.ndarray,
+    weights: np.ndarray,
+) -> None:
+    """Add what a picture shows at `where` (N, 3) to the texels that are there."""
+    height, width = depth.shape
+    for i in range(len(texels)):
+        x, y = where[i, 0], where[i, 1]
+        if facing[i] < least or not (x >= 0 and y >= 0 and x <= width - 1 and y <= height - 1):
+            continue
+        column, row = int(x + 0.5), int(y + 0.5)
+        if edge[row, column] or where[i, 2] > depth[row, column] + slack:
+            continue
+        left, top = min(int(x), width - 2), min(int(y), height - 2)
+        left, top = max(left, 0), max(top, 0)
+        right, bottom = min(left + 1, width - 1), min(top + 1, height - 1)
+        fx, fy = x - left, y - top
+        a, b, c, d = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
+        # pixels that are not trusted lend no colour either
+        a, b = a * trust[top, left], b * trust[top, right]
+        c, d = c * trust[bottom, left], d * trust[bottom, right]
+        share = facing[i] ** power
+        t = texels[i]
+        for k in range(3):
+            value = a * picture[top, left, k] + b * picture[top, right, k]
+            value += c * picture[bottom, left, k] + d * picture[bottom, right, k]
+            sums[t, k] += share * gain * value
+        weights[t] += share * (a + b + c + d)
