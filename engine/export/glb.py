@@ -1,4 +1,4 @@
-"""Characters out as GLB (glTF 2.0): one skinned mesh, one material, the clips as animations.
+"""Characters out as GLB (glTF 2.0): one skinned mesh, its materials and morph targets, the clips as animations.
 
 The skeleton binds in T-pose and its nodes carry the Mixamo names, so that Unity, Unreal, Godot, Blender, three.js and
 model-viewer can play its clips and give it others. Specification: Khronos, glTF 2.0 (ISO/IEC 12113), section numbers
@@ -18,8 +18,11 @@ from numpy.typing import NDArray
 
 from engine.export.animation_tracks import tracks
 from engine.export.gltf_buffer import Buffer
+from engine.export.gltf_materials import Material, add_materials
+from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
+from engine.geometry.morph_target import MorphTarget
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
 from engine.motion.clip import Clip
@@ -32,6 +35,8 @@ QUALITY = 95
 """Of a texture's JPEG, 1 to 100: a finely patterned dress loses 0.5 dB by it, 1.2 dB at 90, and files are a tenth smaller there."""
 TIGHTER = ((1, 90), (1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
+SKIN = (Material("skin"),)
+"""What a mesh is made of where nothing else is said: of its own texture."""
 PADDING = 3
 """Bytes after a file within a GLB, at most: what follows begins at a multiple of four."""
 
@@ -54,6 +59,9 @@ def write_glb(
     quality: int = QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
+    morphs: Sequence[MorphTarget] = (),
+    materials: Sequence[Material] = SKIN,
+    material_of: NDArray[np.integer] | None = None,
     synthetic: bool = True,
     most: int | None = None,
     check: Callable[[], None] = lambda: None,
@@ -68,17 +76,32 @@ def write_glb(
     quality : of the texture, a JPEG (1 to 100).
     unlit : the texture shows the light of its picture: ask viewers to add none (`KHR_materials_unlit`, not required).
     levels : coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail
-        show `mesh`. Their textures are not used.
+        show `mesh`. Their textures are not used, and they have no morph targets.
+    morphs : shapes of `mesh`; their names stand in the mesh's `extras.targetNames`, where viewers look for them. With
+        normals of their own unless the character is `unlit`.
+    materials, material_of : what the mesh is made of, and (T,) which of them each triangle has, where there are several.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
     most : bytes that the file should have at most, levels included: its texture is written as mildly `TIGHTER` as that
         takes. Where no texture is small enough it stays as it is, and the file is larger.
     check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
-    Raises ValueError where clips or levels do not fit the skeleton, or two clips have one name.
+    Raises ValueError where clips or levels do not fit the skeleton, morph targets or materials the mesh, or two of one
+    kind have one name.
     """
 
     def with_texture(texture: bytes) -> bytes:
-        gltf = build_glb(mesh, texture, clips, name=name, unlit=unlit, levels=levels, synthetic=synthetic)
+        gltf = build_glb(
+            mesh,
+            texture,
+            clips,
+            name=name,
+            unlit=unlit,
+            levels=levels,
+            morphs=morphs,
+            materials=materials,
+            material_of=material_of,
+            synthetic=synthetic,
+        )
         return b"".join(gltf.save_to_bytes())
 
     how, texture = (1, quality), jpeg(mesh.texture, quality, synthetic)
@@ -121,6 +144,9 @@ def build_glb(
     name: str = "character",
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
+    morphs: Sequence[MorphTarget] = (),
+    materials: Sequence[Material] = SKIN,
+    material_of: NDArray[np.integer] | None = None,
     synthetic: bool = True,
 ) -> gl.GLTF2:
     """The same as an object, for formats that are GLB with additions (`engine.export.vrm`). `texture`: as `jpeg`.
@@ -135,8 +161,15 @@ def build_glb(
         gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
     _add_skeleton(gltf, buffer, skeleton)
-    _add_material(gltf, buffer, texture, unlit)
-    shown = [_add_mesh(gltf, buffer, each, name, level) for level, each in enumerate((mesh, *levels))]
+    add_materials(gltf, buffer, texture, unlit, materials, lambda other: jpeg(other, QUALITY, synthetic))
+    parts = _parts(mesh, len(materials), material_of)
+    if levels and len(materials) > 1:
+        raise ValueError("levels of detail have one material")
+    shown = [_add_mesh(gltf, buffer, mesh, name, parts, morphs, not unlit)]
+    shown += [
+        _add_mesh(gltf, buffer, each, f"{name}_lod{level}", [np.arange(len(each.triangles))])
+        for level, each in enumerate(levels, 1)
+    ]
     if levels:
         _add_levels(gltf, shown)
     for clip in clips:
@@ -168,31 +201,15 @@ def _add_skeleton(gltf: gl.GLTF2, buffer: Buffer, skeleton: Skeleton) -> None:
     ]
 
 
-def _add_material(gltf: gl.GLTF2, buffer: Buffer, texture: bytes, unlit: bool) -> None:
-    gltf.images = [
-        gl.Image(
-            name="texture",
-            mimeType="image/jpeg",
-            bufferView=buffer.add_file(texture),
-        )
-    ]
-    gltf.samplers = [
-        gl.Sampler(
-            magFilter=gl.LINEAR, minFilter=gl.LINEAR_MIPMAP_LINEAR, wrapS=gl.CLAMP_TO_EDGE, wrapT=gl.CLAMP_TO_EDGE
-        )
-    ]
-    gltf.textures = [gl.Texture(source=0, sampler=0)]
-    material = gl.Material(
-        name="skin",
-        pbrMetallicRoughness=gl.PbrMetallicRoughness(
-            baseColorTexture=gl.TextureInfo(index=0), metallicFactor=0.0, roughnessFactor=0.9
-        ),
-        emissiveFactor=None,
-    )
-    if unlit:
-        material.extensions = {"KHR_materials_unlit": {}}
-        gltf.extensionsUsed = [*(gltf.extensionsUsed or []), "KHR_materials_unlit"]
-    gltf.materials = [material]
+def _parts(mesh: SkinnedMesh, materials: int, material_of: NDArray[np.integer] | None) -> list[NDArray[np.intp]]:
+    """The triangles of each material."""
+    if material_of is None:
+        if materials != 1:
+            raise ValueError("several materials: say which each triangle has")
+        return [np.arange(len(mesh.triangles))]
+    if material_of.shape != (len(mesh.triangles),) or len(np.setdiff1d(material_of, np.arange(materials))):
+        raise ValueError("a triangle has a material that is not there")
+    return [np.flatnonzero(material_of == material) for material in range(materials)]
 
 
 def jpeg(texture: NDArray[np.uint8], quality: int, synthetic: bool) -> bytes:
@@ -203,8 +220,16 @@ def jpeg(texture: NDArray[np.uint8], quality: int, synthetic: bool) -> bytes:
     return marked_jpeg(packed.tobytes()) if synthetic else packed.tobytes()
 
 
-def _add_mesh(gltf: gl.GLTF2, buffer: Buffer, mesh: SkinnedMesh, name: str, level: int) -> int:
-    """The index of the node that shows the mesh."""
+def _add_mesh(
+    gltf: gl.GLTF2,
+    buffer: Buffer,
+    mesh: SkinnedMesh,
+    name: str,
+    parts: Sequence[NDArray[np.intp]],
+    morphs: Sequence[MorphTarget] = (),
+    shaded: bool = False,
+) -> int:
+    """The index of the node that shows the mesh, each material's triangles as a primitive over the same vertices."""
     if mesh.skeleton.names != joint_names(gltf):
         raise ValueError("a level of detail has another skeleton")
     joints, weights = quantise_influences(mesh.bones, mesh.weights)
@@ -217,13 +242,26 @@ def _add_mesh(gltf: gl.GLTF2, buffer: Buffer, mesh: SkinnedMesh, name: str, leve
         JOINTS_0=buffer.add(joints, gl.ARRAY_BUFFER),
         WEIGHTS_0=buffer.add(weights, gl.ARRAY_BUFFER, normalised=True),
     )
-    indices = mesh.triangles.astype(np.uint16 if narrow else np.uint32).ravel()
-    label = f"{name}_lod{level}" if level else name
-    primitive = gl.Primitive(
-        attributes=attributes, indices=buffer.add(indices, gl.ELEMENT_ARRAY_BUFFER), material=0, mode=gl.TRIANGLES
-    )
-    gltf.meshes.append(gl.Mesh(name=label, primitives=[primitive]))
-    gltf.nodes.append(gl.Node(name=label, mesh=len(gltf.meshes) - 1, skin=0))
+    primitives = []
+    targets = add_morphs(buffer, mesh, morphs, shaded)
+    for material, part in enumerate(parts):
+        if not len(part) and len(parts) > 1:
+            continue
+        indices = mesh.triangles[part].astype(np.uint16 if narrow else np.uint32).ravel()
+        primitive = gl.Primitive(
+            attributes=attributes,
+            indices=buffer.add(indices, gl.ELEMENT_ARRAY_BUFFER),
+            material=material,
+            mode=gl.TRIANGLES,
+            targets=targets,
+        )
+        primitives.append(primitive)
+    shape = gl.Mesh(name=name, primitives=primitives)
+    if morphs:
+        shape.extras = {"targetNames": [morph.name for morph in morphs]}
+        shape.weights = [0.0] * len(morphs)
+    gltf.meshes.append(shape)
+    gltf.nodes.append(gl.Node(name=name, mesh=len(gltf.meshes) - 1, skin=0))
     return len(gltf.nodes) - 1
 
 

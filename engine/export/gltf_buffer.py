@@ -52,6 +52,35 @@ class Buffer:
         )
         return len(self._gltf.accessors) - 1
 
+    def add_displacements(
+        self, moved: NDArray[np.integer], offsets: NDArray[np.float32], count: int, bounds: bool = False
+    ) -> int:
+        """An accessor for (`count`, 3) float32 of which only the rows `moved` (M,), rising, are not zero: `offsets` (M, 3). Sparse
+        where that is smaller; its index."""
+        narrow: type[np.unsignedinteger] = np.uint16 if count <= np.iinfo(np.uint16).max else np.uint32
+        if len(moved) * (narrow().itemsize + 12) >= count * 12:
+            dense = np.zeros((count, 3), np.float32)
+            dense[moved] = offsets
+            return self.add(dense, gl.ARRAY_BUFFER, bounds=bounds)
+        accessor = gl.Accessor(byteOffset=None, componentType=gl.FLOAT, count=count, type=gl.VEC3, min=None, max=None)
+        if bounds:  # what is not named is zero
+            accessor.min = np.minimum(offsets.min(0, initial=0), 0).tolist()
+            accessor.max = np.maximum(offsets.max(0, initial=0), 0).tolist()
+        if len(moved):
+            kind = np.dtype(narrow).newbyteorder("<")
+            accessor.sparse = gl.Sparse(
+                count=len(moved),
+                indices=gl.AccessorSparseIndices(
+                    bufferView=self._place(np.asarray(moved).astype(kind).tobytes(), None, None)[0],
+                    componentType=_COMPONENTS[kind.str[1:]],
+                ),
+                values=gl.AccessorSparseValues(
+                    bufferView=self._place(np.ascontiguousarray(offsets, "<f4").tobytes(), None, None)[0]
+                ),
+            )
+        self._gltf.accessors.append(accessor)
+        return len(self._gltf.accessors) - 1
+
     def add_file(self, content: bytes) -> int:
         """A buffer view that holds a file, its index."""
         return self._place(content, None, None)[0]

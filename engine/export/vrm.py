@@ -1,18 +1,22 @@
 """Characters out as VRM 1.0: a GLB that says which joint is which part of a human, and what may be done with it.
 
-Specification: VRM Consortium, VRMC_vrm-1.0 (humanoid, meta, firstPerson, lookAt).
+Specification: VRM Consortium, VRMC_vrm-1.0 (humanoid, meta, firstPerson, lookAt, expressions).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from engine.export.glb import QUALITY, build_glb, joint_names, jpeg, save_glb
+from engine.export.glb import QUALITY, SKIN, build_glb, joint_names, jpeg, save_glb
+from engine.export.gltf_materials import Material
+from engine.export.vrm_expressions import LOOKS, Expression, expressions_document
+from engine.geometry.morph_target import MorphTarget
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
@@ -75,19 +79,45 @@ def write_vrm(
     clips: Sequence[Clip] = (),
     *,
     quality: int = QUALITY,
+    unlit: bool = True,
+    morphs: Sequence[MorphTarget] = (),
+    materials: Sequence[Material] = SKIN,
+    material_of: NDArray[np.integer] | None = None,
+    expressions: Mapping[str, Expression] | None = None,
+    look_at: Literal["bone", "expression"] = "bone",
     synthetic: bool = True,
 ) -> None:
     """Write a character as VRM 1.0; the file appears under its name when it is whole.
 
-    `clips` become animations of the GLB, which viewers of VRM may pass over. The other parameters are those of
-    `engine.export.glb.write_glb`.
+    Parameters
+    ----------
+    clips : become animations of the GLB, which viewers of VRM may pass over.
+    expressions : by name, VRM's own (`engine.export.vrm_expressions.PRESETS`) or others, mixed of `morphs`.
+    look_at : whether the eyes look about by their joints or by the expressions `lookUp`, `lookDown`, `lookLeft` and
+        `lookRight`.
 
-    Raises ValueError where the skeleton lacks one of `REQUIRED`, or `meta` names no author.
+    The other parameters are those of `engine.export.glb.write_glb`.
+
+    Raises ValueError where the skeleton lacks one of `REQUIRED`, `meta` names no author, or expressions do not fit the
+    morph targets, or lack those by which the eyes should look about.
     """
     if not meta.name or not meta.authors:
         raise ValueError("a VRM needs a name and an author")
     texture = jpeg(mesh.texture, quality, synthetic)
-    gltf = build_glb(mesh, texture, clips, name=meta.name, synthetic=synthetic)
+    said = expressions or {}
+    if look_at == "expression" and not set(LOOKS) <= set(said):
+        raise ValueError(f"to look about by expressions takes {', '.join(LOOKS)}")
+    gltf = build_glb(
+        mesh,
+        texture,
+        clips,
+        name=meta.name,
+        unlit=unlit,
+        morphs=morphs,
+        materials=materials,
+        material_of=material_of,
+        synthetic=synthetic,
+    )
     shown = next(index for index, node in enumerate(gltf.nodes) if node.mesh is not None)
     gltf.extensions = {
         "VRMC_vrm": {
@@ -95,9 +125,11 @@ def write_vrm(
             "meta": _meta(meta),
             "humanoid": {"humanBones": human_bones(joint_names(gltf))},
             "firstPerson": {"meshAnnotations": [{"node": shown, "type": "auto"}]},
-            "lookAt": _look_at(mesh),
+            "lookAt": _look_at(mesh, look_at),
         }
     }
+    if said:
+        gltf.extensions["VRMC_vrm"]["expressions"] = expressions_document(said, [morph.name for morph in morphs], shown)
     gltf.extensionsUsed = [*gltf.extensionsUsed, "VRMC_vrm"]
     save_glb(path, b"".join(gltf.save_to_bytes()))
 
@@ -142,8 +174,9 @@ def _meta(meta: VrmMeta) -> dict[str, Any]:
     return {key: value for key, value in said.items() if value is not None}
 
 
-def _look_at(mesh: SkinnedMesh) -> dict[str, Any]:
-    """Where a first-person camera sits: between the eyes if the skeleton has them, else in the middle of the head."""
+def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, Any]:
+    """Where a first-person camera sits, between the eyes if the skeleton has them, else in the middle of the head; and how
+    far the eyes go when they look aside: by 10 degrees, or as far as the expressions go."""
     skeleton = mesh.skeleton
     head = skeleton.heads[skeleton.index("Head")]
     if "LeftEye" in skeleton.names and "RightEye" in skeleton.names:
@@ -151,10 +184,12 @@ def _look_at(mesh: SkinnedMesh) -> dict[str, Any]:
         offset = eyes - head
     else:
         offset = (mesh.vertices[:, 1].max() - head[1]) * np.array([0, 0.5, 0])
-    reach = {"inputMaxValue": 90.0, "outputScale": 10.0}
+    reach = (
+        {"inputMaxValue": 90.0, "outputScale": 10.0} if by == "bone" else {"inputMaxValue": 30.0, "outputScale": 1.0}
+    )
     ranges = ("HorizontalInner", "HorizontalOuter", "VerticalDown", "VerticalUp")
     return {
-        "type": "bone",
+        "type": by,
         "offsetFromHeadBone": [float(value) for value in offset],
         **{f"rangeMap{name}": dict(reach) for name in ranges},
     }

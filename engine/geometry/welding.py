@@ -35,12 +35,12 @@ def is_closed(faces: NDArray[np.integer]) -> bool:
     return bool((there == back).all() and (np.diff(there) > 0).all())
 
 
-def seamless_normals(mesh: SkinnedMesh) -> NDArray[np.float32]:
+def seamless_normals(mesh: SkinnedMesh, points: NDArray[np.int32] | None = None) -> NDArray[np.float32]:
     """(V, 3) float32 unit normals at rest, the same on both sides of a seam of the texture.
 
-    A vertex without area about it gets (0, 1, 0), since file formats ask for unit normals.
+    `points`: as `weld` has them, by default of this mesh. A vertex without area about it gets (0, 1, 0), since file formats ask for unit normals.
     """
-    point = weld(mesh)
+    point = weld(mesh) if points is None else points
     a, b, c = (mesh.vertices[mesh.triangles[:, k]].astype(np.float64) for k in range(3))
     areas = np.cross(b - a, c - a)
     sums = np.stack(

@@ -51,9 +51,18 @@ class Glb:
     def array(self, index: int) -> NDArray:
         accessor = self.json["accessors"][index]
         kind, width = TYPES[accessor["componentType"]], WIDTHS[accessor["type"]]
-        found = np.frombuffer(
-            self.view(accessor["bufferView"]), kind, accessor["count"] * width, accessor.get("byteOffset", 0)
-        ).reshape(accessor["count"], width)
+        if "bufferView" in accessor:
+            found = np.frombuffer(
+                self.view(accessor["bufferView"]), kind, accessor["count"] * width, accessor.get("byteOffset", 0)
+            ).reshape(accessor["count"], width)
+        else:
+            found = np.zeros((accessor["count"], width), kind)
+        if "sparse" in accessor:
+            sparse, found = accessor["sparse"], found.copy()
+            indices, values = sparse["indices"], sparse["values"]
+            rows = np.frombuffer(self.view(indices["bufferView"]), TYPES[indices["componentType"]], sparse["count"])
+            new = np.frombuffer(self.view(values["bufferView"]), kind, sparse["count"] * width)
+            found[rows] = new.reshape(-1, width)
         if accessor.get("normalized"):
             found = found / np.iinfo(kind).max
         if width == 16:
