@@ -54,10 +54,3 @@ def cotangent_laplacian(vertices: NDArray[np.floating], triangles: NDArray[np.in
     edges, weights = cotangent_edges(vertices, triangles)
     differences = edge_differences(edges, len(vertices))
     return sp.csr_array(differences.T @ sp.diags_array(weights) @ differences)
-
-
-def vertex_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
-    """(V,) a third of the area of the triangles about each vertex, in the square of the vertices' unit."""
-    a, b, c = (np.asarray(vertices, np.float64)[triangles[:, k]] for k in range(3))
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    return np.asarray(np.bincount(np.asarray(triangles).ravel(), areas.repeat(3) / 3, len(vertices)), np.float64)

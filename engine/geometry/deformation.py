@@ -14,8 +14,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from engine.geometry.cotangent_laplacian import cotangent_edges, cotangent_laplacian, edge_differences, vertex_areas
+from engine.geometry.cotangent_laplacian import cotangent_edges, cotangent_laplacian, edge_differences
 from engine.geometry.handles import Handles, HeldSystem, nearest_rotations
+from engine.geometry.surface import vertex_areas
 
 ITERATIONS = 100
 """Most rounds of an as-rigid-as-possible deformation ..."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from engine.geometry.handles import HeldSystem, handles
+from engine.geometry.surface import triangle_areas
 
 MIN_SINE = 1e-6
 """Twice a triangle's area as a share of its longest edge squared; one with less says nothing of how it is deformed."""
@@ -75,7 +76,7 @@ class DeformationTransfer:
         self._held = np.zeros(0, np.intp) if held is None else np.asarray(held, np.intp).ravel()
         self._piece, unheld, self._shares = _unheld_pieces(corners, areas, stiffness, self._held)
         self._middles = sp.csr_array(self._shares @ _corner_means(corners, count))
-        sizes = areas.sum(), _areas(self._source, self._faces[self._follows]).sum()
+        sizes = areas.sum(), triangle_areas(self._source, self._faces[self._follows]).sum()
         self._ratio = float(np.sqrt(sizes[0] / sizes[1])) if len(corners) else 1.0
         # a piece that floats is held by one of its vertices, and moved as a whole afterwards
         anchors = np.concatenate([self._held, unheld])
@@ -158,9 +159,4 @@ def _has_area(vertices: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDA
     """(T,) whether a triangle says how it is deformed."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     longest = np.max([((b - a) ** 2).sum(1), ((c - b) ** 2).sum(1), ((a - c) ** 2).sum(1)], axis=0)
-    return np.asarray(2 * _areas(vertices, triangles) > MIN_SINE * longest)
-
-
-def _areas(vertices: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.float64]:
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+    return np.asarray(2 * triangle_areas(vertices, triangles) > MIN_SINE * longest)

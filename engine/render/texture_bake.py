@@ -222,7 +222,9 @@ def _gather(
     height, width = depth.shape
     for i in range(len(texels)):
         x, y = where[i, 0], where[i, 1]
-        if facing[i] < least or not (x >= 0 and y >= 0 and x <= width - 1 and y <= height - 1):
+        if not (facing[i] >= least) or not (  # NaN: beyond what a lens shows
+            x >= 0 and y >= 0 and x <= width - 1 and y <= height - 1
+        ):
             continue
         column, row = int(x + 0.5), int(y + 0.5)
         if edge[row, column] or where[i, 2] > depth[row, column] + slack:

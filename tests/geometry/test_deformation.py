@@ -10,9 +10,10 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.geometry.cotangent_laplacian import cotangent_laplacian, vertex_areas
+from engine.geometry.cotangent_laplacian import cotangent_laplacian
 from engine.geometry.deformation import AsRigidAsPossible, LaplacianDeformation
 from engine.geometry.handles import handles, nearest_rotations, surface_points
+from engine.geometry.surface import vertex_areas
 
 TURN = Rotation.from_rotvec([0.4, -1.9, 0.7]).as_matrix()
 SHIFT = np.array([0.3, -2.0, 1.1])
