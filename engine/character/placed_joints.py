@@ -33,8 +33,8 @@ BONES = tuple(
 )
 
 
-FINGERS_AND_TOES = {"Index": "index finger", "Pinky": "little finger", "FootIndex": "toes"}
-"""What is called otherwise in plain words than in the landmarks' names."""
+PLAIN = {"Index": "index finger", "Pinky": "little finger", "FootIndex": "toes", "Mouth": "mouth corner"}
+"""What plain words call otherwise than the landmarks' names do."""
 
 
 def in_words(names: Iterable[str]) -> str:
@@ -43,7 +43,7 @@ def in_words(names: Iterable[str]) -> str:
     for name in names:
         side = next((side for side in ("Left", "Right") if side in name), "")
         part = name.replace(side, "", 1)
-        part = FINGERS_AND_TOES.get(part) or re.sub(r"(?<!^)(?=[A-Z])", " ", part).lower()
+        part = PLAIN.get(part) or re.sub(r"(?<!^)(?=[A-Z])", " ", part).lower()
         told.setdefault(part, []).append(side.lower())
     return ", ".join(_one_or_both(part, sides) for part, sides in told.items())
 

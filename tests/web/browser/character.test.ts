@@ -455,7 +455,8 @@ describe('corrections of a character', () => {
     const id = await orderCharacter(faceless, { seconds: 1 });
     const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
-    await page.getByText('Correct and try again').waitFor();
+    await page.getByText('Correct and try again').click();
+    expect(await page.getByRole('button', { name: 'Make it again' }).isDisabled()).toBe(true); // the same would fail again
     await page.getByRole('img', { name: 'The uploaded picture' }).last().waitFor();
     await page.getByRole('button', { name: 'Place the joints by hand' }).click();
     await stage(page).focus();

@@ -154,7 +154,11 @@ describe('corrections by hand', () => {
   it('place a face where none was found', async () => {
     const id = await order(faceless, 'idle');
     const page = await open(browser, `#/jobs/${id}`);
-    await page.getByRole('button', { name: 'Place the face by hand' }).click({ timeout: LONG });
+    await page.getByText('Correct and try again').click({ timeout: LONG });
+    const again = page.getByRole('button', { name: 'Make it again' });
+    await again.waitFor();
+    expect(await again.isDisabled()).toBe(true); // the same would fail again
+    await page.getByRole('button', { name: 'Place the face by hand' }).click();
     await stage(page).focus();
     for (const key of ['+', '+', 'ArrowUp', ']', '[']) await page.keyboard.press(key);
     await page.getByRole('button', { name: 'Apply' }).click();

@@ -132,6 +132,8 @@ describe('a job that does not', () => {
     await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: LONG });
     const job = (await (await fetch(`${inject('address')}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
     expect(await alert.innerText()).toContain(job.error.detail);
+    await alert.getByRole('link', { name: 'Choose another picture' }).waitFor();
+    expect(await page.getByRole('button', { name: 'Make it again' }).count()).toBe(0); // until it is asked for
     await page.getByRole('link', { name: 'Make another' }).waitFor();
   });
 

@@ -14,6 +14,7 @@ import { Sure } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
+import { wantsPicture } from '../mending';
 import { MAX_TITLE_CHARACTERS, performanceName, pictureUrl, workName } from '../works/names';
 import { studioLink } from '../route';
 import { strings } from '../strings';
@@ -122,7 +123,13 @@ function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (p
       return (
         <div class="ended">
           <Picture url={pictureUrl(job)} alt={words.sentAlt} />
-          <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''} />
+          <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''}>
+            {wantsPicture(job) && (
+              <a class="button primary" href={kindOf(job.kind).link}>
+                {words.anotherPicture}
+              </a>
+            )}
+          </Trouble>
         </div>
       );
     case 'canceled':

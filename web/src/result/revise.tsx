@@ -4,6 +4,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { type Job, listRevisions } from '../api';
 import type { CorrectionsProps, Load } from '../kinds/kind';
 import { useLoaded } from '../loading';
+import { wantsPicture } from '../mending';
 import { jobLink } from '../route';
 import { strings } from '../strings';
 import { part } from '../widgets/lazy';
@@ -14,11 +15,11 @@ interface Props extends CorrectionsProps {
   load: Load<CorrectionsProps>;
 }
 
-/** Folded away, but for a job that failed for want of a correction: there it is what to do next. */
+/** Folded away, but for a job that failed for want of a correction alone: there it is what to do next. */
 export function Revise({ load, ...given }: Props) {
   const { job, proposal } = given;
   const needed = (job.error?.correctable?.length ?? 0) > 0;
-  const [open, setOpen] = useState(needed);
+  const [open, setOpen] = useState(needed && !wantsPicture(job));
   useEffect(() => {
     if (proposal) setOpen(true);
   }, [proposal]);

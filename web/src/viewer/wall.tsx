@@ -39,6 +39,7 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
   const takeOff = useRef<(() => void) | null>(null);
   const visitor = useRef<Visitor | null>(null);
   const [playing, setPlaying] = useState(false);
+  const [out, setOut] = useState(false);
   const [headset, setHeadset] = useState(false);
   const [refused, setRefused] = useState(false);
 
@@ -55,7 +56,10 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
       return { character, emerging, shadow: new ContactShadow(character) };
     });
     const shadows = steppers.map(({ shadow }) => shadow.object);
-    const steps = new Stepping(steppers, setPlaying);
+    const steps = new Stepping(steppers, (on) => {
+      setPlaying(on);
+      if (on) setOut(true);
+    });
     stepping.current = steps;
     stage.scene.add(...shadows);
     const leave = [stage.add(steps), ...steppers.map(({ shadow }) => stage.add(shadow))];
@@ -114,7 +118,11 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
       </div>
       <div class="controls">
         <PlayButton playing={playing} onPlay={() => act((steps) => steps.set(!playing))} />
-        <button type="button" class="button" onClick={() => act((steps) => steps.restart(false))}>
+        <button type="button" class="button" onClick={() => {
+            act((steps) => steps.restart(false));
+            setOut(false);
+          }}
+        >
           {words.wallBack}
         </button>
         {headset && (
@@ -124,7 +132,7 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
         )}
       </div>
       {refused && <p role="alert">{words.headsetFailed}</p>}
-      <p class="viewer-help">{words.wallHelp}</p>
+      <p class="viewer-help">{out ? words.wallOut : words.wallHelp}</p>
     </>
   );
 }

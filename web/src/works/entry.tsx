@@ -21,7 +21,7 @@ export function Poster({ job }: { job: Job }) {
   // Jobs of earlier versions have no thumbnail.
   const picture = ['thumbnail.jpg', 'poster.jpg', 'preview.jpg'].map((name) => job.artifacts[name]).find(Boolean);
   return (
-    <span class="poster">
+    <span class={`poster ${job.kind}`}>
       <Picture url={picture?.url ?? pictureUrl(job)} alt="" lazy />
     </span>
   );

@@ -8,6 +8,7 @@ import { SendingBar } from '../../studio/sending_bar';
 import { usePicture } from '../../result/use_picture';
 import { randomKey } from '../../key';
 import { useLoaded } from '../../loading';
+import { mayRepeat } from '../../mending';
 import { strings } from '../../strings';
 import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
 import { CharacterFields, KeepField, VideoFields } from './choices';
@@ -48,8 +49,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
     sending.send(before, { ...wishes, pose }); // whatever else is wished for comes along
   }, [proposal]);
 
-  // what was not made, for whatever reason, may be tried again as it is
-  const again = isChanged(before, wishes) || job.status !== 'succeeded';
+  const again = isChanged(before, wishes) || mayRepeat(job);
   /** Whether the person is still the one that the job found. */
   const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
   const together = isEverybody(wishes);
@@ -181,7 +181,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
           </button>
         )}
         <p id="unchanged" class="hint" aria-live="polite">
-          {again ? '' : words.unchanged}
+          {again ? '' : strings.redo.unchanged}
         </p>
       </div>
       {editing === 'joints' && picture && start && (

@@ -7,6 +7,7 @@ export const job = {
     title: (portrait: string) => portrait,
     performance: (name: string) => `Performance: ${name}`,
     back: 'Make another',
+    anotherPicture: 'Choose another picture',
     queued: 'Waiting in the queue',
     next: 'Next in the queue',
     place: (number: number) => `Place ${number} in the queue`,
@@ -90,6 +91,7 @@ export const job = {
     rateOwn: 'Same as the performance',
     asBefore: 'As before',
     send: 'Make it again',
+    unchanged: 'No changes yet.',
     versions: 'Versions',
   },
 

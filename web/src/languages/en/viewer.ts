@@ -79,6 +79,7 @@ export const viewer = {
     spaceOpen: 'Open the camera',
 
     wallHelp: 'The picture hangs on the wall. Play, and the person steps out of it; drag to walk around.',
+    wallOut: 'Drag to walk around.',
     wallBack: 'Back into the picture',
     headset: 'View in VR headset',
     headsetFailed: 'The VR headset could not be started. Check that it is connected and that this page may use it.',

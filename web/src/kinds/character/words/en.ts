@@ -215,7 +215,6 @@ const english = {
     posedAll: 'For everyone.',
     poseBack: 'Pose from the picture',
     noPicture: 'This browser cannot show the picture, so nothing can be placed on it here.',
-    unchanged: 'No changes yet.',
     move: 'The motion',
     video: 'The video',
     character: 'The character',

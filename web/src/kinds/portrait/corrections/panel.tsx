@@ -13,6 +13,7 @@ import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
 import { asProblem, useLoaded } from '../../../loading';
 import { isFileId } from '../../../names';
+import { mayRepeat } from '../../../mending';
 import { AUTO, performanceUrl } from '../drivers';
 import { jobLink } from '../../../route';
 import { strings } from '../../../strings';
@@ -47,6 +48,8 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
     const box = faces[wishes.face];
     return box ? faceInBox(box) : null;
   }, [wishes.landmarks, wishes.face, found, report]);
+
+  const again = mayRepeat(job) || JSON.stringify(revisionOptions(wishes)) !== JSON.stringify(revisionOptions(asMade));
 
   const wish = (part: Partial<Wishes>): void => {
     key.current = randomKey(); // another wish is another order
@@ -156,9 +159,14 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
         <RateField value={wishes.rate} own={words.rateOwn} onChange={(rate) => wish({ rate })} />
         {!made.reactive && <FormatField value={wishes.format} onChange={(format) => wish({ format })} />}
       </section>
-      <button type="submit" class="button primary large" disabled={sending}>
-        {words.send}
-      </button>
+      <div class="launch">
+        <button type="submit" class="button primary large" disabled={sending || !again} aria-describedby="unchanged">
+          {words.send}
+        </button>
+        <p id="unchanged" class="hint" aria-live="polite">
+          {again ? '' : words.unchanged}
+        </p>
+      </div>
       {editing && picture && (
         <LandmarkEditor
           url={picture.url}
