@@ -31,7 +31,14 @@ export function Living({ profile, poster }: Props) {
     const element = document.createElement('reactive-portrait') as ReactivePortrait;
     element.setAttribute('src', profile);
     element.setAttribute('alt', words.livingAlt);
-    if (poster) element.setAttribute('poster', poster);
+    if (poster) {
+      element.setAttribute('poster', poster);
+      const image = new Image(); // no bands beside or above a picture of another shape
+      image.addEventListener('load', () => {
+        element.style.aspectRatio = `${image.naturalWidth} / ${image.naturalHeight}`;
+      });
+      image.src = poster;
+    }
     element.addEventListener('load', () => {
       setStates([...element.states]);
       setState(element.state);

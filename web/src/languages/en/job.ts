@@ -87,7 +87,7 @@ export const job = {
     framing: 'The video',
     crop: 'Crop',
     crops: { none: 'Whole picture', bust: 'Head and shoulders', face: 'Face only' },
-    sizeOwn: 'Same as the picture, up to 1920 pixels',
+    sizeOwn: 'Same as the picture, up to 1920',
     rateOwn: 'Same as the performance',
     asBefore: 'As before',
     send: 'Make it again',
