@@ -95,7 +95,7 @@ function Film({ shared }: { shared: Shared }) {
       driver={null}
       chosen={null}
       start={0}
-      hasSound={hasSound}
+      hasSound={shared.has_sound ?? hasSound}
     />
   );
 }

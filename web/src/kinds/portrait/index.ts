@@ -36,7 +36,7 @@ export const portrait: Kind<PortraitOrder> = {
   shared: {
     title: words.sharedTitle,
     alt: strings.job.resultAlt,
-    hasSound: true,
+    hasSound: false,
     downloads: [[/^animation\./, strings.job.download]],
     opened: /^(animation\..+|poster\.jpg)$/,
   },
