@@ -77,7 +77,10 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   },
   'a picture of nobody': {
     hash: () => `#/jobs/${nobody}`,
-    show: (page) => page.getByRole('button', { name: 'Place the joints by hand' }).waitFor({ timeout: LONG }),
+    show: async (page) => {
+      await page.getByText('Correct and try again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Place the joints by hand' }).waitFor();
+    },
   },
   'a result with its corrections and links': {
     hash: () => `#/jobs/${done}`,
@@ -103,7 +106,10 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   },
   'a failure': {
     hash: () => `#/jobs/${failed}`,
-    show: (page) => page.getByRole('button', { name: 'Place the face by hand' }).waitFor({ timeout: LONG }),
+    show: async (page) => {
+      await page.getByText('Correct and try again').click({ timeout: LONG });
+      await page.getByRole('button', { name: 'Place the face by hand' }).waitFor();
+    },
   },
   'the help': { hash: () => 'help/rest.html', show: (page) => page.getByRole('heading', { name: 'REST guide' }).waitFor() },
   'an address that means nothing': { hash: () => '#/nonsense', show: (page) => page.getByRole('heading', { name: 'Page not found' }).waitFor() },
