@@ -102,6 +102,7 @@ export interface Kind<Wanted extends Order = Order> {
     readonly title: string;
     /** What its animation shows. */
     readonly alt: string;
+    /** Whether its animation has sound, where the link does not say. */
     readonly hasSound: boolean;
     /** Files that most people have a use for; all others are listed. */
     readonly downloads: readonly (readonly [file: RegExp, label: string])[];

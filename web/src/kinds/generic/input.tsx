@@ -1,5 +1,6 @@
 /** An input of a job: a file, several, or the name of something that the service keeps. */
 
+import { useState } from 'preact/hooks';
 import { type InputDescription, listDrivers, listMotions } from '../../api';
 import { useLoaded } from '../../loading';
 import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../media';
@@ -23,7 +24,16 @@ interface Props {
   onChange: (value: Given | undefined) => void;
 }
 
-export function InputField({ input, value, onChange }: Props) {
+export function InputField({ input, value, onChange: onGiven }: Props) {
+  const [refused, setRefused] = useState(false);
+  const onChange = (value: Given | undefined): void => {
+    setRefused(false);
+    onGiven(value);
+  };
+  const refuse = (): void => {
+    if (!input.many) onGiven(undefined); // nothing of before is made in its stead
+    setRefused(true);
+  };
   const label = plain(input.name);
   const files = typeof value === 'object' ? value : [];
   const last = input.many ? undefined : files[0];
@@ -62,6 +72,8 @@ export function InputField({ input, value, onChange }: Props) {
           wrong: words.wrong,
         }}
         onFile={(file) => onChange(input.many ? [...files, file] : [file])}
+        refused={refused}
+        onRefused={refuse}
       />
     </section>
   );
