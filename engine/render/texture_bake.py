@@ -226,14 +226,15 @@ def _gather(
             x >= 0 and y >= 0 and x <= width - 1 and y <= height - 1
         ):
             continue
-        column, row = int(x + 0.5), int(y + 0.5)
-        if edge[row, column] or where[i, 2] > depth[row, column] + slack:
+        if edge[int(y + 0.5), int(x + 0.5)]:
             continue
-        left, top = min(int(x), width - 2), min(int(y), height - 2)
-        left, top = max(left, 0), max(top, 0)
+        left, top = max(min(int(x), width - 2), 0), max(min(int(y), height - 2), 0)
         right, bottom = min(left + 1, width - 1), min(top + 1, height - 1)
         fx, fy = x - left, y - top
         a, b, c, d = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
+        nearest = a * depth[top, left] + b * depth[top, right] + c * depth[bottom, left] + d * depth[bottom, right]
+        if where[i, 2] > nearest + slack:
+            continue
         # pixels that are not trusted lend no colour either
         a, b = a * trust[top, left], b * trust[top, right]
         c, d = c * trust[bottom, left], d * trust[bottom, right]

@@ -144,8 +144,8 @@ def test_views_weigh_by_trust_and_gain_and_paint_only_their_triangles() -> None:
         vertices, faces, atlas, [View(grey, camera, paints=first), View(grey * 2, camera, paints=~first)], SIZE
     )
     on = halves.weights > 0
-    assert set(np.unique(halves.colours[on & (halves.charts == atlas.charts[0])]).tolist()) == {100.0}
-    assert set(np.unique(halves.colours[on & (halves.charts == atlas.charts[-1])]).tolist()) == {200.0}
+    for triangle, value in ((0, 100), (-1, 200)):
+        np.testing.assert_allclose(halves.colours[on & (halves.charts == atlas.charts[triangle])], value, atol=1e-3)
 
 
 def test_what_lies_behind_the_camera_or_beside_the_picture_gives_nothing(ball) -> None:
