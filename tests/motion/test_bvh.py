@@ -194,6 +194,8 @@ HOSTILE = {
     "a word for a number": (ARM.replace("Frames: 2", "Frames: two").encode(), "motion_unreadable"),
     "no time between frames": (ARM.replace("0.04", "0").encode(), "motion_unreadable"),
     "time not a number": (ARM.replace("0.04", "nan").encode(), "motion_unreadable"),
+    "two seconds and a half between frames": (ARM.replace("0.04", "2.5").encode(), "motion_unreadable"),
+    "a frame too many": (ARM.replace("Frames: 2", "Frames: 72001").encode(), "motion_too_large"),
     "frames beyond measure": (ARM.replace("Frames: 2", "Frames: 99999999999").encode(), "motion_too_large"),
     "channels unknown": (ARM.replace("Xposition", "Wposition").encode(), "motion_channels"),
     "channels miscounted": (ARM.replace("CHANNELS 6", "CHANNELS 600000").encode(), "motion_unreadable"),
