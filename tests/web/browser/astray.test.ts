@@ -46,9 +46,21 @@ describe('help', () => {
     expectComplaint(answered(404));
   });
 
+  it('begins with how the page is used, the text before the list of all of it, and leads back', async () => {
+    const page = await open(browser, '', { viewport: { width: 390, height: 844 } });
+    await page.getByRole('navigation', { name: 'About Galatea' }).getByRole('link', { name: 'Help' }).click();
+    const heading = page.getByRole('heading', { level: 1, name: 'Using the page' });
+    await heading.waitFor();
+    const topics = page.getByRole('navigation', { name: 'Help' });
+    expect(await topics.getByRole('link').first().innerText()).toBe('Using the page');
+    expect((await topics.boundingBox())!.y).toBeGreaterThan((await heading.boundingBox())!.y);
+    await page.getByRole('link', { name: 'Back to the page' }).click();
+    await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
+  });
+
   it('comes from the service itself, whole', async () => {
     const seen = new Set<string>();
-    const left = ['/help/index.html', '/help/rest.html', '/help/responsible-use.html', '/help/licences.html', '/v1/openapi.json'];
+    const left = ['/help/page.html', '/help/index.html', '/help/rest.html', '/help/responsible-use.html', '/help/licences.html', '/v1/openapi.json'];
     for (let path = left.pop(); path; path = left.pop()) {
       if (seen.has(path)) continue;
       seen.add(path);

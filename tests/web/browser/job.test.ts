@@ -1,7 +1,7 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import { answered, complaints, expectComplaint, unanswered } from './complaints';
-import { faceless, launch, LONG, open, openRunning, order, portrait } from './page';
+import { ask, faceless, launch, LONG, open, openRunning, order, portrait } from './page';
 
 let browser: Browser;
 let done: string;
@@ -74,6 +74,31 @@ describe('a job that succeeds', () => {
     expect(await overflow()).toBeLessThanOrEqual(0);
   });
 
+  it.each([390, 1280])('has one row of what can be done, which stays where it is whatever opens, %i pixels wide', async (width) => {
+    const page = await open(browser, `#/jobs/${done}`, { viewport: { width, height: 900 }, reducedMotion: 'reduce' });
+    await loaded(page);
+    const buttons = ['All files', 'Share', 'Use in code'].map((name) => page.getByRole('button', { name, exact: true }));
+    const left = page.locator('.left');
+    const places = () =>
+      Promise.all(
+        buttons.map(async (button) => {
+          const [inner, outer] = [await button.boundingBox(), await left.boundingBox()];
+          return [inner!.x - outer!.x, inner!.y - outer!.y].map(Math.round);
+        }),
+      );
+    const before = await places();
+    for (const button of buttons) await button.click();
+    await page.getByRole('button', { name: 'Create link' }).waitFor();
+    const copy = page.getByRole('button', { name: /^Copy: / }).first();
+    await copy.waitFor();
+    expect(await places()).toEqual(before);
+
+    const [inner, around, code] = [copy, page.locator('.snippet').first(), page.locator('.snippet pre').first()].map((one) => one.boundingBox());
+    const [button, snippet, text] = [(await inner)!, (await around)!, (await code)!];
+    expect(button.x + button.width).toBeLessThanOrEqual(snippet.x + snippet.width + 0.5);
+    expect(button.y + button.height).toBeLessThanOrEqual(text.y + 0.5);
+  });
+
   it('is made again with something changed, and the two lead to each other', async () => {
     const page = await open(browser, `#/jobs/${done}`);
     await page.getByText('Edit and make again').click();
@@ -131,6 +156,29 @@ describe('a job that does not', () => {
     const page = await open(browser, '#/jobs/0198c1d2-7b1a-7c3e-9c6d-0a1b2c3d4e5f');
     await page.getByRole('heading', { name: 'Job not found' }).waitFor();
     expectComplaint(answered(404));
+  });
+});
+
+describe('a job on its way', () => {
+  it('has its place in the queue told while it waits', async () => {
+    const page = await openRunning(browser, 2);
+    await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
+    const { items } = await ask<{ items: { id: string; status: string }[] }>('/v1/jobs');
+    for (const { id, status } of items) {
+      if (id !== done && /queued|running/.test(status)) await fetch(`${inject('address')}/v1/jobs/${id}/cancel`, { method: 'POST' });
+    }
+    await page.getByText('Canceled', { exact: true }).first().waitFor({ timeout: LONG });
+  });
+
+  it('keeps its stages in the order of the work when the page is loaded anew', async () => {
+    const page = await openRunning(browser);
+    const stages = page.getByRole('list', { name: 'Stages' }).getByRole('listitem');
+    const names = async () => (await stages.allInnerTexts()).map((text) => text.split('\n')[0]!.replace(/ (running|done)$/, ''));
+    await expect.poll(() => stages.count(), { timeout: LONG }).toBeGreaterThan(1);
+    const before = await names();
+    await page.reload();
+    await stages.first().waitFor();
+    expect((await names()).slice(0, before.length)).toEqual(before);
   });
 });
 

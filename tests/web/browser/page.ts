@@ -82,12 +82,14 @@ export const order = (image: string, driver: string | File | null, options: obje
 
 /**
  * The page of a job that takes a while, opened while the job waits or has just begun: what it shows on the way can be
- * watched, however fast the machine is.
+ * watched, however fast the machine is. It waits for as many like it as are to be `ahead`.
  */
-export async function openRunning(browser: Browser): Promise<Page> {
+export async function openRunning(browser: Browser, ahead = 0): Promise<Page> {
   const page = await open(browser);
   await page.getByRole('radio').first().waitFor({ state: 'attached' });
-  const job = await order(portrait, lengthyPerformance());
+  const driver = lengthyPerformance();
+  for (let one = 0; one < ahead; one++) await order(portrait, driver);
+  const job = await order(portrait, driver);
   await page.evaluate((id) => (location.hash = `#/jobs/${id}`), job);
   return page;
 }

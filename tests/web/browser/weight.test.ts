@@ -1,6 +1,6 @@
 import { gzipSync } from 'node:zlib';
 import { expect, inject, it } from 'vitest';
-import { launch, open } from './page';
+import { ask, launch, LONG, open, order, portrait } from './page';
 
 const BUDGET = 200_000;
 
@@ -25,6 +25,25 @@ it('is there at the first load with less than 200 kB', async () => {
     for (const part of ['editor', 'recorder', 'keys', 'webhooks', 'character', 'motions', 'joints', 'painter']) {
       expect(ours.some((url) => url.includes(`/${part}-`)), `${part} is fetched when it is needed`).toBe(false);
     }
+  } finally {
+    await browser.close();
+  }
+});
+
+it('shows five recent works with less than 60 kB of pictures', async () => {
+  const made = await Promise.all(Array.from({ length: 5 }, () => order(portrait, 'happy')));
+  const ended = async (id: string) => (await ask<{ status: string }>(`/v1/jobs/${id}`)).status;
+  await expect.poll(() => Promise.all(made.map(ended)), { timeout: LONG }).toEqual(made.map(() => 'succeeded'));
+  const browser = await launch();
+  try {
+    const page = await open(browser);
+    const posters = page.locator('.recent .entry .poster img');
+    await expect.poll(() => posters.count()).toBeGreaterThanOrEqual(made.length);
+    const shown = await posters.evaluateAll((images: HTMLImageElement[]) => images.map(({ src }) => src));
+    const ours = shown.filter((url) => made.some((id) => url.includes(id)));
+    expect(ours).toHaveLength(made.length);
+    const sizes = await Promise.all(ours.map(async (url) => (await (await fetch(url)).arrayBuffer()).byteLength));
+    expect(sizes.reduce((sum, size) => sum + size, 0)).toBeLessThan(60_000);
   } finally {
     await browser.close();
   }
