@@ -70,6 +70,56 @@ describe('whoever comes for the first time', () => {
   });
 });
 
+describe('a file that cannot be taken', () => {
+  const notes = { name: 'notes.jpg', mimeType: 'image/jpeg', buffer: Buffer.from('hi') };
+
+  it.each(sizes)('is refused in sight at $width by $height, and no picture of before is animated in its place', async (viewport) => {
+    for (const place of ['', '#/character']) {
+      const page = await open(browser, place, { viewport });
+      const launch = page.getByRole('button', { name: place ? 'Create character' : 'Bring it to life' });
+      const refusal = page.getByRole('alert').filter({ hasText: 'This is not a picture.' });
+      await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+      await page.getByLabel(/grace_hopper.jpg. Choose another/).setInputFiles(notes);
+      await refusal.waitFor();
+      await expect.poll(() => inSight(refusal)).toBe(true);
+      expect(await page.getByLabel(/grace_hopper.jpg/).count()).toBe(0);
+      expect(await launch.isDisabled()).toBe(true);
+      await page.locator('.samples button').first().click();
+      await refusal.waitFor({ state: 'detached' });
+      await page.waitForFunction(() => document.querySelector<HTMLButtonElement>('.launch [type=submit]')?.disabled === false);
+      await page.evaluate(() => {
+        scrollTo(0, document.documentElement.scrollHeight);
+        const data = new DataTransfer();
+        data.items.add(new File(['hi'], 'notes.jpg'));
+        document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+      });
+      await refusal.waitFor();
+      await expect.poll(() => inSight(refusal)).toBe(true);
+      expect(await launch.isDisabled()).toBe(true);
+      await page.close();
+    }
+  });
+
+  it('leaves nothing chosen where it was to be the performance or the motion', async () => {
+    const page = await open(browser);
+    await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+    await page.getByText('Grace hopper · Happy').waitFor();
+    await page.getByLabel(/Drop a video/).setInputFiles(notes);
+    await page.getByRole('alert').filter({ hasText: 'This is not a video.' }).waitFor();
+    expect(await start(page).isDisabled()).toBe(true);
+    await page.locator('form').getByText('Happy', { exact: true }).click();
+    await page.getByText('Grace hopper · Happy').waitFor();
+    await page.getByRole('link', { name: 'Character', exact: true }).click();
+    await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+    await page.getByText('Grace hopper · Walk').waitFor();
+    await page.getByLabel(/Drop a BVH/).setInputFiles(notes);
+    await page.getByRole('alert').filter({ hasText: 'This is not a motion file.' }).waitFor();
+    expect(await page.locator('.launch [type=submit]').isDisabled()).toBe(true);
+    await page.locator('form').getByText('Walk', { exact: true }).click();
+    await page.getByText('Grace hopper · Walk').waitFor();
+  });
+});
+
 describe('what was chosen', () => {
   it('is still chosen after a look at the other pages', async () => {
     const page = await open(browser);

@@ -100,14 +100,6 @@ describe('choosing', () => {
     expect(await start(page).isEnabled()).toBe(true);
   });
 
-  it('refuses what is no picture, in plain words, and keeps the one it has', async () => {
-    const page = await open(browser);
-    await portraitInput(page).setInputFiles(portrait);
-    await portraitInput(page).setInputFiles({ name: 'notes.jpg', mimeType: 'image/jpeg', buffer: Buffer.from('hi') });
-    await page.getByText('This is not a picture.').waitFor();
-    await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
-  });
-
   it('finds the place of a file that is dropped anywhere', async () => {
     const page = await open(browser);
     await page.evaluate(() => {

@@ -9,9 +9,11 @@ const words = strings.character;
 interface Props {
   file: File | null;
   onFile: (file: File) => void;
+  refused: boolean;
+  onRefused: () => void;
 }
 
-export function MotionDrop({ file, onFile }: Props) {
+export function MotionDrop({ file, onFile, refused, onRefused }: Props) {
   return (
     <Dropzone
       media="motion"
@@ -25,6 +27,8 @@ export function MotionDrop({ file, onFile }: Props) {
         wrong: words.wrongMotion,
       }}
       onFile={onFile}
+      refused={refused}
+      onRefused={onRefused}
     />
   );
 }

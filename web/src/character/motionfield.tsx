@@ -1,6 +1,6 @@
 /** The motion of a character that is made again: as before, another of ours or one's own, or a file. */
 
-import { useId } from 'preact/hooks';
+import { useId, useState } from 'preact/hooks';
 import { canMove, type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../api';
 import { useLoaded } from '../loading';
 import { isFileId, isUrl, motionName } from '../names';
@@ -26,15 +26,18 @@ interface Props {
 
 export function MotionField({ job, value, before, joints, clip, onChange }: Props) {
   const id = useId();
+  const [refused, setRefused] = useState(false);
   const kept = (useLoaded(listOwnMotions, 'motions').value ?? []).filter(canMove);
   const held = before.by === 'held' ? before : null;
   const made = wishesOf(job);
-  const choose = (motion: Wishes['motion']): void =>
+  const choose = (motion: Wishes['motion'], refused = false): void => {
+    setRefused(refused);
     onChange({
       motion,
       motionJoints: motion.by === 'held' ? made.motionJoints : {},
       motionClip: motion.by === 'held' ? made.motionClip : null,
     });
+  };
   const known = value.by === 'kept' ? detailsIn(kept, value.name) : value.by === 'held' ? listedIn(job) : null;
   return (
     <>
@@ -71,6 +74,8 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
       <MotionDrop
         file={value.by === 'file' ? value.file : null}
         onFile={(file) => choose({ by: 'file', file })}
+        refused={refused}
+        onRefused={() => choose(before, true)}
       />
       {value.by !== 'name' && (
         <JointMap

@@ -34,6 +34,9 @@ export const motionNames = Object.keys(figures) as MotionName[];
 interface Props {
   chosen: Motion;
   onChoose: (motion: Motion) => void;
+  /** The file that was chosen last is no motion: until another is chosen, none is. */
+  refused: boolean;
+  onRefused: () => void;
   /** Of a motion of one's own: what moves which joint otherwise than found. */
   joints: MotionJoints;
   onJoints: (joints: MotionJoints) => void;
@@ -48,7 +51,7 @@ export const detailsIn = (kept: readonly KeptMotion[], name: string): MotionDeta
   return joints.length ? { joints, mapping, clips } : null;
 };
 
-export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Props) {
+export function Motions({ chosen, onChoose, refused, onRefused, joints, onJoints, clip, onClip }: Props) {
   const own = useLoaded(listOwnMotions, 'motions');
   const all = own.value ?? [];
   const kept = all.filter(canMove);
@@ -64,7 +67,7 @@ export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Pr
               value={name}
               symbol={figures[name]}
               label={motionName(name)}
-              checked={chosen.by === 'name' && chosen.name === name}
+              checked={!refused && chosen.by === 'name' && chosen.name === name}
               onChoose={() => onChoose({ by: 'name', name })}
             />
           ))}
@@ -80,7 +83,7 @@ export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Pr
                 value={`kept/${name}`}
                 symbol={way}
                 label={title || plain(name)}
-                checked={chosen.by === 'kept' && chosen.name === name}
+                checked={!refused && chosen.by === 'kept' && chosen.name === name}
                 onChoose={() => onChoose({ by: 'kept', name })}
               />
             ))}
@@ -105,8 +108,13 @@ export function Motions({ chosen, onChoose, joints, onJoints, clip, onClip }: Pr
         }}
       />
       <h3>{words.ownMotion}</h3>
-      <MotionDrop file={chosen.by === 'file' ? chosen.file : null} onFile={(file) => onChoose({ by: 'file', file })} />
-      {chosen.by !== 'name' && (
+      <MotionDrop
+        file={chosen.by === 'file' ? chosen.file : null}
+        onFile={(file) => onChoose({ by: 'file', file })}
+        refused={refused}
+        onRefused={onRefused}
+      />
+      {!refused && chosen.by !== 'name' && (
         <JointMap motion={chosen} known={known} value={joints} onChange={onJoints} clip={clip} onClip={onClip} />
       )}
     </>

@@ -2,18 +2,20 @@
 
 import { useEffect } from 'preact/hooks';
 
-export function useDropsAnywhere(onFile: (file: File) => Promise<void>): void {
+/** `onFile` says whether it took the file; `onNone` is called where none of them was taken. */
+export function useDropsAnywhere(onFile: (file: File) => Promise<boolean>, onNone: () => void): void {
   useEffect(() => {
-    const take = (files: Iterable<File>): void => {
-      for (const file of files) void onFile(file);
+    const take = async (files: Iterable<File>): Promise<void> => {
+      const taken = await Promise.all([...files].map(onFile));
+      if (taken.length > 0 && !taken.includes(true)) onNone();
     };
     const allow = (event: DragEvent): void => event.preventDefault();
     const drop = (event: DragEvent): void => {
       if (event.defaultPrevented) return; // a dropzone took it
       event.preventDefault(); // otherwise the browser would leave the page to show the file
-      take(event.dataTransfer?.files ?? []);
+      void take(event.dataTransfer?.files ?? []);
     };
-    const paste = (event: ClipboardEvent): void => take(event.clipboardData?.files ?? []);
+    const paste = (event: ClipboardEvent): void => void take(event.clipboardData?.files ?? []);
     addEventListener('dragover', allow);
     addEventListener('drop', drop);
     addEventListener('paste', paste);

@@ -1,6 +1,6 @@
 /** A place to drop, browse for, or be given one file; shows what it holds. */
 
-import { useEffect, useId, useMemo, useState } from 'preact/hooks';
+import { useEffect, useId, useMemo, useRef, useState } from 'preact/hooks';
 import { size } from '../format';
 import { strings } from '../strings';
 
@@ -20,18 +20,22 @@ interface Props {
   words: Words;
   media: Media;
   onFile: (file: File) => void;
+  /** What was chosen last cannot be taken: the place says so, and shows no file that it had before. */
+  refused: boolean;
+  onRefused: () => void;
 }
 
-export function Dropzone({ file, accept, accepts, words, media, onFile }: Props) {
+export function Dropzone({ file, accept, accepts, words, media, onFile, refused, onRefused }: Props) {
   const [over, setOver] = useState(false);
-  const [refused, setRefused] = useState(false);
+  const [tries, setTries] = useState(0);
   const error = useId();
+  const held = refused ? null : file;
 
   const take = async (candidate: File | undefined): Promise<void> => {
     if (!candidate) return;
-    const good = await accepts(candidate);
-    setRefused(!good);
-    if (good) onFile(candidate);
+    setTries((before) => before + 1);
+    if (await accepts(candidate)) onFile(candidate);
+    else onRefused();
   };
   const drop = (event: DragEvent): void => {
     event.preventDefault();
@@ -40,7 +44,7 @@ export function Dropzone({ file, accept, accepts, words, media, onFile }: Props)
   };
 
   return (
-    <div class={`dropzone ${media} ${over ? 'over' : ''} ${file ? 'filled' : ''}`}>
+    <div class={`dropzone ${media} ${over ? 'over' : ''} ${held ? 'filled' : ''}`}>
       <label
         onDragOver={(event) => {
           event.preventDefault();
@@ -52,7 +56,7 @@ export function Dropzone({ file, accept, accepts, words, media, onFile }: Props)
         <input
           type="file"
           accept={accept}
-          aria-label={file ? words.chosen(file.name) : `${words.drop} ${words.browse}`}
+          aria-label={held ? words.chosen(held.name) : `${words.drop} ${words.browse}`}
           aria-invalid={refused}
           aria-describedby={refused ? error : undefined}
           onChange={(event) => {
@@ -60,13 +64,14 @@ export function Dropzone({ file, accept, accepts, words, media, onFile }: Props)
             event.currentTarget.value = ''; // so that choosing the same file again counts as a choice
           }}
         />
-        {file ? <Preview file={file} media={media} /> : <Invitation words={words} />}
+        {held ? (
+          <Preview file={held} media={media} />
+        ) : refused ? (
+          <Refusal key={tries} id={error} words={words} />
+        ) : (
+          <Invitation words={words} />
+        )}
       </label>
-      {refused && (
-        <p class="error" role="alert" id={error}>
-          {words.wrong}
-        </p>
-      )}
     </div>
   );
 }
@@ -79,6 +84,20 @@ function Invitation({ words }: { words: Words }) {
       </svg>
       <strong>{words.drop}</strong>
       <span>{words.browse}</span>
+    </span>
+  );
+}
+
+/** Comes into sight, wherever the page was: the file may have been dropped far from its place. */
+function Refusal({ id, words }: { id: string; words: Words }) {
+  const place = useRef<HTMLSpanElement>(null);
+  useEffect(() => place.current?.scrollIntoView({ block: 'nearest' }), []);
+  return (
+    <span class="invitation refusal" ref={place}>
+      <strong class="error" role="alert" id={id}>
+        {words.wrong}
+      </strong>
+      <span aria-hidden="true">{words.browse}</span>
     </span>
   );
 }

@@ -18,6 +18,9 @@ interface Props {
   drivers: Driver[];
   chosen: Performance | null;
   onChoose: (performance: Performance) => void;
+  /** The file that was chosen last is no video. */
+  refused: boolean;
+  onRefused: () => void;
   /** Something is being sent. */
   sending: boolean;
   /** A video is being kept, or no longer. */
@@ -31,7 +34,7 @@ type Strength = (typeof STRENGTHS)[number];
 
 const words = strings.studio;
 
-export function Performances({ drivers, chosen, onChoose, sending, onKeeping, onKept }: Props) {
+export function Performances({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, onKept }: Props) {
   const [strength, setStrength] = useState<Strength>('normal');
   const name = chosen?.by === 'name' ? chosen.name : null;
   const choose = (name: string): void => onChoose({ by: 'name', name });
@@ -117,6 +120,8 @@ export function Performances({ drivers, chosen, onChoose, sending, onKeeping, on
           wrong: words.wrongVideo,
         }}
         onFile={(file) => onChoose({ by: 'file', file })}
+        refused={refused}
+        onRefused={onRefused}
       />
       {chosen?.by === 'file' && (
         <Keep

@@ -1,6 +1,6 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
-import { useEffect } from 'preact/hooks';
+import { useEffect, useState } from 'preact/hooks';
 import type { CharacterOptions, MotionJoints } from '../api';
 import { CharacterFields, type Choices, KeepField, optionsOf, VideoFields } from '../character/choices';
 import { Motions } from '../character/motions';
@@ -12,7 +12,7 @@ import { Launch } from '../components/launch';
 import { Making } from '../components/making';
 import { Recent } from '../components/recent';
 import { Samples } from '../components/samples';
-import type { CharacterDraft, Draft } from '../drafts';
+import { type CharacterDraft, type Draft, noCharacter } from '../drafts';
 import { isMotion, isPicture, pictureTypes } from '../media';
 import { characterOrder, type Motion, namesOf } from '../order';
 import { figureSamples } from '../samples';
@@ -29,22 +29,41 @@ const said = (joints: MotionJoints, clip: string | null): CharacterOptions => ({
 
 export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft> }) {
   const [{ photo, motion, joints, clip, choices }, alter] = draft;
-  const setPhoto = (photo: File): void => alter({ photo });
+  const [refused, setRefused] = useState<'photo' | 'motion' | null>(null);
+  const setPhoto = (photo: File): void => {
+    setRefused((part) => (part === 'photo' ? null : part));
+    alter({ photo });
+  };
+  const refusePhoto = (): void => {
+    setRefused('photo');
+    alter({ photo: null });
+  };
   const sending = useSending();
   // another motion has other joints, and other animations
-  const move = (motion: Motion): void => alter({ motion, joints: {}, clip: null });
+  const move = (motion: Motion): void => {
+    setRefused((part) => (part === 'motion' ? null : part));
+    alter({ motion, joints: {}, clip: null });
+  };
+  const refuseMotion = (): void => {
+    setRefused('motion');
+    alter({ motion: noCharacter.motion, joints: {}, clip: null });
+  };
   useDropsAnywhere(async (file) => {
     if (await isPicture(file)) setPhoto(file);
     else if (await isMotion(file)) move({ by: 'file', file });
-  });
+    else return false;
+    return true;
+  }, refusePhoto);
   useEffect(() => {
     document.title = `${strings.make.character} · ${strings.name}`;
   }, []);
 
+  const wrong = refused && (refused === 'motion' ? words.wrongMotion : strings.studio.wrongPicture);
+  const missing = wrong ?? (photo ? '' : words.needPhoto);
   const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
   const start = (event: Event): void => {
     event.preventDefault();
-    if (order) sending.begin(order());
+    if (order && !missing) sending.begin(order());
   };
   const change = (part: Partial<Choices>): void => alter({ choices: { ...choices, ...part } });
   return (
@@ -81,6 +100,8 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
                 wrong: strings.studio.wrongPicture,
               }}
               onFile={setPhoto}
+              refused={refused === 'photo'}
+              onRefused={refusePhoto}
             />
             <Capture media="image" of="body" onFile={setPhoto} />
           </section>
@@ -91,6 +112,8 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
           <Motions
             chosen={motion}
             onChoose={move}
+            refused={refused === 'motion'}
+            onRefused={refuseMotion}
             joints={joints}
             onJoints={(joints) => alter({ joints })}
             clip={clip}
@@ -105,7 +128,7 @@ export default function CharacterStudio({ draft }: { draft: Draft<CharacterDraft
             </div>
           </details>
         </section>
-        <Launch sending={sending} missing={photo ? '' : words.needPhoto} chosen={order && namesOf(order())} label={words.start} />
+        <Launch sending={sending} missing={missing} chosen={order && namesOf(order())} label={words.start} />
       </form>
       <Recent />
     </>

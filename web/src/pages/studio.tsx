@@ -31,12 +31,27 @@ const USUAL = 'happy';
 
 export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
   const [{ portrait, performance: chosen, choices }, change] = draft;
-  const setPortrait = (portrait: File): void => change({ portrait });
-  const setPerformance = (performance: Performance): void => change({ performance });
+  const [refused, setRefused] = useState<'portrait' | 'video' | null>(null);
+  const setPortrait = (portrait: File): void => {
+    setRefused((part) => (part === 'portrait' ? null : part));
+    change({ portrait });
+  };
+  const setPerformance = (performance: Performance): void => {
+    setRefused((part) => (part === 'video' ? null : part));
+    change({ performance });
+  };
+  const refusePortrait = (): void => {
+    setRefused('portrait');
+    change({ portrait: null });
+  };
+  const refuseVideo = (): void => {
+    setRefused('video');
+    change({ performance: null });
+  };
   const [keeping, setKeeping] = useState(false);
   const drivers = useLoaded(listDrivers, 'drivers');
   const usual = drivers.value?.find(({ name }) => name === USUAL);
-  const performance: Performance | null = chosen ?? (usual ? { by: 'name', name: usual.name } : null);
+  const performance: Performance | null = refused === 'video' ? null : chosen ?? (usual ? { by: 'name', name: usual.name } : null);
   const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
   useEffect(() => {
     if (!searching) return;
@@ -47,13 +62,16 @@ export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
   useDropsAnywhere(async (file) => {
     if (await isPicture(file)) setPortrait(file);
     else if (await isVideo(file)) setPerformance({ by: 'file', file });
-  });
+    else return false;
+    return true;
+  }, refusePortrait);
   useEffect(() => {
     document.title = strings.name;
   }, []);
 
   const hasSound = performance?.by === 'file';
-  const needed = !portrait ? words.needPortrait : !performance ? words.needPerformance : '';
+  const wrong = refused && (refused === 'video' ? words.wrongVideo : words.wrongPicture);
+  const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
   const missing = keeping ? words.keepingFirst : needed;
   const order =
     portrait && performance ? () => portraitOrder(portrait, performance, optionsOf(choices, hasSound)) : null;
@@ -96,6 +114,8 @@ export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
                 wrong: words.wrongPicture,
               }}
               onFile={setPortrait}
+              refused={refused === 'portrait'}
+              onRefused={refusePortrait}
             />
             <Capture media="image" onFile={setPortrait} />
           </section>
@@ -114,6 +134,8 @@ export function StudioPage({ draft }: { draft: Draft<PortraitDraft> }) {
             drivers={drivers.value ?? []}
             chosen={performance}
             onChoose={setPerformance}
+            refused={refused === 'video'}
+            onRefused={refuseVideo}
             sending={sending.step !== null}
             onKeeping={setKeeping}
             onKept={drivers.reload}
