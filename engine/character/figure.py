@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_skeleton
+from engine.character.placed_joints import WHOLE_SKELETON, check_places, check_skeleton, in_words
 from engine.character.posture import check_posture
 from engine.errors import InputError
 from engine.imaging.resample import resized, size_within
@@ -112,7 +112,7 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
         raise InputError(
             "no_person",
             "No person was found in the picture: choose one that shows somebody whole, or place the joints by hand "
-            f"({', '.join(WHOLE_SKELETON)}).",
+            f"({in_words(WHOLE_SKELETON)}).",
             ("joints", "person_box"),
         )
     points = np.zeros((len(LANDMARKS), 2), np.float32) if body is None else body.points.copy()
@@ -244,18 +244,18 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
     if missing := [name for name in SHOULDERS if name not in seen]:
         raise InputError(
             "not_full_body",
-            f"The person's shoulders are not to be seen ({', '.join(missing)}): choose a picture of the whole body.",
+            f"The person's shoulders are not to be seen ({in_words(missing)}): choose a picture of the whole body.",
             ("joints",),
         )
     if missing := [name for name in BELOW if name not in seen]:
         if not partial:
             raise InputError(
                 "not_full_body",
-                f"The person is cut off or hidden below ({', '.join(missing)}): choose a picture of the whole body, or "
+                f"The person is cut off or hidden below ({in_words(missing)}): choose a picture of the whole body, or "
                 "set “partial” to animate what is there.",
                 ("partial", "joints"),
             )
-        warn("not_full_body", f"The person is cut off or hidden below ({', '.join(missing)}).")
+        warn("not_full_body", f"The person is cut off or hidden below ({in_words(missing)}).")
     shown = figure.points[[LANDMARKS.index(name) for name in seen], 1]
     if np.ptp(shown) < LEAST_HEIGHT:
         raise InputError(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,27 @@ BONES = tuple(
 )
 
 
+FINGERS_AND_TOES = {"Index": "index finger", "Pinky": "little finger", "FootIndex": "toes"}
+"""What is called otherwise in plain words than in the landmarks' names."""
+
+
+def in_words(names: Iterable[str]) -> str:
+    """Landmarks as a sentence names them, a pair of them once: "both shoulders, the left wrist"."""
+    told: dict[str, list[str]] = {}
+    for name in names:
+        side = next((side for side in ("Left", "Right") if side in name), "")
+        part = name.replace(side, "", 1)
+        part = FINGERS_AND_TOES.get(part) or re.sub(r"(?<!^)(?=[A-Z])", " ", part).lower()
+        told.setdefault(part, []).append(side.lower())
+    return ", ".join(_one_or_both(part, sides) for part, sides in told.items())
+
+
+def _one_or_both(part: str, sides: list[str]) -> str:
+    if set(sides) == {"left", "right"}:
+        return f"both {part}" if part.endswith("s") else f"both {part}s"
+    return f"the {sides[0]} {part}" if sides[0] else f"the {part}"
+
+
 def check_places(joints: Mapping[str, tuple[float, float]], shape: tuple[int, int]) -> None:
     """Look at the names and places of joints, pixels of a picture of `shape` (H, W).
 
@@ -48,7 +70,7 @@ def check_places(joints: Mapping[str, tuple[float, float]], shape: tuple[int, in
         if not (-OUTSIDE * width <= x <= (1 + OUTSIDE) * width and -OUTSIDE * height <= y <= (1 + OUTSIDE) * height):
             raise InputError(
                 "joint_outside",
-                f"“{name}” lies far outside the picture: place it within {width} x {height}.",
+                f"For {in_words([name])} a place far outside the picture is given: choose one within {width} x {height}.",
                 ("joints",),
             )
 
@@ -81,7 +103,7 @@ def check_skeleton(points: NDArray[np.floating], warn: Callable[[str, str], None
     if longest > LONG:
         warn(
             "joints_out_of_proportion",
-            f"From {a} to {b} it is {longest:.1f} times as far as from the shoulders to the hips: see whether all joints are "
+            f"From {in_words([a])} to {in_words([b])} it is {longest:.1f} times as far as from the shoulders to the hips: see whether all joints are "
             "in their places.",
         )
 

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.character_steps import BY_HAND
 from engine.character import KIND
 from engine.character.figure import Choice, find_figure
-from engine.character.placed_joints import WHOLE_SKELETON, check_skeleton
+from engine.character.placed_joints import PLACED, WHOLE_SKELETON, check_places, check_skeleton, in_words
 from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.media.image import write_image
@@ -77,3 +77,16 @@ def test_what_is_refused_of_joints_can_be_corrected_by_them(tmp_path: Path) -> N
     small = ((name, x / 8, y / 8) for name, (x, y) in DRAWN.items())
     error = refused(tmp_path / "far.png", *small)
     assert (error.code, error.correctable) == ("person_too_small", ("joints", "person_box"))
+
+
+def test_landmarks_are_told_in_plain_words_and_a_pair_of_them_once() -> None:
+    assert in_words(WHOLE_SKELETON) == "both shoulders, both elbows, both wrists, both hips, both knees, both ankles"
+    assert in_words(["RightKnee", "Nose", "LeftAnkle"]) == "the right knee, the nose, the left ankle"
+    assert in_words(["LeftIndex", "RightFootIndex"]) == "the left index finger, the right toes"
+    assert not any(letter.isupper() for letter in in_words(PLACED))
+
+
+def test_refusals_and_warnings_name_joints_in_plain_words() -> None:
+    with pytest.raises(InputError, match="^For the left knee a place far outside the picture is given") as refused:
+        check_places({"LeftKnee": (10_000, 10)}, (100, 100))
+    assert refused.value.code == "joint_outside"

@@ -156,6 +156,7 @@ def test_what_shows_nobody_is_refused(tmp_path: Path) -> None:
     write_image(tmp_path / "wall.png", np.full((300, 300, 3), 128, np.uint8))
     error = refused(tmp_path, tmp_path / "wall.png")
     assert (error.code, error.correctable) == ("no_person", ("joints", "person_box"))
+    assert "(both shoulders, both elbows, both wrists, " in str(error)
 
 
 def test_who_is_cut_off_is_refused_unless_that_is_wanted(tmp_path: Path, picture: Path) -> None:
