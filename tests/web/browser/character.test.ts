@@ -197,7 +197,7 @@ describe('ordering a character', () => {
   it('refuses what is no motion, and finds the place of one that is dropped anywhere', async () => {
     const page = await openStill(browser, '#/character');
     await page.getByLabel(/Drop a BVH/).setInputFiles({ name: 'a.fbx', mimeType: '', buffer: Buffer.from('x') });
-    await page.getByText('This is not a motion file.').waitFor();
+    await page.getByRole('alert').filter({ hasText: 'This is not a motion file.' }).waitFor();
     await page.evaluate(() => {
       const data = new DataTransfer();
       data.items.add(new File(['HIERARCHY\n'], 'cartwheel.bvh'));
