@@ -89,6 +89,8 @@ class SharedOut(BaseModel):
     kind: str
     title: str | None
     """What its owner calls it; null where they gave it no title. Nothing else that the job was given is told."""
+    has_sound: bool | None
+    """Whether sound was asked for by the option `sound`; null where nothing was said of it."""
     finished_at: datetime | None
     expires_at: datetime | None
     artifacts: dict[str, SharedArtifactOut]
@@ -108,6 +110,7 @@ class SharedOut(BaseModel):
         return cls(
             kind=job.kind,
             title=job.title,
+            has_sound=sound if isinstance(sound := job.options.get("sound"), bool) else None,
             finished_at=job.finished_at,
             expires_at=link.expires_at,
             artifacts=shared,

@@ -59,7 +59,8 @@ def test_a_link_tells_the_title_and_nothing_else_that_the_job_was_given(running:
     running.client.patch(f"/v1/jobs/{job_id}", json={"title": "My aunt"}).raise_for_status()
     titled = running.client.get(made["url"])
     assert titled.json()["title"] == "My aunt"
-    assert set(titled.json()) == {"kind", "title", "finished_at", "expires_at", "artifacts"}
+    assert set(titled.json()) == {"kind", "title", "has_sound", "finished_at", "expires_at", "artifacts"}
+    assert titled.json()["has_sound"] is None
     assert "Elm" not in untitled.text + titled.text and "lawyer" not in untitled.text + titled.text
 
 

@@ -1367,6 +1367,7 @@ export interface components {
         SharedOut: {
             kind: string;
             title: string | null;
+            has_sound: boolean | null;
             finished_at: string | null;
             expires_at: string | null;
             artifacts: {

@@ -100,7 +100,7 @@ function Film({ shared }: { shared: Shared }) {
       driver={null}
       chosen={null}
       start={0}
-      hasSound={!ofCharacter}
+      hasSound={shared.has_sound ?? false}
     />
   );
 }
