@@ -103,8 +103,8 @@ def check_skeleton(points: NDArray[np.floating], warn: Callable[[str, str], None
     if longest > LONG:
         warn(
             "joints_out_of_proportion",
-            f"From {in_words([a])} to {in_words([b])} it is {longest:.1f} times as far as from the shoulders to the hips: see whether all joints are "
-            "in their places.",
+            f"From {in_words([a])} to {in_words([b])} it is {longest:.1f} times as far as from the shoulders to the hips: see "
+            "whether all joints are in their places.",
         )
 
 

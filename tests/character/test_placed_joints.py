@@ -87,6 +87,6 @@ def test_landmarks_are_told_in_plain_words_and_a_pair_of_them_once() -> None:
 
 
 def test_refusals_and_warnings_name_joints_in_plain_words() -> None:
-    with pytest.raises(InputError, match="^For the left knee a place far outside the picture is given") as refused:
+    with pytest.raises(InputError, match="For the left knee a place far outside the picture is given") as refused:
         check_places({"LeftKnee": (10_000, 10)}, (100, 100))
     assert refused.value.code == "joint_outside"
