@@ -47,7 +47,7 @@ def body(model: str, named: str, required: Sequence[str] = (), **properties: Any
             "priority": {"type": "string", "enum": ["high", "normal", "low"]},
             **{name: {"type": "object"} for name in parts if name != "webhook_events"},
             "webhook_url": {"type": "string"},
-            "webhook_events": {"type": ["array", "null"], "items": {"type": "string"}},
+            "webhook_events": {"anyOf": [{"type": "array", "items": {"type": "string"}}, {"type": "null"}]},
             **properties,
         },
         "additionalProperties": {"type": "string", "format": "binary"},
@@ -89,7 +89,7 @@ async def create_job(
     "/{job_id}/revisions",
     status_code=202,
     operation_id="revise_job",
-    openapi_extra=body("RevisionIn", "corrections", metadata={"type": ["object", "null"]}),
+    openapi_extra=body("RevisionIn", "corrections", metadata={"anyOf": [{"type": "object"}, {"type": "null"}]}),
     responses=responses(404, 409, 413, 415, 422, 507),
 )
 async def revise_job(

@@ -8,13 +8,12 @@ import { inPython, launch, open } from './page';
 let browser: Browser;
 beforeAll(async () => {
   browser = await launch();
+  await keepNothing(); // of what other tests kept
 });
 afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
-  for (const shelf of ['drivers', 'motions']) {
-    for (const { name } of await own(shelf)) await fetch(`${inject('address')}/v1/${shelf}/${name}`, { method: 'DELETE' });
-  }
+  await keepNothing();
   expect(complaints.splice(0)).toEqual([]);
 });
 
@@ -41,6 +40,12 @@ async function own(shelf: string): Promise<{ name: string }[]> {
   return items.filter(({ source }) => source === 'own');
 }
 const ownNames = async (shelf: string): Promise<string[]> => (await own(shelf)).map(({ name }) => name).sort();
+
+async function keepNothing(): Promise<void> {
+  for (const shelf of ['drivers', 'motions']) {
+    for (const { name } of await own(shelf)) await fetch(`${inject('address')}/v1/${shelf}/${name}`, { method: 'DELETE' });
+  }
+}
 
 async function keep(shelf: string, name: string, file: File): Promise<void> {
   const form = new FormData();
