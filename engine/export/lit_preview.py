@@ -86,7 +86,7 @@ class LitPreview:
         scene.add(gl.Mesh([primitive]))
         lens = gl.IntrinsicsCamera(
             camera.focal,
-            camera.focal,
+            camera.focal * camera.aspect,
             camera.centre[0] + 0.5,  # OpenGL's pixels have their centres at halves
             camera.centre[1] + 0.5,
             znear=NEAR,

@@ -1,1 +1,2 @@
-"""3D algorithms: meshes that bones move, warps in mean value coordinates, depth from normals, labels by graph cuts."""
+"""3D algorithms: cameras, surfaces and meshes that bones move, rigid fits, warps in mean value coordinates, depth from normals,
+labels by graph cuts."""

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.camera import Camera
+from engine.geometry.camera import TO_VISION, Camera
 
 
 @dataclass(frozen=True)
@@ -88,5 +88,4 @@ def _homography(
 ) -> NDArray[np.float64]:
     """(3, 3): from coordinates on a plane to homogeneous pixels."""
     seen = np.array(camera.axes) @ np.stack([along, across, origin - camera.eye], 1)
-    lens = np.array([[camera.focal, 0, -camera.centre[0]], [0, -camera.focal, -camera.centre[1]], [0, 0, -1.0]])
-    return lens @ seen
+    return np.asarray(camera.intrinsics @ TO_VISION @ seen)
