@@ -108,6 +108,12 @@ def test_the_outline_goes_round_the_largest_piece() -> None:
     assert steps.max() == 1 and steps.min() == 1, "each pixel is beside the one before it"
 
 
+def test_the_largest_piece_is_that_of_the_largest_area_and_not_of_the_longest_outline() -> None:
+    mask = disk(120, 12, 40, 40)
+    mask[100, 5:115] = True
+    np.testing.assert_allclose(np.hypot(*(outline(mask) - 40).T), 12, atol=1.5)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_the_outline_of_one_piece_is_all_of_it_that_the_outside_touches(seed: int) -> None:
     """Held against a flood of the outside by sides: inner rims of holes are no outline."""
