@@ -4,8 +4,9 @@ from engine.portrait.moments import find_moments
 for moment in find_moments("me.mp4").moments:
     print(moment.name, moment.start, moment.end)
 
-Reading order: `watching` (a face measured frame by frame), `rest` (against itself at rest), `prototypes` and
-`gestures` (what shows), `portions` (from where to where), `pipeline` (names, pictures, the document).
+Reading order: `watching` (a face measured frame by frame), `rest` (against itself at rest),
+`perception.expression.prototypes` and `gestures` (what shows), `portions` (from where to where), `pipeline` (names,
+pictures, the document).
 """
 
 from __future__ import annotations
