@@ -39,6 +39,9 @@ ALIKE = 0.5
 """Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
 is the rest."""
 
+COMPARED_AT_ONCE = 128
+"""Frames whose distances from all others are in memory together."""
+
 MOST = 2000
 """Frames that are compared with one another: of longer videos as many, evenly spread."""
 
@@ -128,11 +131,22 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     the target, who is taken to be at rest. `moments.rest.own_rest` looks for a habit instead, which may be a smile.
     """
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MOST, len(values))).astype(int))].astype(float)
-    apart = cdist(seen / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES)
     blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
-    cost = unlike_rest(seen) - np.log(np.exp(-apart / 2).mean(axis=1)) + LOWERED * blinking
-    alike = apart[int(np.argmin(cost))] < ALIKE**2
+    cost = unlike_rest(seen) - np.log(_density(seen)) + LOWERED * blinking
+    alike = _mean_squares(seen[[int(np.argmin(cost))]], seen)[0] < ALIKE**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
+
+
+def _density(seen: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N,) how many of the measures (N, 12) are like each: of a Gaussian of `SPREAD` about it, in the mean. The distances of
+    all from all would take what a long clip's meshes do, several times."""
+    parts = np.array_split(seen, -(-len(seen) // COMPARED_AT_ONCE))
+    return np.concatenate([np.exp(-_mean_squares(some, seen) / 2).mean(axis=1) for some in parts])
+
+
+def _mean_squares(some: NDArray[np.float64], seen: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(M, N) mean square difference of measures (M, 12) from others (N, 12), in `SPREAD`."""
+    return np.asarray(cdist(some / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES), float)
 
 
 def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:

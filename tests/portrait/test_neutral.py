@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.performances import video
 from engine.portrait.driver import DriverTrack, track_driver
 from engine.portrait.expression import expression, lopsided
-from engine.portrait.measures import MEASURES, general_rest, measure
+from engine.portrait.measures import MEASURES, SPREAD, general_rest, measure
 from engine.portrait.moments.rest import own_rest
 from engine.portrait.neutral import choose_neutral_frame, probable_rest, unlike_rest, warn_of_unrest, worn_expression
 
@@ -225,6 +226,17 @@ def test_a_driver_that_is_never_at_rest_is_told_of(tmp_path: Path, rest: NDArray
 def test_rest_is_what_few_frames_show_if_the_others_are_unlike_any_rest(rest: NDArray) -> None:
     own = probable_rest(measure(np.stack(lively(rest))))
     np.testing.assert_allclose(own, measure(rest[None])[0], atol=0.02)
+
+
+def test_a_rest_of_thousands_of_frames_takes_little_memory() -> None:
+    """The distances of 2000 frames from one another are 32 MB, and the peak of a clip of three minutes was three such."""
+    values = general_rest() + np.random.default_rng(5).normal(size=(5400, len(MEASURES))) * SPREAD
+    tracemalloc.start()
+    try:
+        probable_rest(values)
+        assert tracemalloc.get_traced_memory()[1] < 10e6
+    finally:
+        tracemalloc.stop()
 
 
 def test_rest_is_calm_here_and_a_habit_where_moments_are_cut(rest: NDArray) -> None:
