@@ -26,7 +26,7 @@ from service.redis_server import socket_path
 from service.settings import MEGABYTE, Settings
 from shell.installation import data_files, install_anew, missing_files
 from shell.settings import read_settings
-from worker.interpreter import module_command, module_environment
+from worker.programs.interpreter import module_command, module_environment
 
 NODE = "Node 20.19 or later, or 22.12 or later"
 
@@ -240,7 +240,7 @@ WALLS = {
 
 def _confinement(settings: Settings) -> Iterator[Finding]:
     tried = subprocess.run(  # noqa: S603  (our own program)
-        module_command("worker.confinement", settings.job_user),
+        module_command("worker.sandbox.confinement", settings.job_user),
         capture_output=True,
         check=True,
         env=module_environment(),

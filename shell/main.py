@@ -12,7 +12,7 @@ from difflib import get_close_matches
 import click
 
 import engine
-from worker.interpreter import leave_out_current_folder
+from worker.programs.interpreter import leave_out_current_folder
 
 os.environ.setdefault("OPENBLAS_THREAD_TIMEOUT", "4")
 """Threads of linear algebra sleep between products. By default they spin for a tenth of a second, on a core that

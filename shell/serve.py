@@ -33,7 +33,7 @@ from service.settings import Settings
 from shell.cli_error import CliError
 from shell.opening import open_context
 from shell.supervisor import Supervisor
-from worker.interpreter import module_command
+from worker.programs.interpreter import module_command
 
 START_TIMEOUT_SECONDS = 10.0
 STOP_SECONDS = 3

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 
 import structlog
 
-from worker.interpreter import module_environment
-from worker.parent_death import tied_to_parent
+from worker.programs.interpreter import module_environment
+from worker.programs.parent_death import tied_to_parent
 
 LOOK_SECONDS = 0.2
 MAX_PAUSE_SECONDS = 30.0

@@ -26,16 +26,16 @@ from service.queue import TASK, queue_name
 from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job
 from service.traces.current import origin_logged
-from worker.announcement import announced
-from worker.attempt import Attempt
-from worker.children import Child, WarmChildren
-from worker.housekeeping import keep_house
-from worker.privileges import user_id
-from worker.rehearsal import rehearse, rehearsed
+from worker.attempts.attempt import Attempt
+from worker.attempts.spans import AttemptSpans
+from worker.compilation.announcement import announced
+from worker.compilation.rehearsal import rehearse, rehearsed
+from worker.job_process.children import Child, WarmChildren
+from worker.periodic.housekeeping import keep_house
+from worker.periodic.sweep import sweep
+from worker.periodic.webhook_sender import WebhookSender
+from worker.sandbox.privileges import user_id
 from worker.short_lane import ShortLane
-from worker.spans import AttemptSpans
-from worker.sweep import sweep
-from worker.webhooks import WebhookSender
 
 WEBHOOK_SECONDS = 0.5
 """How often is looked for webhooks that are due."""

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 
 from service.context import Context
 from service.job_records import jobs as repository
-from worker.children import ChildLost, WarmChildren
+from worker.job_process.children import ChildLost, WarmChildren
 
 LOOK_SECONDS = 0.5
 """How often is looked for a short job; a slot that is free has it at once."""

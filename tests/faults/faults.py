@@ -173,7 +173,7 @@ class Fault:
 
 
 FAULTS = (
-    Fault("a job's process is killed", lambda scene: kill(scene, "worker.child")),
+    Fault("a job's process is killed", lambda scene: kill(scene, "worker.job_process.child")),
     Fault("the worker is killed", lambda scene: kill(scene, "shell.main worker")),
     Fault("the API is killed, and all with it", kill_everything, restart),
     Fault("the worker is frozen", lambda scene: freeze(scene, "shell.main worker")),

@@ -27,7 +27,7 @@ from running import Running, eventually
 
 from service.context import Context
 from service.settings import Settings
-from worker.housekeeping import keep_house
+from worker.periodic.housekeeping import keep_house
 
 ROUNDS = int(os.environ.get("GALATEA_FAULT_ROUNDS", "17"))
 SEED = int(os.environ.get("GALATEA_FAULT_SEED", "1"))

@@ -79,8 +79,8 @@ def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_p
     specimens = corpus(SEED, tmp_path)
     assert len(specimens) >= 300
     lasting = [psutil.Process(service.process.pid), *service.processes("shell.main worker")]
-    eventually(lambda: len(service.processes("worker.child")) == 2, "the processes for jobs are ready")
-    children = {process.pid for process in service.processes("worker.child")}
+    eventually(lambda: len(service.processes("worker.job_process.child")) == 2, "the processes for jobs are ready")
+    children = {process.pid for process in service.processes("worker.job_process.child")}
     before, weight = outside(service), [memory_mb(process) for process in lasting]
 
     codes: Counter[str] = Counter()
@@ -110,7 +110,9 @@ def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_p
     assert codes["succeeded"] > 50, "the honest ones are among them"
 
     assert all(process.is_running() for process in lasting), "the API and the worker are the same as before"
-    assert {process.pid for process in service.processes("worker.child")} == children, "so are those that fork for jobs"
+    assert {process.pid for process in service.processes("worker.job_process.child")} == children, (
+        "so are those that fork for jobs"
+    )
     assert outside(service) == before
     for process, weighed in zip(lasting, weight, strict=True):
         assert memory_mb(process) < weighed + MOST_MB

@@ -16,7 +16,7 @@ def test_no_rooms_form_a_circle(package: str) -> None:
     assert circles(arrows(python_files(ROOT, package))) == []
 
 
-@pytest.mark.parametrize("package", ["engine", "service"])
+@pytest.mark.parametrize("package", ["engine", "service", "worker"])
 def test_no_arrow_points_up(package: str) -> None:
     files, order = python_files(ROOT, package), layers(ROOT, package)
     assert {file.room for file in files} <= {room for rooms, _ in order for room in rooms}

@@ -37,7 +37,7 @@ def test_a_frozen_process_of_a_job_is_replaced(start: Start, picture: bytes, par
     running = start(lease_seconds=60)
     job = running.submit(picture, seconds=20)
     running.until_at_rest(job["id"])
-    processes = sorted(running.processes("worker.child"), key=lambda process: process.create_time())
+    processes = sorted(running.processes("worker.job_process.child"), key=lambda process: process.create_time())
     assert len(processes) == 2, "the one that is ready, and the one that it forked"
     processes[1 if part.endswith("the job") else 0].suspend()
     eventually(lambda: "was stopped and did not go on" in running.output.read_text(), "it is missed")

@@ -25,7 +25,7 @@ def test_a_worker_killed_in_mid_job_finishes_it_later_once(start: Start, picture
     job = running.submit(picture, seconds=4)
     running.until_at_rest(job["id"])
     (worker,) = running.processes("shell.main worker")
-    children = running.processes("worker.child")
+    children = running.processes("worker.job_process.child")
     worker.kill()
     eventually(lambda: not any(child.is_running() for child in children), "its processes went with it", seconds=5)
     done = running.until(job["id"], "succeeded")
@@ -40,7 +40,7 @@ def test_a_jobs_process_killed_in_mid_job_is_replaced_at_once(start: Start, pict
     running = start(lease_seconds=60)
     job = running.submit(picture, seconds=3)
     running.until_at_rest(job["id"])
-    running.processes("worker.child")[0].kill()
+    running.processes("worker.job_process.child")[0].kill()
     running.until(job["id"], "succeeded", seconds=40)
     assert attempts(running, job["id"]) == 2
 

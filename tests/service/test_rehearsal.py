@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from running import Running, eventually
 
-from worker.announcement import MESSAGE, STAGE
+from worker.compilation.announcement import MESSAGE, STAGE
 
 Start = Callable[..., Running]
 TOLD = {"stage": STAGE, "fraction": 0.0, "message": MESSAGE, "eta_seconds": None}
@@ -46,7 +46,7 @@ def test_messages_wait_with_their_jobs(start: Start, picture: bytes, rehearsed_w
     running = start(kinds="rehearsing_kind:KIND")
     eventually(lambda: said(running, "rehearsal_began"), "it rehearses")
     job = running.submit(picture)
-    eventually(lambda: running.processes("worker.rehearsal") != [], "it is at it")
+    eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it is at it")
     figures = running.client.get("/metrics").text
     assert re.search(r'galatea_queue_messages\{kind="tiny"\} 1\.0', figures), "as many messages as jobs: none is lost"
     rehearsed_when.touch()
@@ -57,17 +57,17 @@ def test_messages_wait_with_their_jobs(start: Start, picture: bytes, rehearsed_w
 def test_it_is_not_done_again_for_another_data_folder(start: Start, tmp_path: Path, rehearsed_when: Path) -> None:
     rehearsed_when.touch()
     first = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: first.processes("worker.child") != [], "it is ready")
+    eventually(lambda: first.processes("worker.job_process.child") != [], "it is ready")
     second = start(data_dir=tmp_path / "another", kinds="rehearsing_kind:KIND")
-    eventually(lambda: second.processes("worker.child") != [], "it is ready")
+    eventually(lambda: second.processes("worker.job_process.child") != [], "it is ready")
     assert said(first, "rehearsal_ended") and not said(second, "rehearsal_began")
 
 
 def test_what_jobs_wait_for_does_not_give_way(start: Start, rehearsed_when: Path) -> None:
     """Not to what else the machine has to do, as jobs do."""
     running = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: running.processes("worker.rehearsal") != [], "it rehearses")
-    (rehearsal,) = running.processes("worker.rehearsal")
+    eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it rehearses")
+    (rehearsal,) = running.processes("worker.compilation.rehearsal")
     ranked = f"/proc/{rehearsal.pid}/autogroup"
     assert rehearsal.nice() == rehearsal.parent().nice()
     assert not Path(ranked).exists() or Path(ranked).read_text().endswith(" nice 0\n")
@@ -75,9 +75,9 @@ def test_what_jobs_wait_for_does_not_give_way(start: Start, rehearsed_when: Path
 
 def test_a_worker_that_rehearses_ends_when_it_is_told_to(start: Start, rehearsed_when: Path) -> None:
     running = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: running.processes("worker.rehearsal") != [], "it rehearses")
+    eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it rehearses")
     (worker,) = running.processes("shell.main worker")
-    (rehearsal,) = running.processes("worker.rehearsal")
+    (rehearsal,) = running.processes("worker.compilation.rehearsal")
     running.stop()
     assert not worker.is_running() and not rehearsal.is_running()
     assert not said(running, "program_killed")

@@ -77,4 +77,4 @@ def test_without_a_lane_it_waits_for_its_turn(start: Callable[..., Running], pic
         running.until(short, "succeeded")["started_at"],
     )
     assert began >= ended
-    assert len(running.processes("worker.child")) == 1
+    assert len(running.processes("worker.job_process.child")) == 1

@@ -126,9 +126,9 @@ def test_a_job_is_canceled_while_it_fetches(service: Running, host: Host) -> Non
     service.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
     folder = service.data_dir / "jobs" / job["id"]
     eventually(lambda: not list(folder.glob("attempt-*")), "what had come is erased", seconds=10)
-    children = service.processes("worker.child")
+    children = service.processes("worker.job_process.child")
     service.until(submit(service, host.url("/after.png"))["id"], "succeeded")
-    assert service.processes("worker.child") == children, "the process that was ready is still good"
+    assert service.processes("worker.job_process.child") == children, "the process that was ready is still good"
 
 
 def test_a_killed_worker_leaves_the_fetching_to_the_next_attempt(service: Running, host: Host) -> None:

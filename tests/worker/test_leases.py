@@ -17,7 +17,7 @@ from service.jobs.leases import Lease
 from service.tables.jobs import Job, Priority, Status
 from service.tables.keys import Key
 from service.vault import Secret
-from worker.sweep import take_back_expired
+from worker.periodic.sweep import take_back_expired
 
 
 @pytest.fixture

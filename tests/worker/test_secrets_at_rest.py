@@ -25,7 +25,7 @@ from service.tables.webhooks import Delivery, Webhook
 from service.vault import PREFIX, SecretUnreadable, new_key
 from service.webhooks import repository, service
 from service.webhooks.schemas import WebhookIn
-from worker.webhooks import WebhookSender
+from worker.periodic.webhook_sender import WebhookSender
 
 LOOPBACK = [ip_network("127.0.0.0/8")]
 COLUMNS = (("keys", "signing_secret"), ("keys", "link_secret"), ("webhooks", "secret"), ("webhooks", "previous_secret"))

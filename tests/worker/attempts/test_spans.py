@@ -11,7 +11,7 @@ from opentelemetry.sdk.trace.export.in_memory_span_exporter import InMemorySpanE
 
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
-from worker.spans import MAX_STAGES, AttemptSpans
+from worker.attempts.spans import MAX_STAGES, AttemptSpans
 
 
 @pytest.fixture

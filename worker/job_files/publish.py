@@ -20,8 +20,8 @@ from service.job_records.schemas import ArtifactOut
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.artifacts import Artifact
-from worker.content_types import content_type
-from worker.plain_files import Refused, opened
+from worker.job_files.content_types import content_type
+from worker.job_files.plain_files import Refused, opened
 from worker.retry_db import retry_db
 
 REPORT_BYTES, MAX_STAGES = 1_000_000, 40

@@ -14,7 +14,7 @@ from service.ids import new_id
 from service.job_records import jobs as repository
 from service.jobs import leases
 from service.tables.jobs import Job
-from worker.announcement import MESSAGE, STAGE, announce, take_back
+from worker.compilation.announcement import MESSAGE, STAGE, announce, take_back
 
 
 @pytest.fixture

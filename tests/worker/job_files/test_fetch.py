@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from service.settings import Settings
-from worker.fetch import FetchFailed, FetchStopped, fetch
+from worker.job_files.fetch import FetchFailed, FetchStopped, fetch
 
 MP4 = b"\x00\x00\x00\x18ftypisom\x00\x00\x02\x00isomiso2" + bytes(range(256)) * 400
 Answer = Callable[[BaseHTTPRequestHandler], None]

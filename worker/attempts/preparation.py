@@ -17,7 +17,7 @@ from service.files import repository as files
 from service.jobs.leases import Lease
 from service.settings import MEGABYTE
 from service.tables.jobs import Job
-from worker.mirror import Mirror
+from worker.job_files.mirror import Mirror
 
 
 @dataclass(frozen=True)

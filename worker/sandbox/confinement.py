@@ -19,8 +19,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from worker import landlock, privileges, seccomp
-from worker.parent_death import die_with_parent
+from worker.programs.parent_death import die_with_parent
+from worker.sandbox import landlock, privileges, seccomp
 
 MAX_OPEN_FILES = 1024
 CPU_GRACE_SECONDS = 5

@@ -2,7 +2,8 @@
 
 It reads commands from its standard input and writes what happens to the file descriptor named in its arguments, both
 as JSON, one object a line. The process that it forks confines itself to its one job before it opens a stranger's file
-(`worker.confinement`), and ends with it. A hostile input that takes it over or brings it down costs that job alone. It knows no database, no queue and no storage; it gets paths and limits.
+(`worker.sandbox.confinement`), and ends with it. A hostile input that takes it over or brings it down costs that job
+alone. It knows no database, no queue and no storage; it gets paths and limits.
 """
 
 from __future__ import annotations
@@ -21,11 +22,11 @@ from typing import Any, NoReturn
 from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
 from service.catalogue.registry import load_kinds
-from worker import death
-from worker.confinement import Limits, confine, keep_to_cores, limit, of_the_program
-from worker.parent_death import die_with_parent
-from worker.rehearsal import kept_in, load_compiled
-from worker.work import Wire, failed, files_of, local, perform
+from worker.compilation.rehearsal import kept_in, load_compiled
+from worker.job_process import exit_reason
+from worker.job_process.work import Wire, failed, files_of, local, perform
+from worker.programs.parent_death import die_with_parent
+from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, of_the_program
 
 MAX_LINE_BYTES = 1_000_000
 READ_BYTES = 1 << 16
@@ -96,14 +97,14 @@ class JobProcess:
 
     def end(self, cpu_seconds: int) -> str | None:
         """Make sure that it has ended. Returns why it did where that was not in order: `time_limit`, or how it
-        died (`worker.death`)."""
+        died (`worker.job_process.exit_reason`)."""
         _, status, usage = os.wait4(self.pid, 0)
         os.close(self.events)
         os.close(self._orders)
         computed_too_long = usage.ru_utime + usage.ru_stime > cpu_seconds
         if os.WIFSIGNALED(status) and (os.WTERMSIG(status) == signal.SIGXCPU or computed_too_long):
             return TIME_LIMIT
-        return death.name(status)
+        return exit_reason.name(status)
 
 
 def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: int) -> NoReturn:
@@ -155,7 +156,7 @@ def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int
         most = f"more than {cpu_seconds} seconds, all cores together, the most that a job may (GALATEA_JOB_CPU_SECONDS)"
         return failed("time_limit", f"The job computed for {most}: send a shorter input.")
     if verdict is None or "outcome" not in verdict:
-        return {"outcome": "crashed", "reason": death.in_words(why), "death": death.of_its_own(why)}
+        return {"outcome": "crashed", "reason": exit_reason.in_words(why), "death": exit_reason.of_its_own(why)}
     return verdict
 
 
@@ -169,7 +170,7 @@ def _await_end(process: JobProcess) -> None:
 
 
 def main() -> None:
-    """`python -m worker.child PARENT_PID WIRE_FD LIMITS SERVED PLACE...`: LIMITS is JSON, SERVED lists kinds by name, or is
+    """`python -m worker.job_process.child PARENT_PID WIRE_FD LIMITS SERVED PLACE...`: LIMITS is JSON, SERVED lists kinds by name, or is
     empty for all of those in the places."""
     parent, wire_fd = map(int, sys.argv[1:3])
     limits = Limits(**json.loads(sys.argv[3]))
@@ -200,7 +201,7 @@ def main() -> None:
 
 def _compile_without_keeping() -> None:
     """What a job compiles, it compiles for itself: compiled functions are kept as pickles, which a stranger's job must
-    not be able to leave for others. Those that are there already (`worker.rehearsal`) are used."""
+    not be able to leave for others. Those that are there already (`worker.compilation.rehearsal`) are used."""
     if "numba" in sys.modules:
         from numba.core.caching import CompileResultCacheImpl
 

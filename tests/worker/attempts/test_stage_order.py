@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from worker.stage_order import Stages
+from worker.attempts.stage_order import Stages
 
 
 def told(stages: Stages, *names: str) -> list[str]:

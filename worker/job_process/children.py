@@ -20,9 +20,9 @@ import structlog
 
 from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
-from worker.confinement import Limits
-from worker.interpreter import module_command, module_environment
-from worker.niceness import give_way
+from worker.programs.interpreter import module_command, module_environment
+from worker.programs.niceness import give_way
+from worker.sandbox.confinement import Limits
 
 MAX_LINE_BYTES = 1_000_000
 PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -33,7 +33,7 @@ class ChildLost(Exception):
 
 
 class Child:
-    """One process that forks another for each job, one after another (see `worker.child`)."""
+    """One process that forks another for each job, one after another (see `worker.job_process.child`)."""
 
     def __init__(self, settings: Settings, user: int | None = None, turn: int = 0, kinds: Sequence[str] = ()):
         """`user` is who its jobs work as; by its `turn` several processes share the cores evenly; `kinds` are those that
@@ -47,7 +47,7 @@ class Child:
         try:
             self._process = subprocess.Popen(  # noqa: S603  (our own program)
                 module_command(
-                    "worker.child",
+                    "worker.job_process.child",
                     str(os.getpid()),
                     str(write_end),
                     json.dumps(asdict(_limits(settings, user))),

@@ -13,8 +13,8 @@ import psutil
 import pytest
 
 from service.settings import Settings
-from worker.children import Child, ChildLost, WarmChildren
-from worker.parent_death import tied_to_parent
+from worker.job_process.children import Child, ChildLost, WarmChildren
+from worker.programs.parent_death import tied_to_parent
 
 ROOT = Path(__file__).parent.parent.parent
 

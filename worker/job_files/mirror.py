@@ -20,7 +20,7 @@ import structlog
 
 from service.jobs.stages import stages_prefix
 from service.storage.files import Storage
-from worker.plain_files import NAME, Refused, opened
+from worker.job_files.plain_files import NAME, Refused, opened
 
 KEY = re.compile(r"[0-9a-f]{40}")
 MAX_BYTES = 1_000_000_000

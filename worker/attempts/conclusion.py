@@ -26,10 +26,10 @@ from service.jobs.leases import Lease
 from service.jobs.stages import erase
 from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job, Status
-from worker.heartbeat import beating
-from worker.plain_files import Refused
-from worker.preparation import Folders
-from worker.publish import publish_all
+from worker.attempts.heartbeat import beating
+from worker.attempts.preparation import Folders
+from worker.job_files.plain_files import Refused
+from worker.job_files.publish import publish_all
 from worker.retry_db import retry_db
 
 MAX_FOUND_CHARACTERS = 20_000

@@ -1,12 +1,13 @@
 """Compiling before the first job: each kind does its work once on media of the project's own.
 
-Compiled functions are kept beside the modules that they are of. Jobs may use them but not leave any (`worker.child`),
-so somebody who is trusted must have been there before. Once for each state of the engine and each machine.
+Compiled functions are kept beside the modules that they are of. Jobs may use them but not leave any
+(`worker.job_process.child`), so somebody who is trusted must have been there before. Once for each state of the engine
+and each machine.
 
-Unlike jobs it does not give way to all others (`worker.niceness`): jobs wait for it, and on a machine that has other work
-to do it would take as long as that lasts. It is one process; the API stays quick beside it.
+Unlike jobs it does not give way to all others (`worker.programs.niceness`): jobs wait for it, and on a machine that has
+other work to do it would take as long as that lasts. It is one process; the API stays quick beside it.
 
-`python -m worker.rehearsal KIND...`
+`python -m worker.compilation.rehearsal KIND...`
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ import structlog
 import engine
 from service.catalogue.registry import load_kinds
 from service.settings import Settings
-from worker.interpreter import module_command, module_environment
-from worker.parent_death import tied_to_parent
+from worker.programs.interpreter import module_command, module_environment
+from worker.programs.parent_death import tied_to_parent
 
 NAME = "rehearsed"
 FORGOTTEN_SECONDS = 90 * 24 * 3600.0
@@ -46,7 +47,7 @@ def rehearse(settings: Settings) -> None:
     """Have it done. Where it fails, jobs compile for themselves, each anew."""
     log = structlog.get_logger()
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
-    command = module_command("worker.rehearsal", *settings.kinds)
+    command = module_command("worker.compilation.rehearsal", *settings.kinds)
     done = subprocess.run(  # noqa: S603  (our own program)
         tied_to_parent(command),
         stdout=subprocess.DEVNULL,

@@ -19,8 +19,8 @@ def heap():
 
 CONFINED = """
 import os
-from worker.confinement import Limits, confine, limit, of_the_program
-from worker.rehearsal import kept_in
+from worker.sandbox.confinement import Limits, confine, limit, of_the_program
+from worker.compilation.rehearsal import kept_in
 
 limits = Limits(memory_bytes=4 << 30, file_bytes=1 << 30, cpu_seconds=60, user=None)
 limit(limits)

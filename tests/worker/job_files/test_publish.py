@@ -15,8 +15,8 @@ from service.job_records import artifacts
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
-from worker.plain_files import Refused
-from worker.publish import publish, publish_all
+from worker.job_files.plain_files import Refused
+from worker.job_files.publish import publish, publish_all
 
 
 @pytest.fixture

@@ -38,8 +38,8 @@ from service.webhooks import outbox, service
 from service.webhooks import repository as webhooks
 from service.webhooks.schedule import RETRIES, pause
 from service.webhooks.schemas import WebhookIn
-from worker.housekeeping import forget_old_deliveries
-from worker.webhooks import WebhookSender
+from worker.periodic.housekeeping import forget_old_deliveries
+from worker.periodic.webhook_sender import WebhookSender
 
 Receive = Callable[..., Receiver]
 LOOPBACK = [ip_network("127.0.0.0/8")]

@@ -1,7 +1,7 @@
 """Processes that do not outlive the one that started them, however that one ends (Linux).
 
 Run as a script, it ties itself to its parent and becomes another program:
-`python tether.py PARENT_PID SIGNAL PROGRAM ARGUMENT...`. It imports nothing of ours, so that it starts at once.
+`python parent_death.py PARENT_PID SIGNAL PROGRAM ARGUMENT...`. It imports nothing of ours, so that it starts at once.
 """
 
 from __future__ import annotations

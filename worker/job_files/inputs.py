@@ -20,7 +20,7 @@ from service.problems import Problem
 from service.settings import MEGABYTE
 from service.tables.files import File
 from service.tables.jobs import Job, JobFile
-from worker.fetch import Fetched, FetchFailed, FetchStopped, fetch
+from worker.job_files.fetch import Fetched, FetchFailed, FetchStopped, fetch
 
 
 def addresses(sources: dict[str, Any]) -> list[str]:

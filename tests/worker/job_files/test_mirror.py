@@ -14,7 +14,7 @@ from servers import S3Server
 from engine.store import StageStore
 from service.settings import Settings
 from service.storage.bucket import Bucket
-from worker.mirror import Mirror
+from worker.job_files.mirror import Mirror
 
 KEY, OTHER = "a" * 40, "b" * 40
 

@@ -19,7 +19,7 @@ from service.tables.kept import Driver
 from service.tables.uploads import Upload
 from service.uploads import spool
 from service.uploads.service import create
-from worker.housekeeping import keep_house
+from worker.periodic.housekeeping import keep_house
 
 
 def stored(context: Context, age: timedelta = timedelta(0), recorded: bool = True) -> File:

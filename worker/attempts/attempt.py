@@ -26,18 +26,18 @@ from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
 from service.traces.tracer import fail
-from worker import inputs
-from worker.children import Child, ChildLost
-from worker.conclusion import DISK_FULL, conclude, erase_unneeded, unwritten
-from worker.eta import Eta
-from worker.fetch import FetchFailed
-from worker.heartbeat import beating
-from worker.mirror import Mirror
-from worker.plain_files import Refused
-from worker.preparation import Folders, prepare
-from worker.publish import publish
-from worker.spans import AttemptSpans
-from worker.stage_order import Stages
+from worker.attempts.conclusion import DISK_FULL, conclude, erase_unneeded, unwritten
+from worker.attempts.eta import Eta
+from worker.attempts.heartbeat import beating
+from worker.attempts.preparation import Folders, prepare
+from worker.attempts.spans import AttemptSpans
+from worker.attempts.stage_order import Stages
+from worker.job_files import inputs
+from worker.job_files.fetch import FetchFailed
+from worker.job_files.mirror import Mirror
+from worker.job_files.plain_files import Refused
+from worker.job_files.publish import publish
+from worker.job_process.children import Child, ChildLost
 
 TICK_SECONDS = 0.1
 LOOK_SECONDS = 0.4
@@ -59,7 +59,7 @@ FAULTS = ("internal_error", "not_permitted")
 
 
 class Stop(Exception):
-    """The attempt ends from outside: `verdict` says how (see `worker.conclusion`)."""
+    """The attempt ends from outside: `verdict` says how (see `worker.attempts.conclusion`)."""
 
     def __init__(self, verdict: dict[str, Any]):
         super().__init__(verdict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from worker.eta import Eta
+from worker.attempts.eta import Eta
 
 
 class Clock:

@@ -1,0 +1,1 @@
+"""What a job takes in and leaves behind: fetched, copied, judged, published."""

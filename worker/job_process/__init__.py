@@ -1,0 +1,1 @@
+"""The processes that do the work: kept warm, told what to do, heard, ended."""
