@@ -6,6 +6,7 @@ No Docker engine runs here: that the containers work together is not tested.
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 import yaml
 
 from service.settings import Settings
+from worker.programs.interpreter import module_command
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "docker-compose.yml").read_text()
@@ -44,6 +46,14 @@ def test_it_waits_for_what_it_needs(name: str) -> None:
     for other, how in SERVICES[name].get("depends_on", {}).items():
         assert how["condition"] == ("service_completed_successfully" if other in ENDING else "service_healthy")
         assert other in SERVICES
+
+
+def test_the_health_of_a_worker_is_not_that_of_its_check() -> None:
+    """The check finds the process that does the work, and would not find itself."""
+    _, script = SERVICES["worker"]["healthcheck"]["test"]
+    pattern = shlex.split(script)[2]
+    assert re.search(pattern, " ".join(module_command("worker.job_process.child")))
+    assert not re.search(pattern, script)
 
 
 def test_its_settings_are_there_and_make_sense() -> None:
