@@ -1,13 +1,16 @@
 /** A file that is dropped beside its place, or pasted, still finds it. */
 
-import { useEffect } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 
 /** `onFile` says whether it took the file; `onNone` is called where none of them was taken. */
 export function useDropsAnywhere(onFile: (file: File) => Promise<boolean>, onNone: () => void): void {
-  useEffect(() => {
+  const latest = useRef({ onFile, onNone });
+  latest.current = { onFile, onNone };
+  // Before the page is painted: whoever sees where files go may drop one, and the browser would leave the page to show it.
+  useLayoutEffect(() => {
     const take = async (files: Iterable<File>): Promise<void> => {
-      const taken = await Promise.all([...files].map(onFile));
-      if (taken.length > 0 && !taken.includes(true)) onNone();
+      const taken = await Promise.all([...files].map((file) => latest.current.onFile(file)));
+      if (taken.length > 0 && !taken.includes(true)) latest.current.onNone();
     };
     const allow = (event: DragEvent): void => event.preventDefault();
     const drop = (event: DragEvent): void => {
