@@ -102,6 +102,7 @@ describe('choosing', () => {
 
   it('finds the place of a file that is dropped anywhere', async () => {
     const page = await open(browser);
+    await portraitInput(page).waitFor({ state: 'attached' }); // a studio is loaded after its page
     await page.evaluate(() => {
       const data = new DataTransfer();
       // they begin as a picture and a video do, and hold nothing
