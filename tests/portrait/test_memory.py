@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from made_clip import write_frames
 
-FPS, SIDE = 30, 224
+FPS, SIDE, SECONDS = 30, 224, 70
 ANIMATE = """
 import re, sys
 from pathlib import Path
@@ -25,20 +25,22 @@ print(sum(1 for _ in read_video(made)), re.search(r"VmHWM:\\s+(\\d+)", Path("/pr
 
 
 @pytest.mark.timeout(1200)
-def test_three_minutes_peak_within_100_mb_of_five_seconds(clip, small, tmp_path: Path) -> None:
-    """At 30 frames a second: the frames of three minutes alone would take seven times that.
+def test_seventy_seconds_peak_within_75_mb_of_five(clip, small, tmp_path: Path) -> None:
+    """At 30 frames a second: one colour of the frames alone would take more than that, the whole of them four times as much.
 
-    A first run compiles what the others load: it takes more memory than they do, and is not measured. Which stages meet
-    on two cores is chance, and tens of megabytes: of the short clip the highest of four runs counts.
+    2100 frames do for the 5400 of the longest driver: they are more than the 2000 that are compared with one another
+    (`engine.portrait.neutral.MOST`), which once made the peak, and what else grows does so as frames do. A first run
+    compiles what the others load: it takes more memory than they do, and is not measured. Which stages meet on two cores is
+    chance, and tens of megabytes: of the short clip the higher of two runs counts.
     """
-    assert 175 * FPS * SIDE * SIDE * 3 > 700e6
+    assert (SECONDS - 5) * FPS > 1900 and (SECONDS - 5) * FPS * SIDE * SIDE > 90e6
     part = [
         np.asarray(cv2.resize(frame, (SIDE, SIDE), interpolation=cv2.INTER_AREA))
         for frame in clip("man_mouth_open_d18.mp4", 0.0, 4.0)
     ]
     there_and_back = [*part, *part[-2:0:-1]]
     picture, peaks = small("photo_woman_white.png", 240), defaultdict(list)
-    for seconds in (1, 5, 5, 5, 5, 180):
+    for seconds in (1, 5, 5, SECONDS):
         frames = [there_and_back[k % len(there_and_back)] for k in range(seconds * FPS)]
         driver = write_frames(tmp_path / f"{seconds}.mp4", frames, FPS)
         arguments = map(str, (picture, driver, tmp_path / f"out{seconds}"))
@@ -48,4 +50,4 @@ def test_three_minutes_peak_within_100_mb_of_five_seconds(clip, small, tmp_path:
         assert count == seconds * FPS
         peaks[seconds].append(peak * 1024 / 1e6)
     print(dict(peaks))
-    assert peaks[180][0] - max(peaks[5]) < 100, peaks
+    assert peaks[SECONDS][0] - max(peaks[5]) < 75, peaks
