@@ -118,6 +118,27 @@ describe('a file that cannot be taken', () => {
     await page.locator('form').getByText('Walk', { exact: true }).click();
     await page.getByText('Grace hopper · Walk').waitFor();
   });
+
+  it('stays refused where another is refused as well, and after a look at another page', async () => {
+    const page = await open(browser);
+    const wrongVideo = page.getByRole('alert').filter({ hasText: 'This is not a video.' });
+    const happy = page.getByRole('radio', { name: 'Happy', exact: true });
+    await expect.poll(() => happy.isChecked()).toBe(true);
+    await page.getByLabel(/Drop a video/).setInputFiles(notes);
+    await wrongVideo.waitFor();
+    await page.getByLabel(/Drop a picture/).setInputFiles(notes);
+    await page.getByRole('alert').filter({ hasText: 'This is not a picture.' }).waitFor();
+    await wrongVideo.waitFor();
+    await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
+    await wrongVideo.waitFor();
+    expect([await happy.isChecked(), await start(page).isDisabled()]).toEqual([false, true]);
+
+    await page.getByRole('link', { name: 'Character', exact: true }).click();
+    await page.getByRole('heading', { name: 'Portrait' }).waitFor({ state: 'detached' });
+    await page.getByRole('link', { name: 'Portrait', exact: true }).click();
+    await wrongVideo.waitFor();
+    expect(await happy.isChecked()).toBe(false);
+  });
 });
 
 describe('what was chosen', () => {

@@ -1,6 +1,6 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import type { CharacterOptions, MotionJoints } from '../../api';
 import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from './choices';
 import { Motions } from './motions';
@@ -13,6 +13,7 @@ import { KindLinks } from '../../studio/kind_links';
 import { Recent } from '../../works/recent';
 import { Samples } from '../../studio/samples';
 import { useDraft } from '../../studio/draft';
+import { useRefusals } from '../../studio/refusals';
 import { isMotion, isPicture, pictureTypes } from '../../media';
 import type { StudioProps } from '../kind';
 import { DEFAULT_MOTION } from './motion_names';
@@ -45,23 +46,23 @@ const NOTHING: Draft = {
 
 export default function CharacterStudio({ kind }: StudioProps) {
   const [{ photo, motion, joints, clip, choices }, alter] = useDraft(kind.name, NOTHING);
-  const [refused, setRefused] = useState<'photo' | 'motion' | null>(null);
+  const { refused, refuse, accept } = useRefusals<'photo' | 'motion'>(kind.name);
   const setPhoto = (photo: File): void => {
-    setRefused((part) => (part === 'photo' ? null : part));
+    accept('photo');
     alter({ photo });
   };
   const refusePhoto = (): void => {
-    setRefused('photo');
+    refuse('photo');
     alter({ photo: null });
   };
   const sending = useSending();
   // another motion has other joints, and other animations
   const move = (motion: Motion): void => {
-    setRefused((part) => (part === 'motion' ? null : part));
+    accept('motion');
     alter({ motion, joints: {}, clip: null });
   };
   const refuseMotion = (): void => {
-    setRefused('motion');
+    refuse('motion');
     alter({ motion: NOTHING.motion, joints: {}, clip: null });
   };
   useDropsAnywhere(async (file) => {
@@ -74,7 +75,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
     document.title = `${kind.label} · ${strings.name}`;
   }, []);
 
-  const wrong = refused && (refused === 'motion' ? words.wrongMotion : strings.studio.wrongPicture);
+  const wrong = refused.photo ? strings.studio.wrongPicture : refused.motion ? words.wrongMotion : null;
   const missing = wrong ?? (photo ? '' : words.needPhoto);
   const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
   const start = (event: Event): void => {
@@ -116,7 +117,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
                 wrong: strings.studio.wrongPicture,
               }}
               onFile={setPhoto}
-              refused={refused === 'photo'}
+              refused={refused.photo === true}
               onRefused={refusePhoto}
             />
             <Capture media="image" of="body" onFile={setPhoto} />
@@ -128,7 +129,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
           <Motions
             chosen={motion}
             onChoose={move}
-            refused={refused === 'motion'}
+            refused={refused.motion === true}
             onRefused={refuseMotion}
             joints={joints}
             onJoints={(joints) => alter({ joints })}

@@ -1,6 +1,5 @@
 /** An input of a job: a file, several, or the name of something that the service keeps. */
 
-import { useState } from 'preact/hooks';
 import { type InputDescription, listDrivers, listMotions } from '../../api';
 import { useLoaded } from '../../loading';
 import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../media';
@@ -22,18 +21,12 @@ interface Props {
   input: InputDescription;
   value: Given | undefined;
   onChange: (value: Given | undefined) => void;
+  /** The file that was given last cannot be taken. */
+  refused: boolean;
+  onRefused: () => void;
 }
 
-export function InputField({ input, value, onChange: onGiven }: Props) {
-  const [refused, setRefused] = useState(false);
-  const onChange = (value: Given | undefined): void => {
-    setRefused(false);
-    onGiven(value);
-  };
-  const refuse = (): void => {
-    if (!input.many) onGiven(undefined); // nothing of before is made in its stead
-    setRefused(true);
-  };
+export function InputField({ input, value, onChange, refused, onRefused }: Props) {
   const label = plain(input.name);
   const files = typeof value === 'object' ? value : [];
   const last = input.many ? undefined : files[0];
@@ -73,7 +66,7 @@ export function InputField({ input, value, onChange: onGiven }: Props) {
         }}
         onFile={(file) => onChange(input.many ? [...files, file] : [file])}
         refused={refused}
-        onRefused={refuse}
+        onRefused={onRefused}
       />
     </section>
   );

@@ -8,6 +8,7 @@ import { useDraft } from '../../studio/draft';
 import { KindLinks } from '../../studio/kind_links';
 import { Launch } from '../../studio/launch';
 import { useDescriptions } from '../../studio/offered';
+import { useRefusals } from '../../studio/refusals';
 import { Recent } from '../../works/recent';
 import type { Kind, StudioProps } from '../kind';
 import { OptionFields, type Options } from './fields';
@@ -44,7 +45,9 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
   const sending = useSending();
   const required = (description.inputs_schema.required ?? []) as string[];
   const absent = required.find((name) => inputs[name] === undefined);
+  const { refused, refuse, accept } = useRefusals(kind.name);
   const give = (name: string, value: Given | undefined): void => {
+    accept(name);
     const { [name]: _before, ...others } = inputs;
     change({ inputs: value === undefined ? others : { ...others, [name]: value } });
   };
@@ -65,7 +68,17 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
         </div>
       </header>
       {description.inputs.map((input) => (
-        <InputField key={input.name} input={input} value={inputs[input.name]} onChange={(value) => give(input.name, value)} />
+        <InputField
+          key={input.name}
+          input={input}
+          value={inputs[input.name]}
+          onChange={(value) => give(input.name, value)}
+          refused={refused[input.name] === true}
+          onRefused={() => {
+            if (!input.many) give(input.name, undefined); // nothing of before is made in its stead
+            refuse(input.name);
+          }}
+        />
       ))}
       {fields.length > 0 && (
         <section class="panel" aria-label={words.options}>

@@ -14,6 +14,7 @@ import { Recent } from '../../works/recent';
 import { Samples } from '../../studio/samples';
 import { Trouble } from '../../widgets/trouble';
 import { useDraft } from '../../studio/draft';
+import { useRefusals } from '../../studio/refusals';
 import { useLoaded } from '../../loading';
 import { isPicture, isVideo, pictureTypes } from '../../media';
 import type { StudioProps } from '../kind';
@@ -42,27 +43,27 @@ const NOTHING: Draft = { portrait: null, performance: null, choices: defaults };
 
 export default function PortraitStudio({ kind }: StudioProps) {
   const [{ portrait, performance: chosen, choices }, change] = useDraft(kind.name, NOTHING);
-  const [refused, setRefused] = useState<'portrait' | 'video' | null>(null);
+  const { refused, refuse, accept } = useRefusals<'portrait' | 'video'>(kind.name);
   const setPortrait = (portrait: File): void => {
-    setRefused((part) => (part === 'portrait' ? null : part));
+    accept('portrait');
     change({ portrait });
   };
   const setPerformance = (performance: Performance): void => {
-    setRefused((part) => (part === 'video' ? null : part));
+    accept('video');
     change({ performance });
   };
   const refusePortrait = (): void => {
-    setRefused('portrait');
+    refuse('portrait');
     change({ portrait: null });
   };
   const refuseVideo = (): void => {
-    setRefused('video');
+    refuse('video');
     change({ performance: null });
   };
   const [keeping, setKeeping] = useState(false);
   const drivers = useLoaded(listDrivers, 'drivers');
   const usual = drivers.value?.find(({ name }) => name === DEFAULT_PERFORMANCE);
-  const performance: Performance | null = refused === 'video' ? null : chosen ?? (usual ? { by: 'name', name: usual.name } : null);
+  const performance: Performance | null = refused.video ? null : chosen ?? (usual ? { by: 'name', name: usual.name } : null);
   const searching = drivers.value?.some((driver) => driver.moments_status === 'pending') ?? false;
   useEffect(() => {
     if (!searching) return;
@@ -81,7 +82,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
   }, []);
 
   const hasSound = performance?.by === 'file';
-  const wrong = refused && (refused === 'video' ? words.wrongVideo : words.wrongPicture);
+  const wrong = refused.portrait ? words.wrongPicture : refused.video ? words.wrongVideo : null;
   const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
   const missing = keeping ? words.keepingFirst : needed;
   const order =
@@ -125,7 +126,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
                 wrong: words.wrongPicture,
               }}
               onFile={setPortrait}
-              refused={refused === 'portrait'}
+              refused={refused.portrait === true}
               onRefused={refusePortrait}
             />
             <Capture media="image" onFile={setPortrait} />
@@ -145,7 +146,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
             drivers={drivers.value ?? []}
             chosen={performance}
             onChoose={setPerformance}
-            refused={refused === 'video'}
+            refused={refused.video === true}
             onRefused={refuseVideo}
             sending={sending.step !== null}
             onKeeping={setKeeping}
