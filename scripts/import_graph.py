@@ -23,7 +23,7 @@ PAGE = Path("web", "src")
 GENERATED = re.compile("not to be edited")
 """How a file begins that nobody has written."""
 
-PAGE_IMPORT = re.compile(r"""(?:\bfrom\s+|\bimport\s*\(?\s*)["'](\.[^"']*)["']""")
+PAGE_IMPORT = re.compile(r"""(\bfrom\s+|\bimport\s*\(?)\s*["'](\.[^"']*)["']""")
 PAGE_FUNCTION = re.compile(r"(?:export )?(?:default )?(?:async )?(?:function\b|const \w+ = .*(?:=>|\() ?\{?$)")
 
 Arrows = Mapping[tuple[str, str], int]
@@ -38,6 +38,8 @@ class File:
     """Below its package, without ending: `jobs/service`."""
     imports: frozenset[str]
     """The files of the same package that it imports, by their names."""
+    fetched: frozenset[str]
+    """Those of them that are fetched only when they are needed: `import(...)` in the page."""
     lines: int
     functions: tuple[int, ...]
     """The lines of each function and method."""
@@ -57,7 +59,8 @@ def python_files(root: Path, package: str) -> list[File]:
         aims = {aim for target in _imported(tree, package) if (aim := _known(target, paths)) not in (None, name)}
         functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
         lengths = tuple((node.end_lineno or node.lineno) - node.lineno + 1 for node in functions)
-        files.append(File(name, frozenset(filter(None, aims)), len(path.read_text().splitlines()), lengths))
+        lines = len(path.read_text().splitlines())
+        files.append(File(name, frozenset(filter(None, aims)), frozenset(), lines, lengths))
     return files
 
 
@@ -69,14 +72,16 @@ def page_files(folder: Path) -> list[File]:
         text = path.read_text()
         if GENERATED.search(text[:200]):
             continue
-        aims = set()
-        for given in PAGE_IMPORT.findall(text):
+        loaded, fetched = set[str](), set[str]()
+        for how, given in PAGE_IMPORT.findall(text):
             aim = (path.parent / given).resolve()
             if aim.is_relative_to(folder.resolve()):
-                below = aim.relative_to(folder.resolve()).as_posix()
-                aims |= {one for one in (re.sub(r"\.(js|tsx?)$", "", below), f"{below}/index") if one in paths}
+                below = aim.relative_to(folder.resolve()).as_posix().removeprefix(".")
+                aims = {re.sub(r"\.(js|tsx?)$", "", below), f"{below}/index".lstrip("/")} & paths.keys() - {name}
+                (fetched if how.endswith("(") else loaded).update(aims)
         lines = text.splitlines()
-        files.append(File(name, frozenset(aims - {name}), len(lines), tuple(_page_functions(lines))))
+        imports, later = frozenset(loaded | fetched), frozenset(fetched - loaded)
+        files.append(File(name, imports, later, len(lines), tuple(_page_functions(lines))))
     return files
 
 
@@ -89,17 +94,23 @@ def arrows(files: Iterable[File]) -> dict[tuple[str, str], int]:
     return found
 
 
+def loads(files: Iterable[File]) -> dict[tuple[str, str], int]:
+    """From file to file: what comes with it, and whose types it takes; without what it fetches when that is needed."""
+    return {(file.name, other): 1 for file in files for other in file.imports - file.fetched}
+
+
 def circles(found: Arrows) -> list[list[str]]:
     """Groups of rooms of which each can be reached from every other."""
+    ends: dict[str, list[str]] = {}
+    for start, end in found:
+        ends.setdefault(start, []).append(end)
     reached: dict[str, set[str]] = {}
     for room in {room for arrow in found for room in arrow}:
         waiting, seen = [room], set[str]()
         while waiting:
-            here = waiting.pop()
-            for start, end in found:
-                if start == here and end not in seen:
-                    seen.add(end)
-                    waiting.append(end)
+            for end in set(ends.get(waiting.pop(), ())) - seen:
+                seen.add(end)
+                waiting.append(end)
         reached[room] = seen
     groups = {frozenset(other for other in seen if room in reached[other]) for room, seen in reached.items()}
     return sorted(sorted(group) for group in groups if group)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.import_graph import PACKAGES, arrows, circles, layers, page_files, python_files, upward
+from scripts.import_graph import PACKAGES, PAGE, arrows, circles, layers, loads, page_files, python_files, upward
 
 ROOT = Path(__file__).parents[2]
 
@@ -21,6 +21,11 @@ def test_no_arrow_points_up(package: str) -> None:
     files, order = python_files(ROOT, package), layers(ROOT, package)
     assert {file.room for file in files} <= {room for rooms, _ in order for room in rooms}
     assert upward(arrows(files), order) == []
+
+
+def test_no_files_of_the_page_form_a_circle_by_what_comes_with_them() -> None:
+    """What a kind fetches when it is needed may know the list of kinds: `kinds/` leads there by `import(...)` alone."""
+    assert circles(loads(page_files(ROOT / PAGE))) == []
 
 
 def test_imports_are_read_as_arrows(tmp_path: Path) -> None:
@@ -57,3 +62,4 @@ def test_import_lines_of_the_page_are_read_as_arrows(tmp_path: Path) -> None:
     files = page_files(tmp_path)
     assert arrows(files) == {("viewer", "route"): 1, ("route", "viewer"): 1}
     assert [file.functions for file in files] == [(2,), ()]
+    assert loads(files) == {("viewer/view", "route"): 1}

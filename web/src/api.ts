@@ -3,7 +3,6 @@
 import createClient from 'openapi-fetch';
 import { randomKey } from './key';
 import type { CharacterOptions, MotionDetails, Skeleton } from './kinds/character/types';
-import type { JobRequest } from './kinds/kind';
 import type { Landmarks, PortraitOptions } from './kinds/portrait/types';
 import type { components, paths } from './openapi';
 import type { Frame, Report } from './report';
@@ -152,6 +151,13 @@ export const getLandmarks = (of: Job, signal?: AbortSignal): Promise<Landmarks |
 /** The skeleton of a character; null where its job left none. */
 export const getSkeleton = (of: Pick<Job, 'artifacts'>, signal?: AbortSignal): Promise<Skeleton | null> =>
   artifact(of, 'skeleton.json', signal);
+
+/** What the service is asked for; `metadata` holds the names that this page gives it. */
+export interface JobRequest {
+  inputs: Record<string, string | string[]>;
+  options: object;
+  metadata: Record<string, string>;
+}
 
 /** Order something. A key makes the order safe to repeat: it is carried out once. */
 export const createJob = (body: { kind: string } & JobRequest, key: string): Promise<Job> =>

@@ -2,7 +2,7 @@
 
 import { createJob, type Job } from './api';
 import { kindOf } from './kinds';
-import type { Order, OrderNames } from './kinds/kind';
+import type { Order, OrderNames } from './kind';
 import { keepPending } from './pending';
 import { uploadFile, type Valve } from './upload';
 

@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Problem } from './api';
 import { asProblem } from './loading';
-import type { Order } from './kinds/kind';
+import type { Order } from './kind';
 import { send, type Sending } from './order';
 import { usePausing } from './pausing';
 import { forgetPending, keepPending, readPending } from './pending';

@@ -4,7 +4,7 @@ import { shownIn } from '@web/kinds/generic/artifacts';
 import { genericKind } from '@web/kinds/generic';
 import { genericOrder } from '@web/kinds/generic/order';
 import { fieldsOf } from '@web/kinds/generic/schema';
-import type { Kind } from '@web/kinds/kind';
+import type { Kind } from '@web/kind';
 import { stageName } from '@web/result/stage_names';
 import { parseRoute } from '@web/route';
 import { describe, expect, it } from 'vitest';

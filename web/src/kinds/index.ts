@@ -2,7 +2,7 @@
 
 import { character } from './character';
 import { genericKind } from './generic';
-import type { Kind } from './kind';
+import type { Kind } from '../kind';
 import { portrait } from './portrait';
 
 /** In the order in which they are offered; the first one's studio is the start page. */

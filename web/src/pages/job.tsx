@@ -6,7 +6,7 @@ import { Heading } from '../widgets/heading';
 import { part } from '../widgets/lazy';
 import { Picture } from '../widgets/picture';
 import { kindOf } from '../kinds';
-import type { Proposal } from '../kinds/kind';
+import type { Proposal } from '../kind';
 import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
 import { Stages } from '../result/stages';

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { type Job, listRevisions } from '../api';
-import type { CorrectionsProps, Load } from '../kinds/kind';
+import type { CorrectionsProps, Load } from '../kind';
 import { useLoaded } from '../loading';
 import { wantsPicture } from '../mending';
 import { jobLink } from '../route';

@@ -1,6 +1,6 @@
 /** The end of a form that orders something: what an earlier page left, what went wrong, how far it is, or the button. */
 
-import type { OrderNames } from '../kinds/kind';
+import type { OrderNames } from '../kind';
 import { namesOf } from '../order';
 import type { useSending } from '../sending';
 import { strings } from '../strings';

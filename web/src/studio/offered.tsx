@@ -4,7 +4,7 @@ import { type ComponentChildren, createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import { type KindDescription, listKinds } from '../api';
 import { kinds, offeredKinds } from '../kinds';
-import type { Kind } from '../kinds/kind';
+import type { Kind } from '../kind';
 import { useLoaded } from '../loading';
 
 const Described = createContext<readonly KindDescription[] | null>(null);

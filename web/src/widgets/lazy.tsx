@@ -2,7 +2,7 @@
 
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import type { Load } from '../kinds/kind';
+import type { Load } from '../kind';
 import { strings } from '../strings';
 import { Trouble } from './trouble';
 

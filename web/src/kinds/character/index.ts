@@ -3,7 +3,7 @@
 import { characterOptions } from '../../api';
 import { textOf } from '../../names';
 import { strings } from '../../strings';
-import type { Kind } from '../kind';
+import type { Kind } from '../../kind';
 import { DEFAULT_MOTION, motionName } from './motion_names';
 import { type CharacterOrder, namesOf, request } from './order';
 import { words } from './words';

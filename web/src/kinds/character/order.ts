@@ -1,10 +1,10 @@
 /** An order of a character: the picture, and how it is to move. */
 
-import { type CharacterOptions, type MotionName } from '../../api';
+import type { CharacterOptions, JobRequest, MotionName } from '../../api';
 import { randomKey } from '../../key';
 import { fileTitle } from '../../names';
 import { plain } from '../../strings';
-import type { JobRequest, Order, OrderNames, Upload } from '../kind';
+import type { Order, OrderNames, Upload } from '../../kind';
 import { motionName } from './motion_names';
 
 /** How a character moves: one of our clips, or a file. */

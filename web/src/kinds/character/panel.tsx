@@ -3,7 +3,7 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { foundPeople, getReport, getSkeleton, type Pose } from '../../api';
 import { later } from '../../widgets/lazy';
-import type { CorrectionsProps } from '../kind';
+import type { CorrectionsProps } from '../../kind';
 import { SendingBar } from '../../studio/sending_bar';
 import { usePicture } from '../../result/use_picture';
 import { randomKey } from '../../key';

@@ -7,7 +7,7 @@ import { peopleOf } from '../../viewer/people';
 import { later } from '../../widgets/lazy';
 import { Left, Took, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
-import type { ResultProps } from '../kind';
+import type { ResultProps } from '../../kind';
 import { words as characterWords } from './words';
 
 const Viewer = later(() => import('../../viewer/panel'));

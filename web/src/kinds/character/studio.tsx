@@ -15,7 +15,7 @@ import { Samples } from '../../studio/samples';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { isMotion, isPicture, pictureTypes } from '../../media';
-import type { StudioProps } from '../kind';
+import type { StudioProps } from '../../kind';
 import { DEFAULT_MOTION } from './motion_names';
 import { characterOrder, type Motion, namesOf } from './order';
 import { figureSamples } from '../../studio/sample_pictures';

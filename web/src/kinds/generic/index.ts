@@ -2,7 +2,7 @@
 
 import { isFileId, isUrl, textOf } from '../../names';
 import { plain, strings } from '../../strings';
-import type { Kind } from '../kind';
+import type { Kind } from '../../kind';
 import { type GenericOrder, namesOf, request } from './order';
 
 const loadStudio = () => import('./studio');

@@ -5,7 +5,7 @@ import { size } from '../../format';
 import { useLoaded } from '../../loading';
 import { Left, Took, Warnings } from '../../result/actions';
 import { kindOf } from '..';
-import type { ResultProps } from '../kind';
+import type { ResultProps } from '../../kind';
 import { ShownArtifacts, shownIn } from './artifacts';
 
 export default function GenericResult({ job }: ResultProps) {

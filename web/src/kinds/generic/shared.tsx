@@ -1,7 +1,7 @@
 /** What a public link to a job of any kind shows. */
 
 import { kindOf } from '..';
-import type { SharedProps } from '../kind';
+import type { SharedProps } from '../../kind';
 import { ShownArtifacts } from './artifacts';
 
 export default function SharedArtifacts({ shared }: SharedProps) {

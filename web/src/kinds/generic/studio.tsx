@@ -10,7 +10,7 @@ import { Launch } from '../../studio/launch';
 import { useDescriptions } from '../../studio/offered';
 import { useRefusals } from '../../studio/refusals';
 import { Recent } from '../../works/recent';
-import type { Kind, StudioProps } from '../kind';
+import type { Kind, StudioProps } from '../../kind';
 import { OptionFields, type Options } from './fields';
 import { InputField } from './input';
 import { genericOrder, type Given, namesOf } from './order';

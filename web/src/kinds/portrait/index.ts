@@ -3,7 +3,7 @@
 import { portraitOptions } from '../../api';
 import { isFileId, isUrl, textOf } from '../../names';
 import { plain, strings } from '../../strings';
-import type { Kind } from '../kind';
+import type { Kind } from '../../kind';
 import { namesOf, type PortraitOrder, request } from './order';
 import { words } from './words';
 

@@ -1,12 +1,14 @@
 /** An order of a portrait: the picture, and what it is to act out. */
 
-import { type PortraitOptions } from '../../api';
+import type { JobRequest, PortraitOptions } from '../../api';
 import { randomKey } from '../../key';
 import { fileTitle } from '../../names';
 import { plain, strings } from '../../strings';
-import type { JobRequest, Order, OrderNames, Upload } from '../kind';
+import type { Order, OrderNames, Upload } from '../../kind';
 import { AUTO } from './drivers';
-import type { Performance } from './performances';
+
+/** By `reactive` there is no one performance: the portrait is to show many, on demand. */
+export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
 
 export interface PortraitOrder extends Order {
   kind: 'portrait';

@@ -4,15 +4,13 @@ import { useState } from 'preact/hooks';
 import { deleteDriver, type Driver, renameDriver } from '../../api';
 import { isVideo, videoTypes } from '../../media';
 import { AUTO, ofDriver } from './drivers';
+import type { Performance } from './order';
 import { plain, strings } from '../../strings';
 import { Capture } from '../../studio/capture';
 import { Card, shownOf, SymbolCard, symbols } from './performance_card';
 import { Dropzone } from '../../widgets/dropzone';
 import { Keep } from './keep_driver';
 import { KeptList } from '../../studio/kept_list';
-
-/** By `reactive` there is no one performance: the portrait is to show many, on demand. */
-export type Performance = { by: 'name'; name: string } | { by: 'file'; file: File } | { by: 'reactive' };
 
 interface Props {
   drivers: Driver[];

@@ -3,7 +3,7 @@
 import { type Artifact, getReport, type Job, portraitOptions } from '../../api';
 import { size } from '../../format';
 import { useLoaded } from '../../loading';
-import type { ResultProps } from '../kind';
+import type { ResultProps } from '../../kind';
 import { performanceUrl } from './drivers';
 import { strings } from '../../strings';
 import { Left, Took, Warnings } from '../../result/actions';

@@ -3,7 +3,7 @@
 import { useMemo, useRef, useState } from 'preact/hooks';
 import { foundFaces, getLandmarks, getReport, portraitOptions, type PortraitChanges, reviseJob } from '../../../api';
 import { Checkbox } from '../../../widgets/checkbox';
-import type { CorrectionsProps } from '../../kind';
+import type { CorrectionsProps } from '../../../kind';
 import { ChoiceFields } from '../choices';
 import { later } from '../../../widgets/lazy';
 import { SelectField } from '../../../widgets/select';
