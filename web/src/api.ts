@@ -26,7 +26,7 @@ export type JobPage = Schemas['JobPage'];
 export type Driver = Schemas['DriverOut'];
 /** A motion that a character can do by name. */
 export type KeptMotion = Schemas['MotionOut'];
-/** A portion of one's own driver that holds an emotion or a gesture. */
+/** A segment of one's own driver that holds an emotion or a gesture. */
 export type Moment = Schemas['MomentOut'];
 export type PublicLink = Schemas['LinkOut'];
 export type Shared = Schemas['SharedOut'];
@@ -75,15 +75,15 @@ interface Answer<T> {
 }
 
 /** What the service answered; a `Problem` is thrown for everything but success. */
-async function answer<T>(asked: Promise<Answer<T>>): Promise<T> {
-  let answered: Answer<T>;
+async function answer<T>(request: Promise<Answer<T>>): Promise<T> {
+  let reply: Answer<T>;
   try {
-    answered = await asked;
+    reply = await request;
   } catch (cause) {
     if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
     throw new Problem(0, 'unreachable', '');
   }
-  const { data, error, response } = answered;
+  const { data, error, response } = reply;
   if (response.status === 401) tellLocked();
   if (!response.ok) throw problemOf(response.status, error);
   return data as T;

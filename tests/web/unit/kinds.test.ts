@@ -70,8 +70,8 @@ describe('a form from a schema', () => {
 
   it('says what holds where nothing is said, and between what', () => {
     expect(fields.loop).toMatchObject({ label: 'Loop', hint: 'Whether the end leads back.', usual: false });
-    expect(fields.strength).toMatchObject({ whole: false, least: 0, most: 1.5, usual: 1 });
-    expect(fields.frames).toMatchObject({ whole: true, least: 0, most: null, usual: null });
+    expect(fields.strength).toMatchObject({ whole: false, min: 0, max: 1.5, usual: 1 });
+    expect(fields.frames).toMatchObject({ whole: true, min: 0, max: null, usual: null });
     expect(fields.mood).toMatchObject({ choices: ['calm', 'wild'] });
     expect(fields.sound).toMatchObject({ choices: [true, false] });
     expect(fields.parts).toMatchObject({ choices: ['calm', 'wild'], usual: ['calm'] });

@@ -2,7 +2,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Trouble } from '../widgets/trouble';
-import { Window } from '../widgets/dialog';
+import { Dialog } from '../widgets/dialog';
 import { strings } from '../strings';
 import { useCamera } from './stream';
 import { Viewfinder } from './viewfinder';
@@ -31,7 +31,7 @@ export default function PictureCamera({ of, onFile, onClose }: Props) {
     if (file) setTaken({ file, url: URL.createObjectURL(file) });
   };
   return (
-    <Window title={words.pictureTitle} class="snug camera" onClose={onClose}>
+    <Dialog title={words.pictureTitle} class="snug camera" onClose={onClose}>
       {trouble ? (
         <Trouble code={trouble} detail="">
           <button type="button" class="button" onClick={retry}>
@@ -63,7 +63,7 @@ export default function PictureCamera({ of, onFile, onClose }: Props) {
           </button>
         )}
       </footer>
-    </Window>
+    </Dialog>
   );
 }
 

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Trouble } from '../widgets/trouble';
-import { Window } from '../widgets/dialog';
+import { Dialog } from '../widgets/dialog';
 import { clock } from '../format';
 import { strings } from '../strings';
 import { LONGEST_SECONDS, useRecording } from './recording';
@@ -27,7 +27,7 @@ export default function PerformanceRecorder({ onFile, onClose }: Props) {
   const file = recording.state === 'done' ? recording.file : null;
 
   return (
-    <Window title={words.recordTitle} class="snug camera" onClose={onClose}>
+    <Dialog title={words.recordTitle} class="snug camera" onClose={onClose}>
       {trouble ? (
         <Trouble code={trouble} detail="">
           <button type="button" class="button" onClick={retry}>
@@ -92,7 +92,7 @@ export default function PerformanceRecorder({ onFile, onClose }: Props) {
           </>
         )}
       </footer>
-    </Window>
+    </Dialog>
   );
 }
 

@@ -10,7 +10,7 @@ import type { Proposal } from '../kind';
 import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
 import { Stages } from '../result/stages';
-import { Sure } from '../widgets/confirm';
+import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
 import { finished, useJob } from '../events';
 import { asProblem } from '../loading';
@@ -83,11 +83,11 @@ export function JobPage({ id }: { id: string }) {
       {finished(job) && (
         <footer class="actions">
           <Back to={kind.link} />
-          <Sure
+          <ConfirmButton
             label={words.remove}
             question={words.removeQuestion}
-            yes={words.removeYes}
-            onYes={() => void remove()}
+            confirmLabel={words.removeYes}
+            onConfirm={() => void remove()}
           />
         </footer>
       )}

@@ -4,7 +4,7 @@ import { useId, useState } from 'preact/hooks';
 import { closeSession, createKey, getOwnKey, type Key, listKeys, type NewKey, type OwnKey, revokeKey } from '../api';
 import { Copyable } from '../widgets/copyable';
 import { Heading } from '../widgets/heading';
-import { Sure } from '../widgets/confirm';
+import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
 import { ago, count, moment, size } from '../format';
 import { useDoing, useLoaded } from '../loading';
@@ -127,12 +127,12 @@ function All({ own }: { own: string }) {
                   <span class="chip">{words.revoked}</span>
                 ) : (
                   key.id !== own && (
-                    <Sure
+                    <ConfirmButton
                       label={words.revoke}
                       about={key.name}
                       question={words.revokeQuestion(key.name)}
-                      yes={words.revokeYes}
-                      onYes={() => void revoke(key)}
+                      confirmLabel={words.revokeYes}
+                      onConfirm={() => void revoke(key)}
                     />
                   )
                 )}

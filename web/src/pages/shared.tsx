@@ -14,7 +14,7 @@ import '../styles/share.css';
 const words = strings.shared;
 
 /** What the page itself needs, for whom all files are not meant. */
-const INNER = /^(poster\.jpg|skeleton\.json|background\.png)$/;
+const PAGE_ONLY_FILES = /^(poster\.jpg|skeleton\.json|background\.png)$/;
 
 export default function SharedPage({ token }: { token: string }) {
   const { value: shared, problem } = useLoaded((signal) => getShared(token, signal), token);
@@ -32,7 +32,7 @@ export default function SharedPage({ token }: { token: string }) {
   const kind = kindOf(shared.kind);
   const files = Object.entries(shared.artifacts);
   const taken = kind.shared.downloads.flatMap(([like, label]) => files.filter(([name]) => like.test(name)).map((file) => ({ file, label })));
-  const others = files.filter(([name]) => !INNER.test(name) && !taken.some(({ file }) => file[0] === name));
+  const others = files.filter(([name]) => !PAGE_ONLY_FILES.test(name) && !taken.some(({ file }) => file[0] === name));
   const listed = others.length ? files : [];
   return (
     <article class="shared">

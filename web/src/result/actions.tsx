@@ -14,7 +14,7 @@ const words = strings.job;
 type Panel = 'files' | 'share' | 'code';
 const panels = { files: words.files, share: strings.share.title, code: words.use };
 
-interface LeftProps {
+interface Props {
   job: Job;
   /** The list of files is open from the first: there is nothing else to see. */
   filesOpen: boolean;
@@ -23,7 +23,7 @@ interface LeftProps {
 }
 
 /** What can be done with a result, in one row that stays as it is; what that takes opens below it. */
-export function Left({ job, filesOpen, children }: LeftProps) {
+export function ResultActions({ job, filesOpen, children }: Props) {
   const [open, setOpen] = useState<readonly Panel[]>(filesOpen ? ['files'] : []);
   const id = useId();
   const toggle = (panel: Panel): void =>
@@ -99,7 +99,7 @@ export function Warnings({ report }: { report: Report | null }) {
   );
 }
 
-export function Took({ job }: { job: Job }) {
+export function ElapsedTime({ job }: { job: Job }) {
   if (!job.started_at || !job.finished_at) return null;
   return (
     <p class="took">{words.took(duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000))}</p>

@@ -27,7 +27,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
       <progress aria-label={words.progress} max="1" value={queued ? undefined : fraction} />
       <p class="figures">
         <span>{preparing ? words.preparing : queued ? place(job) : words.done(percent(fraction))}</span>
-        <span>{eta !== null && !queued ? words.left(duration(eta)) : ''}</span>
+        <span>{eta !== null && !queued ? words.remaining(duration(eta)) : ''}</span>
       </p>
       {stages.length > 0 && (
         <ol aria-label={words.stages}>

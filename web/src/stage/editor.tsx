@@ -1,7 +1,7 @@
 /** A window in which something is edited over a picture: tools above, words and what to do with it below. */
 
 import type { ComponentChildren } from 'preact';
-import { Window } from '../widgets/dialog';
+import { Dialog } from '../widgets/dialog';
 import type { History, Step } from './history';
 import { HistoryTools, StageFooter, ZoomTools } from './tools';
 import '../styles/stage.css';
@@ -24,11 +24,11 @@ interface Props<State> {
   children: [stage: ComponentChildren, said: ComponentChildren];
 }
 
-export function EditorWindow<State>(props: Props<State>) {
+export function EditorDialog<State>(props: Props<State>) {
   const { title, toolsLabel, tools, history, advance, onZoom, help, children } = props;
   const [stage, said] = children;
   return (
-    <Window title={title} onClose={props.onClose}>
+    <Dialog title={title} onClose={props.onClose}>
       <div class="stage-tools" role="toolbar" aria-label={toolsLabel}>
         {tools}
         <ZoomTools onZoom={onZoom} />
@@ -45,6 +45,6 @@ export function EditorWindow<State>(props: Props<State>) {
         onCancel={props.onClose}
         onDone={props.onDone}
       />
-    </Window>
+    </Dialog>
   );
 }

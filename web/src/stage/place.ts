@@ -31,10 +31,10 @@ export function boxOf(points: readonly Point[]): Box {
 /** The number of the place that is nearest to another, if one lies within reach. */
 export function nearest(points: readonly Point[], [x, y]: Point, reach: number): number | null {
   let found: number | null = null;
-  let least = reach;
+  let shortest = reach;
   points.forEach((point, index) => {
     const distance = Math.hypot(point[0] - x, point[1] - y);
-    if (distance <= least) [found, least] = [index, distance];
+    if (distance <= shortest) [found, shortest] = [index, distance];
   });
   return found;
 }

@@ -6,11 +6,11 @@ import { keptName } from '../names';
 import { failureRemedy } from '../failures';
 import { strings } from '../strings';
 import { Rename } from '../widgets/rename';
-import { Sure } from '../widgets/confirm';
+import { ConfirmButton } from '../widgets/confirm';
 import '../styles/kept.css';
 
 const words = strings.kept;
-const LONGEST = 63;
+const MAX_NAME_CHARACTERS = 63;
 
 export interface KeptItem {
   /** By which it is known again under another name. */
@@ -78,15 +78,15 @@ function Row({ item, onRename, onRemove }: RowProps) {
   const { doing, problem, attempt } = useDoing();
   return (
     <li aria-busy={doing}>
-      <Rename name={item.label} label={words.nameOf(item.label)} longest={LONGEST} onRename={onRename}>
+      <Rename name={item.label} label={words.nameOf(item.label)} longest={MAX_NAME_CHARACTERS} onRename={onRename}>
         <span class="label">{item.label}</span>
       </Rename>
-      <Sure
+      <ConfirmButton
         label={strings.job.remove}
         about={item.label}
         question={words.removeQuestion(item.label)}
-        yes={strings.job.remove}
-        onYes={() => void attempt(onRemove)}
+        confirmLabel={strings.job.remove}
+        onConfirm={() => void attempt(onRemove)}
       />
       {problem && (
         <p class="error" role="alert">

@@ -87,13 +87,13 @@ export class Dots {
   /** The handle under a pointer: the nearest within reach. */
   under(event: PointerEvent, canvas: HTMLElement, camera: PerspectiveCamera): Handle | null {
     const { left, top, width, height } = canvas.getBoundingClientRect();
-    let [found, least]: [Handle | null, number] = [null, REACH[event.pointerType] ?? 14];
+    let [found, shortest]: [Handle | null, number] = [null, REACH[event.pointerType] ?? 14];
     for (const { handle, joint } of this.all) {
       const { x, y, z } = placeOf(joint).project(camera);
       const across = left + ((x + 1) / 2) * width - event.clientX;
       const down = top + ((1 - y) / 2) * height - event.clientY;
       const distance = Math.hypot(across, down);
-      if (z < 1 && distance < least) [found, least] = [handle, distance];
+      if (z < 1 && distance < shortest) [found, shortest] = [handle, distance];
     }
     return found;
   }

@@ -13,7 +13,7 @@ export function lowest({ geometry, skeleton }: SkinnedMesh): number {
   if (!position || !skinIndex || !skinWeight) throw new Error('the mesh follows no bones');
   skeleton.update();
   const matrices = skeleton.boneMatrices!;
-  let least = Infinity;
+  let lowestHeight = Infinity;
   for (let vertex = 0; vertex < position.count; vertex++) {
     const [x, y, z] = [position.getX(vertex), position.getY(vertex), position.getZ(vertex)];
     let height = 0;
@@ -23,7 +23,7 @@ export function lowest({ geometry, skeleton }: SkinnedMesh): number {
       const at = 16 * skinIndex.getComponent(vertex, k);
       height += weight * (matrices[at + OF_X]! * x + matrices[at + OF_Y]! * y + matrices[at + OF_Z]! * z + matrices[at + OFFSET]!);
     }
-    least = Math.min(least, height);
+    lowestHeight = Math.min(lowestHeight, height);
   }
-  return least;
+  return lowestHeight;
 }

@@ -5,7 +5,7 @@ import { type Object3D, Quaternion, Vector3 } from 'three';
 /** Below this sine a limb counts as straight: which way it is bent cannot be seen from it. */
 const STRAIGHT = 0.05;
 /** Share of its length that a limb can be stretched to: at all of it, the bend would flip. */
-const LONGEST = 0.999;
+const MAX_EXTENSION = 0.999;
 /** Rounds in which a row of bones comes close. */
 const ROUNDS = 12;
 
@@ -35,7 +35,7 @@ export function reach(upper: Object3D, lower: Object3D, end: Object3D, target: V
   const [root, middle, tip] = [upper, lower, end].map(placeOf) as [Vector3, Vector3, Vector3];
   const [first, second] = [middle.clone().sub(root), tip.clone().sub(middle)];
   const [a, b] = [first.length(), second.length()];
-  const distance = Math.min(Math.max(target.distanceTo(root), Math.abs(a - b) / LONGEST), (a + b) * LONGEST);
+  const distance = Math.min(Math.max(target.distanceTo(root), Math.abs(a - b) / MAX_EXTENSION), (a + b) * MAX_EXTENSION);
   // the law of cosines gives the angle within the elbow; the bend is what it lacks of a straight one
   const bend = Math.PI - Math.acos(clamped((a * a + b * b - distance * distance) / (2 * a * b)));
   const axis = first.clone().cross(second).divideScalar(a * b);

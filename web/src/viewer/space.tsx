@@ -5,7 +5,7 @@ import type { ModelViewerElement } from '@google/model-viewer';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { getSkeleton } from '../api';
 import { Trouble } from '../widgets/trouble';
-import { Window } from '../widgets/dialog';
+import { Dialog } from '../widgets/dialog';
 import { useLoaded } from '../loading';
 import { strings } from '../strings';
 import { IN_PLACE, PICTURED } from './character';
@@ -71,7 +71,7 @@ export default function Space({ job, renew, who: first, onClose }: Props) {
   }, [fresh.value, who]);
 
   return (
-    <Window title={words.space} class="viewer-space" onClose={onClose}>
+    <Dialog title={words.space} class="viewer-space" onClose={onClose}>
       {people.length > 1 && (
         <WhoChoice
           people={people}
@@ -98,7 +98,7 @@ export default function Space({ job, renew, who: first, onClose }: Props) {
           </button>
         </footer>
       )}
-    </Window>
+    </Dialog>
   );
 }
 

@@ -32,7 +32,7 @@ export class Stage {
   private readonly watching = new AbortController();
   private readonly sizes: ResizeObserver;
   private readonly sight: IntersectionObserver;
-  private asked = 0;
+  private frameRequest = 0;
   private before = 0;
   private visible = true;
   private goesOn = false;
@@ -65,9 +65,9 @@ export class Stage {
 
   /** Draw once more, as soon as the screen is ready. */
   invalidate(): void {
-    if (this.asked || this.held || !this.visible || this.renderer.xr.isPresenting || this.watching.signal.aborted) return;
-    this.asked = requestAnimationFrame((now) => {
-      this.asked = 0;
+    if (this.frameRequest || this.held || !this.visible || this.renderer.xr.isPresenting || this.watching.signal.aborted) return;
+    this.frameRequest = requestAnimationFrame((now) => {
+      this.frameRequest = 0;
       this.draw(now);
       if (this.goesOn) this.invalidate();
     });
@@ -123,7 +123,7 @@ export class Stage {
 
   dispose(): void {
     this.watching.abort();
-    cancelAnimationFrame(this.asked);
+    cancelAnimationFrame(this.frameRequest);
     this.sizes.disconnect();
     this.sight.disconnect();
     this.controls.dispose();
@@ -139,8 +139,8 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    cancelAnimationFrame(this.asked); // a canvas of a new size is empty: fill it before it is seen
-    this.asked = 0;
+    cancelAnimationFrame(this.frameRequest); // a canvas of a new size is empty: fill it before it is seen
+    this.frameRequest = 0;
     this.draw(performance.now());
     if (this.goesOn) this.invalidate();
   }
@@ -165,11 +165,11 @@ export class Stage {
   private circle(around: number, over: number, nearer: number): void {
     const { target, minAzimuthAngle, maxAzimuthAngle, minPolarAngle, maxPolarAngle } = this.controls;
     const place = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
-    place.theta = within(place.theta + around, minAzimuthAngle, maxAzimuthAngle);
-    place.phi = within(place.phi + over, Math.max(0.01, minPolarAngle), Math.min(Math.PI - 0.01, maxPolarAngle));
-    place.radius = within(place.radius * nearer, this.controls.minDistance, this.controls.maxDistance);
+    place.theta = clamped(place.theta + around, minAzimuthAngle, maxAzimuthAngle);
+    place.phi = clamped(place.phi + over, Math.max(0.01, minPolarAngle), Math.min(Math.PI - 0.01, maxPolarAngle));
+    place.radius = clamped(place.radius * nearer, this.controls.minDistance, this.controls.maxDistance);
     this.look(new Vector3().setFromSpherical(place).add(target), target);
   }
 }
 
-const within = (value: number, least: number, most: number): number => Math.min(most, Math.max(least, value));
+const clamped = (value: number, min: number, max: number): number => Math.min(max, Math.max(min, value));

@@ -11,7 +11,7 @@ import {
   type WebhookSecret,
 } from '../api';
 import { Copyable } from '../widgets/copyable';
-import { Sure } from '../widgets/confirm';
+import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
 import { ago, moment } from '../format';
 import { useDoing } from '../loading';
@@ -62,11 +62,11 @@ export function Endpoint({ webhook, onChange }: { webhook: Webhook; onChange: ()
         >
           {words.secret}
         </button>
-        <Sure
+        <ConfirmButton
           label={strings.job.remove}
           question={words.removeQuestion}
-          yes={strings.job.removeYes}
-          onYes={() => act(() => deleteWebhook(webhook.id))}
+          confirmLabel={strings.job.removeYes}
+          onConfirm={() => act(() => deleteWebhook(webhook.id))}
         />
       </div>
       {secret && (

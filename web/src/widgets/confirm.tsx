@@ -8,26 +8,26 @@ interface Props {
   /** What the step is about, for those who hear the button by itself. */
   about?: string;
   question: string;
-  yes: string;
-  onYes: () => void;
+  confirmLabel: string;
+  onConfirm: () => void;
 }
 
-export function Sure({ label, about, question, yes, onYes }: Props) {
+export function ConfirmButton({ label, about, question, confirmLabel, onConfirm }: Props) {
   const [asking, setAsking] = useState(false);
-  const keep = useRef<HTMLButtonElement>(null);
-  const first = useRef<HTMLButtonElement>(null);
-  const asked = useRef(false);
+  const cancel = useRef<HTMLButtonElement>(null);
+  const opener = useRef<HTMLButtonElement>(null);
+  const wasAsking = useRef(false);
   useEffect(() => {
-    if (asking) keep.current?.focus();
-    else if (asked.current) first.current?.focus();
-    asked.current = asking;
+    if (asking) cancel.current?.focus();
+    else if (wasAsking.current) opener.current?.focus();
+    wasAsking.current = asking;
   }, [asking]);
 
   if (!asking) {
     return (
       <button
         type="button"
-        ref={first}
+        ref={opener}
         class="button quiet"
         aria-label={about && `${label}: ${about}`}
         onClick={() => setAsking(true)}
@@ -44,12 +44,12 @@ export function Sure({ label, about, question, yes, onYes }: Props) {
         class="button danger"
         onClick={() => {
           setAsking(false);
-          onYes();
+          onConfirm();
         }}
       >
-        {yes}
+        {confirmLabel}
       </button>
-      <button type="button" class="button" ref={keep} onClick={() => setAsking(false)}>
+      <button type="button" class="button" ref={cancel} onClick={() => setAsking(false)}>
         {strings.keep}
       </button>
     </div>

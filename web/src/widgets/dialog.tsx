@@ -11,7 +11,7 @@ interface Props {
   onClose: () => void;
 }
 
-export function Window({ title, class: name = '', children, onClose }: Props) {
+export function Dialog({ title, class: name = '', children, onClose }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   const heading = useId();
   useEffect(() => {

@@ -16,19 +16,19 @@ interface Props {
 export function SearchField({ label, hint, longest, value, onSearch }: Props) {
   const id = useId();
   const [text, setText] = useState(value);
-  /** What this field asked for last: another value comes from elsewhere, as by the browser's Back. */
-  const asked = useRef(value);
+  /** What this field searched for last: another value comes from elsewhere, as by the browser's Back. */
+  const searched = useRef(value);
   const timer = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   const ask = (words: string): void => {
     clearTimeout(timer.current);
-    if (words === asked.current) return;
-    asked.current = words;
+    if (words === searched.current) return;
+    searched.current = words;
     onSearch(words);
   };
   useEffect(() => {
-    if (value === asked.current) return;
+    if (value === searched.current) return;
     clearTimeout(timer.current);
-    asked.current = value;
+    searched.current = value;
     setText(value);
   }, [value]);
   useEffect(() => () => clearTimeout(timer.current), []);

@@ -5,10 +5,10 @@ import { historyLink } from '../route';
 import { strings } from '../strings';
 import { Entry } from './entry';
 
-const LATEST = 6;
+const MAX_RECENT = 6;
 
 export function Recent() {
-  const { jobs, more } = useWorks(LATEST, everything);
+  const { jobs, more } = useWorks(MAX_RECENT, everything);
   if (!jobs) return null;
   return (
     <section class="recent" aria-labelledby="recent-title">

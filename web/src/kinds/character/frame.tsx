@@ -3,7 +3,7 @@
 import { useId } from 'preact/hooks';
 import type { Frame } from '../../api';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
-import { EditorWindow } from '../../stage/editor';
+import { EditorDialog } from '../../stage/editor';
 import { inside, type Point } from '../../stage/place';
 import { type Drag, Surface, type Touch } from '../../stage/surface';
 import { enlarged, frameBetween, movedFrame, rounded } from './framing';
@@ -49,7 +49,7 @@ export default function FrameEditor({ url, size, start, onDone, onClose }: Props
 
   const told = rounded(frame);
   return (
-    <EditorWindow
+    <EditorDialog
       title={words.title}
       toolsLabel={words.tools}
       history={history}
@@ -84,7 +84,7 @@ export default function FrameEditor({ url, size, start, onDone, onClose }: Props
       <p class="unseen" role="status">
         {words.box(told[2], told[3], told[0], told[1])}
       </p>
-    </EditorWindow>
+    </EditorDialog>
   );
 }
 

@@ -3,7 +3,7 @@
 import { useId, useMemo, useState } from 'preact/hooks';
 import { Checkbox } from '../../widgets/checkbox';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
-import { EditorWindow } from '../../stage/editor';
+import { EditorDialog } from '../../stage/editor';
 import { Lens } from '../../stage/lens';
 import { boxAround, middle, moved, resized } from '../../stage/moving';
 import { boxOf, grown, inside, nearest, type Point } from '../../stage/place';
@@ -104,7 +104,7 @@ export default function JointEditor({ url, size, start, found, onDone, onClose }
   const drawing = <SkeletonDrawing joints={joints} shown={shown} chosen={all ? null : chosen} />;
   const image = <image href={url} x="-0.5" y="-0.5" width={size[0]} height={size[1]} preserveAspectRatio="none" />;
   return (
-    <EditorWindow
+    <EditorDialog
       title={found ? words.title : words.placeTitle}
       toolsLabel={words.tools}
       tools={
@@ -169,6 +169,6 @@ export default function JointEditor({ url, size, start, found, onDone, onClose }
       <p class="chosen-joint" role="status">
         {all ? words.whole : chosen ? labelOf(chosen) : ''}
       </p>
-    </EditorWindow>
+    </EditorDialog>
   );
 }

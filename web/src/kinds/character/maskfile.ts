@@ -63,10 +63,10 @@ export function readParts(pixels: Uint8ClampedArray): void {
   for (let i = 0; i < pixels.length; i += 4) {
     const [r, g, b] = [pixels[i]!, pixels[i + 1]!, pixels[i + 2]!];
     let nearest: readonly [number, number, number] | null = null;
-    let least = r * r + g * g + b * b;
+    let shortest = r * r + g * g + b * b;
     for (const colour of colours) {
       const off = (r - colour[0]) ** 2 + (g - colour[1]) ** 2 + (b - colour[2]) ** 2;
-      if (off < least) [nearest, least] = [colour, off];
+      if (off < shortest) [nearest, shortest] = [colour, off];
     }
     pixels.set(nearest ? [...nearest, 255] : [0, 0, 0, 0], i);
   }

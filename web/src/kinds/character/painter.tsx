@@ -4,7 +4,7 @@ import { useId, useState } from 'preact/hooks';
 import type { BodyPart } from '../../api';
 import { Checkbox } from '../../widgets/checkbox';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
-import { EditorWindow } from '../../stage/editor';
+import { EditorDialog } from '../../stage/editor';
 import type { Point } from '../../stage/place';
 import { type Drag, Surface, type Touch } from '../../stage/surface';
 import { Tool } from '../../stage/tools';
@@ -51,7 +51,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
   const help = useId();
 
   const strokeOf = (path: [number, number][]): AnyStroke => ({ path, radius, ...saying }) as AnyStroke;
-  const widen = (by: number): void => setRadius(Math.min(range.most, Math.max(range.least, radius * by)));
+  const widen = (by: number): void => setRadius(Math.min(range.max, Math.max(range.min, radius * by)));
   const middle: Point = [view.x + view.width / 2, view.y + view.height / 2];
   const zoomTo = (factor: number | null): void => zoom(factor, brush ?? middle);
 
@@ -112,7 +112,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
 
   const shown = { ...fresh, [what]: strokes };
   return (
-    <EditorWindow
+    <EditorDialog
       title={what === 'mask' ? words.maskTitle : words.labelsTitle}
       toolsLabel={words.tools}
       tools={
@@ -122,8 +122,8 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
             <span>{words.size}</span>
             <input
               type="range"
-              min={Math.log(range.least)}
-              max={Math.log(range.most)}
+              min={Math.log(range.min)}
+              max={Math.log(range.max)}
               step="any"
               value={Math.log(radius)}
               aria-label={words.size}
@@ -171,7 +171,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
       <p class="unseen" role="status">
         {down ? words.down : brush ? words.up : ''}
       </p>
-    </EditorWindow>
+    </EditorDialog>
   );
 }
 

@@ -5,7 +5,7 @@ import { size } from '../../format';
 import { useLoaded } from '../../loading';
 import { peopleOf } from '../../viewer/people';
 import { later } from '../../widgets/lazy';
-import { Left, Took, Warnings } from '../../result/actions';
+import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
 import type { ResultProps } from '../../kind';
 import { words as characterWords } from './words';
@@ -34,7 +34,7 @@ export default function CharacterResult({ job, onPropose }: ResultProps) {
       ) : (
         shown
       )}
-      <Left job={job} filesOpen={!film}>
+      <ResultActions job={job} filesOpen={!film}>
         {peopleOf(job, skeleton).map(({ name, number }) => (
           <Download key={name} job={job} name={`${name}.glb`} label={several ? words.glbOf(number) : words.glb} primary />
         ))}
@@ -42,9 +42,9 @@ export default function CharacterResult({ job, onPropose }: ResultProps) {
         <Download job={job} name="character.vrm" label={words.vrm1} />
         <Download job={job} name="lit.png" label={words.litPicture} />
         {film && <Download job={job} name={film[0]} label={words.video} />}
-      </Left>
+      </ResultActions>
       <Warnings report={report.value} />
-      <Took job={job} />
+      <ElapsedTime job={job} />
     </div>
   );
 }

@@ -35,17 +35,17 @@ export function fewer(path: readonly Point[], within: number): Point[] {
   const [first, last] = [path[0], path.at(-1)];
   if (!first || !last || path.length < 3) return [...path];
   let furthest = 0;
-  let least = within;
+  let largest = within;
   path.forEach((place, index) => {
     const distance = toSegment(place, first, last);
-    if (distance > least) [furthest, least] = [index, distance];
+    if (distance > largest) [furthest, largest] = [index, distance];
   });
   if (!furthest) return path.length > 1 ? [first, last] : [first];
   return [...fewer(path.slice(0, furthest + 1), within).slice(0, -1), ...fewer(path.slice(furthest), within)];
 }
 
 /** Radii of the brush, thin and thick, in pixels of a picture of this size; steps between them grow with it. */
-export const radii = ([width, height]: readonly [number, number]): { least: number; most: number; usual: number } => {
+export const radii = ([width, height]: readonly [number, number]): { min: number; max: number; usual: number } => {
   const longest = Math.max(width, height);
-  return { least: longest / 600, most: longest / 8, usual: longest / 60 };
+  return { min: longest / 600, max: longest / 8, usual: longest / 60 };
 };

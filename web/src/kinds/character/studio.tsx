@@ -40,12 +40,12 @@ interface Draft {
   choices: Choices;
 }
 
-const NOTHING: Draft = {
+const EMPTY_DRAFT: Draft = {
   ...{ photo: null, motion: { by: 'name', name: DEFAULT_MOTION }, joints: {}, clip: null, choices: usual },
 };
 
 export default function CharacterStudio({ kind }: StudioProps) {
-  const [{ photo, motion, joints, clip, choices }, alter] = useDraft(kind.name, NOTHING);
+  const [{ photo, motion, joints, clip, choices }, alter] = useDraft(kind.name, EMPTY_DRAFT);
   const { refused, refuse, accept } = useRefusals<'photo' | 'motion'>(kind.name);
   const setPhoto = (photo: File): void => {
     accept('photo');
@@ -63,7 +63,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
   };
   const refuseMotion = (): void => {
     refuse('motion');
-    alter({ motion: NOTHING.motion, joints: {}, clip: null });
+    alter({ motion: EMPTY_DRAFT.motion, joints: {}, clip: null });
   };
   useDropsAnywhere(async (file) => {
     if (await isPicture(file)) setPhoto(file);

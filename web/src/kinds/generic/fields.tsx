@@ -123,8 +123,8 @@ function TypedField({ field, value, onChange }: FieldProps) {
         <input
           {...common}
           type="number"
-          min={field.least ?? undefined}
-          max={field.most ?? undefined}
+          min={field.min ?? undefined}
+          max={field.max ?? undefined}
           step={field.whole ? 1 : 'any'}
           value={shown}
           onInput={({ currentTarget }) => type(currentTarget)}

@@ -3,7 +3,7 @@
 import { getReport } from '../../api';
 import { size } from '../../format';
 import { useLoaded } from '../../loading';
-import { Left, Took, Warnings } from '../../result/actions';
+import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { kindOf } from '..';
 import type { ResultProps } from '../../kind';
 import { ShownArtifacts, shownIn } from './artifacts';
@@ -15,15 +15,15 @@ export default function GenericResult({ job }: ResultProps) {
   return (
     <div class="result">
       <ShownArtifacts artifacts={job.artifacts} alt={kindOf(job.kind).shared.alt} />
-      <Left job={job} filesOpen={!file}>
+      <ResultActions job={job} filesOpen={!file}>
         {main !== undefined && file && (
           <a class="button primary" href={file.url} download={main}>
             {main} <small>{size(file.size)}</small>
           </a>
         )}
-      </Left>
+      </ResultActions>
       <Warnings report={report.value} />
-      <Took job={job} />
+      <ElapsedTime job={job} />
     </div>
   );
 }

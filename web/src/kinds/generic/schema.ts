@@ -14,7 +14,7 @@ export type Field = {
   usual: unknown;
 } & (
   | { type: 'switch' }
-  | { type: 'number'; whole: boolean; least: number | null; most: number | null }
+  | { type: 'number'; whole: boolean; min: number | null; max: number | null }
   | { type: 'choice'; choices: readonly Value[] }
   /** Any number of these. */
   | { type: 'several'; choices: readonly Value[] }
@@ -62,8 +62,8 @@ function typeOf(schema: Schema, nullable: boolean, root: Schema): object {
       return {
         type: 'number',
         whole: schema.type === 'integer',
-        least: numberIn(schema.minimum ?? schema.exclusiveMinimum),
-        most: numberIn(schema.maximum ?? schema.exclusiveMaximum),
+        min: numberIn(schema.minimum ?? schema.exclusiveMinimum),
+        max: numberIn(schema.maximum ?? schema.exclusiveMaximum),
       };
     case 'string':
       return { type: 'text' };

@@ -23,7 +23,7 @@ interface Draft {
   options: Options;
 }
 
-const NOTHING: Draft = { inputs: {}, options: {} };
+const EMPTY_DRAFT: Draft = { inputs: {}, options: {} };
 
 export default function GenericStudio({ kind }: StudioProps) {
   const descriptions = useDescriptions();
@@ -41,7 +41,7 @@ export default function GenericStudio({ kind }: StudioProps) {
 }
 
 function Form({ kind, description }: { kind: Kind; description: KindDescription }) {
-  const [{ inputs, options }, change] = useDraft(kind.name, NOTHING);
+  const [{ inputs, options }, change] = useDraft(kind.name, EMPTY_DRAFT);
   const sending = useSending();
   const required = (description.inputs_schema.required ?? []) as string[];
   const absent = required.find((name) => inputs[name] === undefined);

@@ -6,7 +6,7 @@ import { useLoaded } from '../../loading';
 import type { ResultProps } from '../../kind';
 import { performanceUrl } from './drivers';
 import { strings } from '../../strings';
-import { Left, Took, Warnings } from '../../result/actions';
+import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Living } from './reactive_player';
 import { Moods } from './moods';
 import { Player } from '../../result/player';
@@ -36,16 +36,16 @@ export default function PortraitResult({ job }: ResultProps) {
       ) : (
         <p>{words.otherKind}</p>
       )}
-      <Left job={job} filesOpen={!found}>
+      <ResultActions job={job} filesOpen={!found}>
         {main && (
           <a class="button primary" href={main[1].url} download={main[0]}>
             {profile ? words.downloadProfile : words.download} <small>{size(main[1].size)}</small>
           </a>
         )}
-      </Left>
+      </ResultActions>
       {!profile && <Moods job={job} />}
       <Warnings report={report.value} />
-      <Took job={job} />
+      <ElapsedTime job={job} />
     </div>
   );
 }

@@ -39,10 +39,10 @@ interface Draft {
   choices: Choices;
 }
 
-const NOTHING: Draft = { portrait: null, performance: null, choices: defaults };
+const EMPTY_DRAFT: Draft = { portrait: null, performance: null, choices: defaults };
 
 export default function PortraitStudio({ kind }: StudioProps) {
-  const [{ portrait, performance: chosen, choices }, change] = useDraft(kind.name, NOTHING);
+  const [{ portrait, performance: chosen, choices }, change] = useDraft(kind.name, EMPTY_DRAFT);
   const { refused, refuse, accept } = useRefusals<'portrait' | 'video'>(kind.name);
   const setPortrait = (portrait: File): void => {
     accept('portrait');

@@ -13,7 +13,7 @@ export const job = {
     place: (number: number) => `Place ${number} in the queue`,
     preparing: 'This happens once and takes a minute or two.',
     starting: 'Starting',
-    left: (duration: string) => `about ${duration} left`,
+    remaining: (duration: string) => `about ${duration} left`,
     done: (percent: string) => `${percent} done`,
     progress: 'Progress',
     stages: 'Stages',

@@ -2,7 +2,7 @@
 
 import { useId, useMemo, useState } from 'preact/hooks';
 import { act, arrows, useEditing } from '../../../stage/editing';
-import { EditorWindow } from '../../../stage/editor';
+import { EditorDialog } from '../../../stage/editor';
 import { boxAround, middle, moved, resized } from '../../../stage/moving';
 import { Tool } from '../../../stage/tools';
 import { around } from '../../../stage/view';
@@ -63,7 +63,7 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
 
   const single = selection.by === 'point';
   return (
-    <EditorWindow
+    <EditorDialog
       title={found ? words.title : words.placeTitle}
       toolsLabel={words.tools}
       tools={
@@ -146,7 +146,7 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
       <p class="unseen" role="status">
         {said}
       </p>
-    </EditorWindow>
+    </EditorDialog>
   );
 }
 

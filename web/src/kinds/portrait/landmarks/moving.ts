@@ -33,12 +33,12 @@ export function shares(selection: Selection, soft: boolean): number[] {
 /** The feature whose lines pass nearest to a place, if one does within reach. */
 export function nearestFeature(points: readonly Point[], place: Point, reach: number): Feature | null {
   let found: Feature | null = null;
-  let least = reach;
+  let shortest = reach;
   for (const { feature, from, to, closed } of lines) {
     for (let index = from; index < to; index++) {
       const next = index + 1 < to ? index + 1 : closed ? from : index;
       const distance = toSegment(place, points[index] ?? place, points[next] ?? place);
-      if (distance <= least) [found, least] = [feature, distance];
+      if (distance <= shortest) [found, shortest] = [feature, distance];
     }
   }
   return found;
