@@ -53,8 +53,8 @@ web-browser:
 
 s3-trial: tools  ## the tests of the storage once more, against a real server of another make (OpenStack Swift)
 	@scripts/setup.sh --for-s3-trial
-	@GALATEA_TESTS_S3=swift $(BIN)/pytest -s $(addprefix tests/,service/test_storage.py worker/job_files/test_mirror.py \
-		service/test_shared.py service/test_machines.py service/trial_s3.py)
+	@GALATEA_TESTS_S3=swift $(BIN)/pytest -s $(addprefix tests/,service/storage/test_storage.py worker/job_files/test_mirror.py \
+		service/test_shared.py service/test_machines.py service/storage/trial_s3.py)
 
 client:  ## the page's types anew from the service's OpenAPI document
 	@cd web && npm run --silent client

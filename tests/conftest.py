@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -14,9 +15,11 @@ from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
 from swift import s3_server
 
-pytest_plugins = ("real_faces",)
-
 ROOT = Path(__file__).parent.parent
+
+sys.path.insert(0, str(ROOT / "tests" / "live_service"))  # what several folders of tests need to run a service
+
+pytest_plugins = ("real_faces", "live_services", "opened_context")
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # run in the background, it would be ignored in every child
 

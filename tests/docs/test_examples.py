@@ -13,9 +13,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-
-sys.path.append(str(Path(__file__).parent.parent / "service"))  # for running and made_motion
-
 from made_motion import bvh
 from running import ROOT, Running
 

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from running import Running
 from servers import PostgresServer
 
 from benchmarks.hostile_bodies import send
 from benchmarks.strangers import Sent, document, nested, picture, strangers
 from benchmarks.strangers import texts as queries_and_paths
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "service"))
-from running import Running
 
 ROOT = Path(__file__).parent.parent.parent
 SETTINGS = {"kinds": "tiny_kind:KIND,engine.kinds:KINDS", "worker": False}

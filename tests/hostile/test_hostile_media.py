@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,8 +12,6 @@ from typing import Any
 import psutil
 import pytest
 from corpus import Specimen, corpus
-
-sys.path.insert(0, str(Path(__file__).parent.parent / "service"))
 from running import Running, eventually
 
 ROOT = Path(__file__).parent.parent.parent

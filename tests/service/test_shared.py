@@ -9,7 +9,10 @@ from typing import Any
 import pytest
 from running import Running, eventually
 from servers import Gate, PostgresServer, S3Server
-from test_artifacts import (  # noqa: F401
+
+from service.settings import Settings
+from service.storage.bucket import Bucket
+from tests.service.artifacts.test_artifacts import (  # noqa: F401
     artifact,
     test_all_of_them_come_as_one_zip,
     test_names_that_are_no_artifacts,
@@ -18,37 +21,34 @@ from test_artifacts import (  # noqa: F401
     test_several_ranges,
     test_whole,
 )
-from test_drivers import test_a_job_can_name_a_built_in_performance  # noqa: F401
-from test_events import (  # noqa: F401
+from tests.service.drivers.test_drivers import test_a_job_can_name_a_built_in_performance  # noqa: F401
+from tests.service.events.test_events import (  # noqa: F401
     test_a_connection_that_broke_misses_nothing,
     test_a_stream_resumes_after_the_last_event_and_then_says_that_there_is_no_more,
 )
-from test_jobs import (  # noqa: F401
+from tests.service.jobs.test_jobs import (  # noqa: F401
     test_a_form_carries_the_files_themselves,
     test_deleting_a_running_job_stops_it,
     test_one_key_makes_one_job,
     test_the_list_is_newest_first_filtered_and_paged,
 )
-from test_killed import attempts, test_a_worker_killed_in_mid_job_finishes_it_later_once  # noqa: F401
-from test_links import (  # noqa: F401
-    test_a_link_ends_with_its_time_and_with_its_job,
-    test_a_link_opens_what_it_names_to_pages_of_any_origin,
-)
-from test_revisions import (  # noqa: F401
+from tests.service.jobs.test_revisions import (  # noqa: F401
     done,
     revise,
     test_a_revision_reuses_stored_stages_and_says_whose_it_is,
     test_one_key_makes_one_revision,
 )
-from test_uploads import (  # noqa: F401
+from tests.service.links.test_links import (  # noqa: F401
+    test_a_link_ends_with_its_time_and_with_its_job,
+    test_a_link_opens_what_it_names_to_pages_of_any_origin,
+)
+from tests.service.uploads.test_uploads import (  # noqa: F401
     test_an_upload_can_be_ended,
     test_checksums_are_met_or_the_piece_is_not_kept,
     test_pieces_become_a_file_under_the_same_id_that_a_job_takes,
 )
-from test_url_inputs import Host
-
-from service.settings import Settings
-from service.storage.bucket import Bucket
+from tests.worker.job_files.test_url_inputs import Host
+from tests.worker.test_killed import attempts, test_a_worker_killed_in_mid_job_finishes_it_later_once  # noqa: F401
 
 
 @pytest.fixture(scope="module")

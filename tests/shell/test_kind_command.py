@@ -29,7 +29,7 @@ def environment(tmp_path: Path) -> dict[str, str]:
     return kept | {
         "GALATEA_DATA_DIR": str(tmp_path / "data"),
         "GALATEA_KINDS": "tiny_kind:KIND",
-        "PYTHONPATH": os.pathsep.join([str(ROOT / "tests" / "service"), str(ROOT)]),
+        "PYTHONPATH": os.pathsep.join([str(ROOT / "tests" / "live_service"), str(ROOT)]),
     }
 
 

@@ -37,7 +37,7 @@ print(json.dumps([PLACED, WHOLE_SKELETON, LABEL_COLOURS.tolist()]))
 /** A motion of the tests' own. */
 const MOTION = `
 import sys
-sys.path.insert(0, "tests/service")
+sys.path.insert(0, "tests/live_service")
 from made_motion import bvh
 open(sys.argv[1], "wb").write(bvh())
 `;

@@ -13,7 +13,7 @@ import { ask, inPython, LONG, media, samplePerson } from './page';
 const MADE = `
 import json, sys
 from pathlib import Path
-sys.path.insert(0, "tests/service")
+sys.path.insert(0, "tests/live_service")
 from made_motion import bvh
 from engine.motion.joint_map import REQUIRED
 from engine.motion.joint_names import TARGET_NAMES

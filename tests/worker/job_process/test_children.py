@@ -16,12 +16,12 @@ from service.settings import Settings
 from worker.job_process.children import Child, ChildLost, WarmChildren
 from worker.programs.parent_death import tied_to_parent
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture
 def settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Settings:
-    monkeypatch.syspath_prepend(str(ROOT / "tests" / "service"))
+    monkeypatch.syspath_prepend(str(ROOT / "tests" / "live_service"))
     monkeypatch.syspath_prepend(str(ROOT))
     monkeypatch.setenv("GALATEA_REDIS_URL", "redis://user:password@example.org")
     return Settings(data_dir=tmp_path, kinds=["tiny_kind:KIND"], job_niceness=7)

@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 import pytest
 from running import Running, eventually
-from test_killed import attempts
+
+from tests.worker.test_killed import attempts
 
 Start = Callable[..., Running]
 

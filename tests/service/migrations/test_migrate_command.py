@@ -15,7 +15,7 @@ def migrate(running: Running, *arguments: str) -> subprocess.CompletedProcess[st
     environment = {name: value for name, value in os.environ.items() if not name.startswith("GALATEA_")}
     environment |= {"GALATEA_DATA_DIR": str(running.data_dir)}
     command = [sys.executable, "-m", "shell.main", "migrate", *arguments]
-    root = Path(__file__).parents[2]
+    root = Path(__file__).parents[3]
     return subprocess.run(command, env=environment, cwd=root, capture_output=True, text=True, timeout=300)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import psutil
 import pytest
-from running import Running, eventually
+from running import HERE, Running, eventually
 
 from service.redis_server import socket_path
 
@@ -59,7 +59,7 @@ def test_other_files_are_out_of_reach(service: Running, tmp_path: Path) -> None:
     for path in (str(service.data_dir / "jobs"), str(service.data_dir / "storage"), "/tmp", "/root"):
         assert tried(service, "look", path=path) == "not_permitted"
     outside = tmp_path / "outside"
-    for path in (outside, service.data_dir / "outside", Path(__file__).parent / "outside", Path("/dev/shm/outside")):
+    for path in (outside, service.data_dir / "outside", HERE / "outside", Path("/dev/shm/outside")):
         assert tried(service, "write", path=str(path)) == "not_permitted"
         assert not path.exists()
     assert tried(service, "open_up", path=str(service.data_dir / "galatea.db")) == "not_permitted"

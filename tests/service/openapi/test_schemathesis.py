@@ -115,7 +115,7 @@ def faultless(running: Running, picture: bytes, folder: Path, *arguments: str, k
     environment = {
         **os.environ,
         "SCHEMATHESIS_HOOKS": "schemathesis_hooks",
-        "PYTHONPATH": str(HERE),
+        "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), str(HERE)]),
         "GALATEA_TEST_FILE_ID": file["id"],
         "GALATEA_TEST_KEPT": f"{keeping['id']} {key}",
     }
