@@ -26,9 +26,9 @@ from engine.export.encoders import Target
 
 LONGEST_SIDE = 640
 """Pixels of the longer side where no size is asked for: files grow with the area, and hold no video's compression."""
-SAMPLE = 25
+PALETTE_FRAMES = 25
 """Frames of which the palette is made, at most."""
-HELD = 200_000_000
+MAX_HELD_BYTES = 200_000_000
 """Bytes of frames that wait for it: of large ones there are fewer."""
 _TICKS = 100
 """Of the format's clock, a second."""
@@ -44,7 +44,7 @@ class GifEncoder:
         self._target, self._transparent = target, transparent
         self._waiting: list[VideoFrame] = []
         self._graph: Graph | None = None
-        self._sample = min(SAMPLE, max(1, HELD // (4 * target.size[0] * target.size[1])))
+        self._sample = min(PALETTE_FRAMES, max(1, MAX_HELD_BYTES // (4 * target.size[0] * target.size[1])))
         self._count, self._ended = 0, -_SHORTEST
         last = (
             target.begins(len(target.times) - 1) - target.begins(len(target.times) - 2)
@@ -57,6 +57,11 @@ class GifEncoder:
         self._stream.width, self._stream.height = target.size
         self._stream.pix_fmt = "pal8"
         self._stream.codec_context.time_base = Fraction(1, _TICKS)
+
+    @property
+    def frames_held(self) -> int:
+        """Frames that wait for the palette."""
+        return len(self._waiting)
 
     def prepare(self, rgb: np.ndarray, alpha: np.ndarray | None) -> VideoFrame:
         """The frame in RGBA."""

@@ -88,7 +88,7 @@ def _solve(
     ys, xs = np.nonzero((trimap > 0) & (trimap < 1))
     number = np.full(trimap.shape, -1, np.int32)
     number[ys, xs] = np.arange(len(ys), dtype=np.int32)
-    rows = _laplacian_rows(pixels, number, len(ys), COVARIANCE_REGULARISATION)
+    rows = laplacian_rows(pixels, number, len(ys), COVARIANCE_REGULARISATION)
     neighbours, right = _couple(rows, number, trimap, ys.astype(np.int32), xs.astype(np.int32))
     diagonal = weight[ys, xs]
     right += diagonal * target[ys, xs]
@@ -100,7 +100,7 @@ def _solve(
 
 
 @njit(fastmath=True, nogil=True)
-def _laplacian_rows(pixels, number, count, noise):  # type: ignore[no-untyped-def]
+def laplacian_rows(pixels, number, count, noise):  # type: ignore[no-untyped-def]
     """Rows of the matting Laplacian for the numbered pixels, over their 5x5 neighbours: (count, 25)."""
     height, width = number.shape
     rows = np.zeros((count, 25), np.float32)

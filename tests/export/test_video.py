@@ -386,13 +386,13 @@ def test_the_dither_of_a_gif_stays_where_it_is(tmp_path: Path) -> None:
 
 def test_few_large_frames_of_a_gif_are_held(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A quarter of a hundred of 4096 x 4096 pixels would be 1.7 GB."""
-    monkeypatch.setattr(animated_gif, "HELD", 3 * 4 * 224 * 64)
+    monkeypatch.setattr(animated_gif, "MAX_HELD_BYTES", 3 * 4 * 224 * 64)
     target = Target(tmp_path / "out.gif", (224, 64), 10, "gif", *[None] * 3, False, None, None, None, True)
     encoder = animated_gif.GifEncoder(target, False)
     held = []
     for k in range(6):
         encoder.add(encoder.prepare(chart(k), None))
-        held.append(len(encoder._waiting))
+        held.append(encoder.frames_held)
     encoder.finish()
     assert held == [1, 2, 0, 0, 0, 0]
     assert [frame.time for frame in read_video(tmp_path / "out.gif")] == pytest.approx(np.arange(6) / 10)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.imaging.alpha_matte import _laplacian_rows, alpha_matte
+from engine.imaging.alpha_matte import alpha_matte, laplacian_rows
 from engine.imaging.colour_pairs import alpha_from_colour_pairs
 
 HEIGHT, WIDTH = 120, 160
@@ -43,7 +43,7 @@ def test_laplacian_is_that_of_the_paper() -> None:
             affinity = (1 + centred @ inverse @ centred.T) / 9
             indices = [number[p] for p in window]
             dense[np.ix_(indices, indices)] += np.eye(9) - affinity
-    rows = _laplacian_rows(pixels, number, 56, noise)
+    rows = laplacian_rows(pixels, number, 56, noise)
     for (y, x), i in np.ndenumerate(number):
         for k in range(25):
             ny, nx = y + k // 5 - 2, x + k % 5 - 2
