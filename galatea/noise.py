@@ -47,12 +47,12 @@ class _Sieve:
                 return
             _flush()
             source, sink = os.pipe()
-            asked, self._wake = os.pipe()
+            wake, self._wake = os.pipe()
             os.dup2(sink, STANDARD_ERROR)
             os.close(sink)
             os.set_blocking(source, False)
             self._passed = threading.Event()
-            way = (source, os.dup(self._real), asked, self._passed)
+            way = (source, os.dup(self._real), wake, self._passed)
             threading.Thread(target=_pass_on, args=way, daemon=True).start()
 
     def leave(self) -> None:
@@ -87,13 +87,13 @@ def _flush() -> None:
         sys.stderr.flush()
 
 
-def _pass_on(source: int, target: int, asked: int, passed: threading.Event) -> None:
+def _pass_on(source: int, target: int, wake: int, passed: threading.Event) -> None:
     """Pass on what comes until nobody is left who could write. Once the other end of `asked` is closed, all that has come by
     then is passed on, and `passed` is set."""
     rest, ending = b"", False
     try:
         with selectors.DefaultSelector() as selector:
-            for descriptor in (source, asked):
+            for descriptor in (source, wake):
                 selector.register(descriptor, selectors.EVENT_READ)
             while True:
                 ready = {key.fd for key, _ in selector.select(0 if ending else None)}
@@ -104,13 +104,13 @@ def _pass_on(source: int, target: int, asked: int, passed: threading.Event) -> N
                 if ending and not text:
                     rest, ending = _told(rest, target), False
                     passed.set()
-                if asked in ready:
-                    selector.unregister(asked)
+                if wake in ready:
+                    selector.unregister(wake)
                     ending = True
         _told(rest, target)
     finally:
         passed.set()
-        for descriptor in (source, target, asked):
+        for descriptor in (source, target, wake):
             os.close(descriptor)
 
 

@@ -269,8 +269,8 @@ def _node() -> Iterator[Finding]:
         yield Finding("warning", "Node is not installed", f"install {NODE} to build the page")
         return
     try:
-        asked = subprocess.run([node, "--version"], capture_output=True, text=True, timeout=10)  # noqa: S603
-        version = asked.stdout.strip()
+        done = subprocess.run([node, "--version"], capture_output=True, text=True, timeout=10)  # noqa: S603
+        version = done.stdout.strip()
     except (OSError, subprocess.TimeoutExpired):
         version = ""
     if not builds_the_page(version):

@@ -44,14 +44,14 @@ def keys() -> None:
 def create(name: str, scopes: tuple[str, ...], if_none: bool, **limits: float | None) -> None:
     """Make a key. It is printed alone, this once: keep it safe."""
     try:
-        asked = KeyIn.model_validate({"name": name, **({"scopes": list(scopes)} if scopes else {}), **limits})
+        requested = KeyIn.model_validate({"name": name, **({"scopes": list(scopes)} if scopes else {}), **limits})
     except ValidationError as error:
         first = error.errors()[0]
         raise CliError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
     with _writing() as session:
         if if_none and repository.any_usable(session):
             return
-        key, token = service.create(session, asked)
+        key, token = service.create(session, requested)
         click.echo(f"Key {key.id} “{key.name}” may {', '.join(key.scopes)}.", err=True)
     click.echo(token)
 

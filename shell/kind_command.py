@@ -123,9 +123,9 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
     try:
         if text.startswith("@"):
             text = Path(text[1:]).read_text()
-        asked = json.loads(text)
+        document = json.loads(text)
         flags = given_options(kind.options, given)
-        return kind.options.model_validate({**asked, **flags, **named} if isinstance(asked, dict) else asked)
+        return kind.options.model_validate({**document, **flags, **named} if isinstance(document, dict) else document)
     except OSError as error:
         raise CliError(f"--options: {error.filename} cannot be read: {error.strerror}") from error
     except ValidationError as error:

@@ -207,8 +207,8 @@ class RatioImages:
         """All frames without the temporal filter, in order, with `beyond` more before and after; made on all cores a little
         ahead. Beyond its ends a performance stands still, or repeats where it is closed."""
         count, threads = len(self._track), os.cpu_count() or 1
-        asked = np.arange(-beyond, count + beyond)
-        frames = asked % count if self._track.closed else asked.clip(0, count - 1)
+        places = np.arange(-beyond, count + beyond)
+        frames = places % count if self._track.closed else places.clip(0, count - 1)
         waiting: deque[Future[NDArray[np.float32]]] = deque()
         with ThreadPoolExecutor(threads, thread_name_prefix="ratios") as pool:
             for before, frame in pairwise([-1, *frames.tolist()]):

@@ -68,8 +68,8 @@ def _fill(
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
-        asked = coarsest.hole & grown(coarsest.wanted, SIDE)
-        guess = exemplar_fill(guess, asked, sources, ~coarsest.hole)
+        filled = coarsest.hole & grown(coarsest.wanted, SIDE)
+        guess = exemplar_fill(guess, filled, sources, ~coarsest.hole)
     field: PatchField | None = None
     for level in reversed(levels):
         sources = valid_centres(~level.hole)

@@ -109,9 +109,9 @@ def raise_file_limit() -> int:
     return hard if hard != resource.RLIM_INFINITY else 1 << 30
 
 
-def most_connections(asked: int, files: int) -> int:
+def most_connections(wanted: int, files: int) -> int:
     """How many connections there may be at once: each may read a file meanwhile."""
-    most = min(asked, max(1, (files - SPARE_FILES) // 2))
-    if most < asked:
-        structlog.get_logger().warning("connections_bounded_by_open_files", most=most, asked=asked, files=files)
+    most = min(wanted, max(1, (files - SPARE_FILES) // 2))
+    if most < wanted:
+        structlog.get_logger().warning("connections_bounded_by_open_files", most=most, wanted=wanted, files=files)
     return most

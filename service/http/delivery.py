@@ -37,10 +37,10 @@ def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: 
     }
     if not_modified(headers.get("if-none-match"), headers.get("if-modified-since"), etag, stored.modified):
         return Response(status_code=304, headers=answer)
-    asked = None
+    ranges = None
     if not head and range_applies(headers.get("if-range"), etag, stored.modified):
         try:
-            asked = parse_ranges(headers.get("range"), stored.size)
+            ranges = parse_ranges(headers.get("range"), stored.size)
         except Unsatisfiable:
             raise Problem(
                 416,
@@ -48,18 +48,18 @@ def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: 
                 f"The file has {stored.size} bytes.",
                 headers={"Content-Range": f"bytes */{stored.size}"},
             ) from None
-    if asked is None:
+    if ranges is None:
         answer |= {"Content-Type": stored.content_type, "Content-Length": str(stored.size)}
         return Response(headers=answer) if head else _stream(storage.read(stored.key, 0, stored.size), 200, answer)
-    if len(asked) == 1:
-        start, end = asked[0]
+    if len(ranges) == 1:
+        start, end = ranges[0]
         answer |= {
             "Content-Type": stored.content_type,
             "Content-Length": str(end - start),
             "Content-Range": f"bytes {start}-{end - 1}/{stored.size}",
         }
         return _stream(storage.read(stored.key, start, end), 206, answer)
-    return _multipart(stored, storage, asked, answer)
+    return _multipart(stored, storage, ranges, answer)
 
 
 def _multipart(

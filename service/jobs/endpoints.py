@@ -156,9 +156,9 @@ def get_job(job_id: str, caller: Reader, context: InContext) -> JobOut:
 
 
 @router.patch("/{job_id}", operation_id="change_job", responses=responses(404, 422))
-def change_job(job_id: str, asked: JobChange, caller: Submitter, context: InContext) -> JobOut:
+def change_job(job_id: str, requested: JobChange, caller: Submitter, context: InContext) -> JobOut:
     """Give the work that a job is a version of a title, or take it away: all versions have the same."""
-    service.retitle(context, caller.owner, job_id, asked.title)
+    service.retitle(context, caller.owner, job_id, requested.title)
     return owned.shown(context, caller.owner, job_id)
 
 

@@ -24,16 +24,16 @@ from service.tables.jobs import Job
 JSON_PARTS = ("options", "metadata", "webhook_events")
 TEXT_PARTS = ("kind", "webhook_url", "priority", "title")
 
-Asked = TypeVar("Asked", JobIn, RevisionIn)
-Accept = Callable[[Asked, Mapping[str, Sequence[File]]], tuple[Job, bool]]
+Requested = TypeVar("Requested", JobIn, RevisionIn)
+Accept = Callable[[Requested, Mapping[str, Sequence[File]]], tuple[Job, bool]]
 """What is done with a body and the files that came with it."""
 
 
 async def submit_body(request: Request, context: Context, caller: Caller, key: str | None) -> tuple[Job, bool]:
     """Submit what the request's body asks for (see `submit`)."""
 
-    def accept(asked: JobIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
-        return submit(context, caller.owner, asked, uploaded, key)
+    def accept(requested: JobIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
+        return submit(context, caller.owner, requested, uploaded, key)
 
     return await _accepted(request, context, caller, JobIn, "inputs", accept)
 
@@ -43,8 +43,8 @@ async def revise_body(
 ) -> tuple[Job, bool]:
     """Submit a job again as the request's body asks for (see `revise`)."""
 
-    def accept(asked: RevisionIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
-        return revise(context, caller.owner, job_id, asked, uploaded, key)
+    def accept(requested: RevisionIn, uploaded: Mapping[str, Sequence[File]]) -> tuple[Job, bool]:
+        return revise(context, caller.owner, job_id, requested, uploaded, key)
 
     return await _accepted(request, context, caller, RevisionIn, "corrections", accept)
 
@@ -60,7 +60,7 @@ def require_priority(caller: Caller, priority: str | None) -> None:
 
 
 async def _accepted(
-    request: Request, context: Context, caller: Caller, model: type[Asked], named: str, accept: Accept[Asked]
+    request: Request, context: Context, caller: Caller, model: type[Requested], named: str, accept: Accept[Requested]
 ) -> tuple[Job, bool]:
     """Read a body; in a form, every part that is none of the others belongs to the object `named`."""
     content_type = request.headers.get("content-type", "").lower()
@@ -68,18 +68,18 @@ async def _accepted(
         return await _accepted_form(request, context, caller, model, named, accept)
     if content_type.split(";")[0].strip() not in JSON_TYPES:
         raise Problem(415, "body_type_unsupported", "Send the body as application/json or multipart/form-data.")
-    asked = await run_sync(_validated, model, await read_json(request))
-    require_priority(caller, asked.priority)
-    return await run_sync(accept, asked, {})
+    requested = await run_sync(_validated, model, await read_json(request))
+    require_priority(caller, requested.priority)
+    return await run_sync(accept, requested, {})
 
 
 async def _accepted_form(
-    request: Request, context: Context, caller: Caller, model: type[Asked], named: str, accept: Accept[Asked]
+    request: Request, context: Context, caller: Caller, model: type[Requested], named: str, accept: Accept[Requested]
 ) -> tuple[Job, bool]:
     texts = (named, *JSON_PARTS, *TEXT_PARTS)
     async with Form(request, context.settings, context.settings.upload_files, texts) as form:
-        asked = await run_sync(_asked, model, named, form.fields)
-        require_priority(caller, asked.priority)
+        requested = await run_sync(_requested, model, named, form.fields)
+        require_priority(caller, requested.priority)
         uploaded: dict[str, list[File]] = {}
         ids: list[str] = []
         try:
@@ -87,13 +87,13 @@ async def _accepted_form(
                 file = await run_sync(files.keep, context, caller.owner, received)
                 uploaded.setdefault(received.part, []).append(file)
                 ids.append(file.id)
-            return await run_sync(accept, asked, uploaded)
+            return await run_sync(accept, requested, uploaded)
         finally:
             # Those that no job uses: the job was refused, or an earlier request had made it.
             await run_sync(files.erase_unused, context, ids)
 
 
-def _asked(model: type[Asked], named: str, fields: Mapping[str, str]) -> Asked:
+def _requested(model: type[Requested], named: str, fields: Mapping[str, str]) -> Requested:
     """What the texts of a form ask for. Raises a 422 problem."""
     parts: tuple[str, ...] = (named, *JSON_PARTS)
     document: dict[str, Any] = {name: parse_json(fields[name], name) for name in parts if name in fields}
@@ -105,7 +105,7 @@ def _asked(model: type[Asked], named: str, fields: Mapping[str, str]) -> Asked:
     return _validated(model, document)
 
 
-def _validated(model: type[Asked], document: Any) -> Asked:
+def _validated(model: type[Requested], document: Any) -> Requested:
     try:
         return model.model_validate(document)
     except ValidationError as error:

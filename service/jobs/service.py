@@ -37,30 +37,30 @@ METADATA_BYTES = 16_000
 
 
 def submit(
-    context: Context, owner: str, asked: JobIn, uploaded: Mapping[str, Sequence[File]], key: str | None
+    context: Context, owner: str, requested: JobIn, uploaded: Mapping[str, Sequence[File]], key: str | None
 ) -> tuple[Job, bool]:
     """Accept a job. Returns it, and whether an earlier request with the same key had made it.
 
     `uploaded` are files that came with the request, by input name. Raises `Problem`.
     """
-    kind = _kind(context, asked.kind)
-    _check(context, asked)
-    given: dict[str, Value] = dict(asked.inputs)
+    kind = _kind(context, requested.kind)
+    _check(context, requested)
+    given: dict[str, Value] = dict(requested.inputs)
     with context.database.read() as session:
         built_in = named(session, owner, kind, given)
-    options = _options(kind, {**asked.options, **built_in})
+    options = _options(kind, {**requested.options, **built_in})
     given |= {name: [file.id for file in came] for name, came in uploaded.items()}
     segments = choose_segments(context, owner, kind, options, given)
-    document = _document(asked)
+    document = _document(requested)
     document["uploaded"] = {name: [file.sha256 for file in came] for name, came in sorted(uploaded.items())}
 
     def make(session: Session) -> Job:
         meant, trimmed = segments()
-        job = _new_job(owner, kind, trimmed, asked.metadata)
-        _be_told(job, asked.webhook_url, asked.webhook_events)
-        job.priority = _priority(asked.priority)
+        job = _new_job(owner, kind, trimmed, requested.metadata)
+        _be_told(job, requested.webhook_url, requested.webhook_events)
+        job.priority = _priority(requested.priority)
         resolved = resolve(session, owner, kind, trimmed, meant, context.settings.allowed_networks)
-        job.inputs, job.sources, job.title = _shown(kind, given), resolved.sources, asked.title
+        job.inputs, job.sources, job.title = _shown(kind, given), resolved.sources, requested.title
         _insert(session, job, kind, resolved.file_ids)
         return job
 
@@ -71,7 +71,7 @@ def revise(
     context: Context,
     owner: str,
     job_id: str,
-    asked: RevisionIn,
+    requested: RevisionIn,
     uploaded: Mapping[str, Sequence[File]],
     key: str | None,
 ) -> tuple[Job, bool]:
@@ -84,23 +84,23 @@ def revise(
     with context.database.read() as session:
         parent = found(session, owner, job_id)
         kind = _kind(context, parent.kind)
-        _check(context, asked)
+        _check(context, requested)
         came = {name: [file.id for file in files] for name, files in uploaded.items()}
-        corrected, given = split_corrections(kind, {**asked.corrections, **came})
+        corrected, given = split_corrections(kind, {**requested.corrections, **came})
         corrected |= named(session, owner, kind, given)
     if not Status(parent.status).final:
         raise Problem(409, "job_not_finished", f"The job is {parent.status}: wait for its end, or cancel it first.")
-    wanted = {**parent.options, **asked.options, **corrected}
+    wanted = {**parent.options, **requested.options, **corrected}
     options = _options(kind, {name: value for name, value in wanted.items() if value is not None}, corrected)
-    document = {"revision_of": job_id, **_document(asked)}
+    document = {"revision_of": job_id, **_document(requested)}
     if uploaded:
         document["uploaded"] = {name: [file.sha256 for file in files] for name, files in sorted(uploaded.items())}
 
     def make(session: Session) -> Job:
         parent = held(session, owner, job_id)
-        job = _new_job(owner, kind, options, parent.notes if asked.metadata is None else asked.metadata)
-        _be_told(job, asked.webhook_url or parent.webhook_url, asked.webhook_events or parent.webhook_events)
-        job.priority = _priority(asked.priority) if asked.priority is not None else parent.priority
+        job = _new_job(owner, kind, options, parent.notes if requested.metadata is None else requested.metadata)
+        _be_told(job, requested.webhook_url or parent.webhook_url, requested.webhook_events or parent.webhook_events)
+        job.priority = _priority(requested.priority) if requested.priority is not None else parent.priority
         job.revision_of, job.tree, job.title = parent.id, parent.tree, parent.title
         resolved = resolve(session, owner, kind, options, given, context.settings.allowed_networks, parent.sources)
         job.inputs, job.sources = _shown(kind, {**parent.inputs, **given}), resolved.sources
@@ -180,10 +180,10 @@ def _priority(name: str) -> int:
     return Priority[name.upper()]
 
 
-def _document(asked: JobIn | RevisionIn) -> dict[str, Any]:
+def _document(requested: JobIn | RevisionIn) -> dict[str, Any]:
     """What a request asks for, by which it is known again. What was never said is left out, so that a request that
     came before an upgrade is the same after it."""
-    return asked.model_dump(mode="json", exclude={"priority", "title"} - asked.model_fields_set)
+    return requested.model_dump(mode="json", exclude={"priority", "title"} - requested.model_fields_set)
 
 
 def _kind(context: Context, name: str) -> Kind:
@@ -194,14 +194,14 @@ def _kind(context: Context, name: str) -> Kind:
     return kind
 
 
-def _check(context: Context, asked: JobIn | RevisionIn) -> None:
-    if asked.webhook_url is not None:
-        require_address(asked.webhook_url, context.settings.allowed_networks, "/webhook_url")
+def _check(context: Context, requested: JobIn | RevisionIn) -> None:
+    if requested.webhook_url is not None:
+        require_address(requested.webhook_url, context.settings.allowed_networks, "/webhook_url")
     try:
-        json.dumps(asked.model_dump(), ensure_ascii=False).encode()
+        json.dumps(requested.model_dump(), ensure_ascii=False).encode()
     except UnicodeEncodeError:
         raise Problem(422, "invalid_json", "The request holds half a character (a lone surrogate).") from None
-    if len(json.dumps(asked.metadata)) > METADATA_BYTES:
+    if len(json.dumps(requested.metadata)) > METADATA_BYTES:
         raise Problem(422, "metadata_too_large", f"The metadata may take {METADATA_BYTES} bytes of JSON at most.")
 
 

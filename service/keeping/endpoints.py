@@ -100,9 +100,9 @@ def _rename_and_erase(router: APIRouter, presented: Presentation[Any, Any], name
     @router.patch(
         "/{name}", response_model=named.item, responses=responses(404, 409, 422), **_about(f"rename_{noun}", says)
     )
-    def rename(name: str, asked: KeptChange, caller: Submitter, context: InContext) -> Any:
-        service.rename(context, library, caller.owner, name, asked.name)
-        return one(context, presented, caller.owner, asked.name)
+    def rename(name: str, requested: KeptChange, caller: Submitter, context: InContext) -> Any:
+        service.rename(context, library, caller.owner, name, requested.name)
+        return one(context, presented, caller.owner, requested.name)
 
     says = f"Erase one of the user's own {noun}s. Jobs that use it keep its {named.file_is} until they are deleted."
 

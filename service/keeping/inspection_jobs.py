@@ -30,8 +30,8 @@ def inspect_new(context: Context, library: Library, owner: str, name: str, file_
 
 def begin(context: Context, library: Library, owner: str, name: str, file_id: str) -> None:
     """Submit the job that inspects a kept file. Raises `Problem`."""
-    asked = JobIn(kind=library.kind, inputs={library.noun: file_id}, metadata={library.noun: name})
-    job, _ = service.submit(context, owner, asked, {}, None)
+    requested = JobIn(kind=library.kind, inputs={library.noun: file_id}, metadata={library.noun: name})
+    job, _ = service.submit(context, owner, requested, {}, None)
     with context.database.write() as session:
         there = repository.set_inspection_job(session, library, owner, name, job.id)
     if not there:  # it was deleted in the meantime

@@ -63,12 +63,12 @@ async def keep_body(request: Request, context: Context, caller: Caller, library:
     if content_type.split(";")[0].strip() not in JSON_TYPES:
         raise Problem(415, "body_type_unsupported", "Send the body as multipart/form-data or application/json.")
     try:
-        asked = KeptIn.model_validate(await read_json(request))
+        requested = KeptIn.model_validate(await read_json(request))
     except ValidationError as error:
         raise invalid(error, "invalid_request") from error
-    await run_sync(service.require_free_name, context, library, caller.owner, asked.name)
-    await run_sync(service.keep, context, library, caller.owner, asked.name, asked.file)
-    return asked.name
+    await run_sync(service.require_free_name, context, library, caller.owner, requested.name)
+    await run_sync(service.keep, context, library, caller.owner, requested.name, requested.file)
+    return requested.name
 
 
 async def _keep_form(request: Request, context: Context, owner: str, library: Library) -> str:

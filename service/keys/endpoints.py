@@ -38,10 +38,10 @@ def list_keys(caller: Admin, context: InContext) -> KeyList:
 
 
 @router.post("/keys", status_code=201, operation_id="create_key", responses=responses(422))
-def create_key(asked: KeyIn, caller: Admin, response: Response, context: InContext) -> NewKeyOut:
+def create_key(requested: KeyIn, caller: Admin, response: Response, context: InContext) -> NewKeyOut:
     """Make a key. Its token is in this answer and nowhere else."""
     with context.database.write() as session:
-        key, token = service.create(session, asked)
+        key, token = service.create(session, requested)
     response.headers["Location"] = f"/v1/keys/{key.id}"
     response.headers["Cache-Control"] = "no-store"
     return NewKeyOut(token=token, **KeyOut.of(key).model_dump())
@@ -64,10 +64,10 @@ def revoke_key(key_id: str, caller: Admin, context: InContext, erase: bool = Fal
 
 
 @router.post("/session", status_code=204, operation_id="open_session", responses=responses(401, 422))
-def open_session(asked: SessionIn, request: Request, response: Response, context: InContext) -> None:
+def open_session(requested: SessionIn, request: Request, response: Response, context: InContext) -> None:
     """Give a key once; a cookie that scripts cannot read stands for it then (for the web page)."""
     with context.database.read() as session:
-        key = repository.of_token(session, asked.key)
+        key = repository.of_token(session, requested.key)
     if key is None or not repository.usable(key, now()):
         count_wrong_key(context, request)
         raise not_known("key_unknown", "There is no such key: it was revoked, has expired, or never was.")

@@ -27,23 +27,23 @@ from service.uploads import spool
 from service.webhooks import repository as webhooks
 
 
-def create(session: Session, asked: KeyIn) -> tuple[Key, str]:
+def create(session: Session, requested: KeyIn) -> tuple[Key, str]:
     """Make a key. Returns it with its token, which cannot be had again."""
     token = new_token()
     moment = now()
     key = Key(
         id=new_id(),
-        name=asked.name,
+        name=requested.name,
         token_hash=digest(token),
         hint=token[:HINT_CHARACTERS],
-        scopes=list(asked.scopes),
+        scopes=list(requested.scopes),
         signing_secret=new_signing_secret(),
         link_secret=new_link_secret(),
-        requests_per_minute=asked.requests_per_minute,
-        jobs_at_once=asked.jobs_at_once,
-        stored_mb=asked.stored_mb,
+        requests_per_minute=requested.requests_per_minute,
+        jobs_at_once=requested.jobs_at_once,
+        stored_mb=requested.stored_mb,
         created_at=moment,
-        expires_at=None if asked.expires_in_days is None else moment + timedelta(days=asked.expires_in_days),
+        expires_at=None if requested.expires_in_days is None else moment + timedelta(days=requested.expires_in_days),
     )
     session.add(key)
     return key, token

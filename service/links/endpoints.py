@@ -37,11 +37,11 @@ FROM_ANYWHERE = {
 
 
 @router.post("/jobs/{job_id}/links", status_code=201, operation_id="create_link", responses=responses(404, 422))
-def create_link(job_id: str, asked: LinkIn, caller: Submitter, response: Response, context: InContext) -> LinkOut:
+def create_link(job_id: str, requested: LinkIn, caller: Submitter, response: Response, context: InContext) -> LinkOut:
     """Make the results of a job public, under an address that cannot be guessed, for a while or until it is revoked."""
     moment, token = now(), secrets.token_urlsafe(24)
-    hours = asked.expires_in_hours
-    if "expires_in_hours" not in asked.model_fields_set:
+    hours = requested.expires_in_hours
+    if "expires_in_hours" not in requested.model_fields_set:
         hours = context.settings.public_link_hours or None
     link = PublicLink(
         id=new_id(),
@@ -49,7 +49,7 @@ def create_link(job_id: str, asked: LinkIn, caller: Submitter, response: Respons
         hint=token[:HINT_CHARACTERS],
         owner=caller.owner,
         job_id=job_id,
-        names=asked.artifacts,
+        names=requested.artifacts,
         created_at=moment,
         expires_at=None if hours is None else moment + timedelta(hours=hours),
     )

@@ -149,8 +149,8 @@ def asks(body: bool | None = None) -> dict[str, Any]:
     """What a request must bring, for the OpenAPI document: the version, and a piece (`body`) or perhaps one (False)."""
     version = {"type": "string", "enum": [VERSION]}
     parameter = {"name": "Tus-Resumable", "in": "header", "required": True, "schema": version}
-    asked: dict[str, Any] = {"parameters": [parameter | {"description": "The protocol's version."}]}
+    needed: dict[str, Any] = {"parameters": [parameter | {"description": "The protocol's version."}]}
     if body is not None:
         content = {PIECE: {"schema": {"type": "string", "format": "binary"}}}
-        asked["requestBody"] = {"content": content, "required": body}
-    return asked
+        needed["requestBody"] = {"content": content, "required": body}
+    return needed

@@ -29,12 +29,10 @@ class Hold:
     def __init__(self) -> None:
         self.interruptible = anyio.CancelScope()
         """What the request does in here can be broken off at any moment."""
-        self.asked = False
         self.released = anyio.Event()
 
     def let_go(self) -> None:
         """Ask the request to come to an end."""
-        self.asked = True
         self.interruptible.cancel()
 
 

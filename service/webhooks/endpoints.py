@@ -42,10 +42,10 @@ def list_webhooks(caller: Reader, context: InContext) -> WebhookList:
 
 
 @router.post("", status_code=201, operation_id="create_webhook", responses=responses(409, 422))
-def create_webhook(asked: WebhookIn, caller: Submitter, response: Response, context: InContext) -> NewWebhookOut:
+def create_webhook(requested: WebhookIn, caller: Submitter, response: Response, context: InContext) -> NewWebhookOut:
     """Have an address told of jobs. The answer carries the secret that signs the messages."""
     with context.database.write() as session:
-        webhook = service.create(session, caller.owner, asked, context.settings.allowed_networks)
+        webhook = service.create(session, caller.owner, requested, context.settings.allowed_networks)
     response.headers["Location"] = f"/v1/webhooks/{webhook.id}"
     response.headers["Cache-Control"] = "no-store"
     return NewWebhookOut(secret=webhook.secret.reveal(), **WebhookOut.of(webhook).model_dump())
@@ -110,11 +110,11 @@ def get_webhook(webhook_id: str, caller: Reader, context: InContext) -> WebhookO
 
 
 @router.patch("/{webhook_id:id}", operation_id="change_webhook", responses=responses(404, 422))
-def change_webhook(webhook_id: str, asked: WebhookChange, caller: Submitter, context: InContext) -> WebhookOut:
+def change_webhook(webhook_id: str, requested: WebhookChange, caller: Submitter, context: InContext) -> WebhookOut:
     """Change an endpoint; enabling it again takes up what was still to be delivered."""
     with context.database.write() as session:
         return WebhookOut.of(
-            service.change(session, caller.owner, webhook_id, asked, context.settings.allowed_networks)
+            service.change(session, caller.owner, webhook_id, requested, context.settings.allowed_networks)
         )
 
 
@@ -136,11 +136,11 @@ def get_webhook_secret(webhook_id: str, caller: Submitter, response: Response, c
 
 @router.post("/{webhook_id:id}/secret/rotate", operation_id="rotate_webhook_secret", responses=responses(404, 422))
 def rotate_webhook_secret(
-    webhook_id: str, caller: Submitter, response: Response, context: InContext, asked: RotationIn | None = None
+    webhook_id: str, caller: Submitter, response: Response, context: InContext, requested: RotationIn | None = None
 ) -> SecretOut:
     """Give an endpoint a new secret. For a while, messages carry a signature by each of the two."""
     response.headers["Cache-Control"] = "no-store"
-    overlap = timedelta(hours=(asked or RotationIn()).overlap_hours)
+    overlap = timedelta(hours=(requested or RotationIn()).overlap_hours)
     with context.database.write() as session:
         return SecretOut.of(service.rotate(session, caller.owner, webhook_id, overlap), now())
 

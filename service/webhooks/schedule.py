@@ -31,7 +31,7 @@ PROGRESS_RETRIES = 2
 FAILING_DAYS, FAILING_DELIVERIES = 5, 3
 
 
-def pause(event: str, tries: int, asked: timedelta | None, chance: Random) -> timedelta | None:
+def pause(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:
     """How long to wait after an attempt that was the `tries`-th to fail (from 1); None if it was the last.
 
     `asked` is what the receiver asked for by `Retry-After`: it may make the pause longer, up to a day.
@@ -40,7 +40,7 @@ def pause(event: str, tries: int, asked: timedelta | None, chance: Random) -> ti
     if tries > len(retries):
         return None
     planned = retries[tries - 1] * (1 + JITTER * chance.random())
-    return planned if asked is None else max(planned, min(asked, RETRIES[-1]))
+    return planned if retry_after is None else max(planned, min(retry_after, RETRIES[-1]))
 
 
 def is_lost(webhook: Webhook, moment: datetime) -> bool:

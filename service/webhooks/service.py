@@ -30,19 +30,19 @@ def require_address(url: str, allowed: Sequence[Network], pointer: str = "/url")
         raise Problem(422, "webhook_url_refused", str(refused), [error]) from refused
 
 
-def create(session: Session, owner: str, asked: WebhookIn, allowed: Sequence[Network]) -> Webhook:
+def create(session: Session, owner: str, requested: WebhookIn, allowed: Sequence[Network]) -> Webhook:
     """Make an endpoint. Raises `Problem`."""
-    require_address(asked.url, allowed)
+    require_address(requested.url, allowed)
     keys.get_locked(session, owner)  # so that two requests at the same moment cannot both be the last
     if repository.count(session, owner) >= MAX_ENDPOINTS:
         raise Problem(409, "too_many_webhooks", f"There may be {MAX_ENDPOINTS} endpoints: delete one of them first.")
     webhook = Webhook(
         id=new_id(),
         owner=owner,
-        url=asked.url,
-        events=list(asked.events),
-        description=asked.description,
-        enabled=asked.enabled,
+        url=requested.url,
+        events=list(requested.events),
+        description=requested.description,
+        enabled=requested.enabled,
         secret=new_signing_secret(),
         given_up=0,
         created_at=now(),
@@ -51,19 +51,21 @@ def create(session: Session, owner: str, asked: WebhookIn, allowed: Sequence[Net
     return webhook
 
 
-def change(session: Session, owner: str, webhook_id: str, asked: WebhookChange, allowed: Sequence[Network]) -> Webhook:
+def change(
+    session: Session, owner: str, webhook_id: str, requested: WebhookChange, allowed: Sequence[Network]
+) -> Webhook:
     """Change an endpoint. Raises `Problem`."""
     webhook = found(session, owner, webhook_id)
-    if asked.url is not None:
-        require_address(asked.url, allowed)
-        webhook.url = asked.url
-    if asked.events is not None:
-        webhook.events = list(asked.events)
-    if asked.description is not None:
-        webhook.description = asked.description
-    if asked.enabled is not None and asked.enabled != webhook.enabled:
-        webhook.enabled, webhook.disabled_code = asked.enabled, None
-        webhook.disabled_at = None if asked.enabled else now()
+    if requested.url is not None:
+        require_address(requested.url, allowed)
+        webhook.url = requested.url
+    if requested.events is not None:
+        webhook.events = list(requested.events)
+    if requested.description is not None:
+        webhook.description = requested.description
+    if requested.enabled is not None and requested.enabled != webhook.enabled:
+        webhook.enabled, webhook.disabled_code = requested.enabled, None
+        webhook.disabled_at = None if requested.enabled else now()
         webhook.failing_since, webhook.given_up = None, 0  # it gets a fresh chance
     return webhook
 

@@ -40,8 +40,8 @@ def choose_states(options: PortraitOptions, driver: Path | None) -> tuple[State,
     Raises `InputError` `performance_not_installed`.
     """
     there = {one.name: one for one in catalogue() if _installed(one.name)}
-    asked = options.reactive if isinstance(options.reactive, tuple) else default_states(tuple(there.values()))
-    names = tuple(dict.fromkeys((IDLE, *asked)))
+    requested = options.reactive if isinstance(options.reactive, tuple) else default_states(tuple(there.values()))
+    names = tuple(dict.fromkeys((IDLE, *requested)))
     if missing := [name for name in names if name not in there]:
         offered = ", ".join(there)
         raise InputError(
