@@ -4,8 +4,8 @@ Two kinds of truth. By construction: the built-in performances, joined in random
 their names say, and those of waiting hold no emotion. By eye: `moments.json` says what the real clips of the test
 media hold (`must`), and what one may see in them or not (`may`: neither right nor wrong).
 
-A portion is right where its height lies in a stretch of the same state, or where both share 0.3 of what they cover
-together. A stretch is found where a portion is right of it.
+A segment is right where its height lies in a stretch of the same state, or where both share 0.3 of what they cover
+together. A stretch is found where a segment is right of it.
 
 The thresholds were set with these performances and these clips in view: the figures say how well they are told apart,
 not how it will go with every stranger. So the real clips are judged altered too: mirrored and small, tilted and dark.
@@ -87,7 +87,7 @@ ALTERATIONS = {"as they are": None, "mirrored and small": mirrored_and_small, "t
 
 
 def is_right(moment: Moment, stretch: Stretch) -> bool:
-    """Whether a portion tells of a stretch."""
+    """Whether a segment tells of a stretch."""
     if moment.state != stretch.state:
         return False
     common = min(moment.end, stretch.end) - max(moment.start, stretch.start)
@@ -97,7 +97,7 @@ def is_right(moment: Moment, stretch: Stretch) -> bool:
 
 @dataclass
 class Tally:
-    """Portions that are right and wrong, stretches that are found and missed."""
+    """Segments that are right and wrong, stretches that are found and missed."""
 
     right: int = 0
     wrong: int = 0

@@ -24,8 +24,8 @@ from engine.performances import STATES
 from engine.portrait.moments import find_moments
 from engine.portrait.moments.gestures import swings
 from engine.portrait.moments.pipeline import Moment, work
-from engine.portrait.moments.portions import BEARABLE, Portion, find_portions
 from engine.portrait.moments.rest import own_rest, unrest
+from engine.portrait.moments.segments import MAX_UNREST, Segment, find_segments
 from engine.portrait.moments.watching import FPS, watch
 from engine.run import Run
 
@@ -58,7 +58,7 @@ def test_everything_that_was_joined_is_found_and_nothing_else(
     assert is_right(best, strong) and best.apex > strong.start, "the clearer one comes first"
 
 
-def test_portions_begin_and_end_at_rest_and_do_not_overlap(
+def test_segments_begin_and_end_at_rest_and_do_not_overlap(
     joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
 ) -> None:
     watched = watch(joined[0], Limits())
@@ -190,9 +190,9 @@ def film(acting: Callable[[Mesh, float], Mesh], seconds: float, height: float = 
     return meshes + noise * np.random.default_rng(5).normal(size=meshes.shape)
 
 
-def told(meshes: Mesh) -> list[Portion]:
+def told(meshes: Mesh) -> list[Segment]:
     values = measure(meshes)
-    return find_portions(values, np.ones(len(values), bool), own_rest(values), FPS)
+    return find_segments(values, np.ones(len(values), bool), own_rest(values), FPS)
 
 
 ACTED = {"happy": smile, "surprise": startle, "anger": frown, "sadness": mourn, "fear": dread, "wink": wink}
@@ -248,14 +248,14 @@ def test_rest_is_what_the_face_comes_back_to_though_it_smiles_for_longer() -> No
     assert unrest((values - own_rest(values))[: len(quiet)]).max() <= 1
 
 
-def test_a_portion_ends_where_the_face_is_lost() -> None:
+def test_a_segment_ends_where_the_face_is_lost() -> None:
     values = measure(film(smile, 1.5, height=1.4))
     seen = np.ones(len(values), bool)
     seen[int(3.9 * FPS) : int(4.3 * FPS)] = False
-    (found,) = (one for one in find_portions(values, seen, own_rest(values), FPS) if one.state == "happy")
+    (found,) = (one for one in find_segments(values, seen, own_rest(values), FPS) if one.state == "happy")
     assert seen[found.first : found.last + 1].all()
     seen[int(2.9 * FPS) : int(4.3 * FPS)] = False
-    assert [one.state for one in find_portions(values, seen, own_rest(values), FPS) if one.state == "happy"] == []
+    assert [one.state for one in find_segments(values, seen, own_rest(values), FPS) if one.state == "happy"] == []
 
 
 def test_swings_of_a_known_curve() -> None:
@@ -265,6 +265,6 @@ def test_swings_of_a_known_curve() -> None:
     assert 9 <= to.first <= 10 and to.last in (14, 15) and 15 <= fro.first <= 16 and 23 <= fro.last <= 25
 
 
-def test_a_portion_may_end_less_calmly_at_a_lower_score() -> None:
-    calm, uneasy = (Portion("happy", 0, 20, 9, 2.0, rests) for rests in (0.4, BEARABLE))
-    assert calm.score == 1 and uneasy.score == pytest.approx(1 / BEARABLE)
+def test_a_segment_may_end_less_calmly_at_a_lower_score() -> None:
+    calm, uneasy = (Segment("happy", 0, 20, 9, 2.0, rests) for rests in (0.4, MAX_UNREST))
+    assert calm.score == 1 and uneasy.score == pytest.approx(1 / MAX_UNREST)

@@ -1,11 +1,11 @@
-"""The moments of one's own driver: which portions of a long video hold which emotion or gesture.
+"""The moments of one's own driver: which segments of a long video hold which emotion or gesture.
 
 from engine.portrait.moments import find_moments
 for moment in find_moments("me.mp4").moments:
     print(moment.name, moment.start, moment.end)
 
 Reading order: `watching` (a face measured frame by frame), `rest` (against itself at rest),
-`perception.expression.prototypes` and `gestures` (what shows), `portions` (from where to where), `pipeline` (names,
+`perception.expression.prototypes` and `gestures` (what shows), `segments` (from where to where), `pipeline` (names,
 pictures, the document).
 """
 
@@ -50,7 +50,7 @@ KIND = Kind(
 
 
 def find_moments(path: str | Path, limits: Limits | None = None) -> Moments:
-    """The portions of a video that hold emotions and gestures.
+    """The segments of a video that hold emotions and gestures.
 
     Raises
     ------

@@ -39,21 +39,21 @@ RHYTHMS: Mapping[State, Rhythm] = {
 that listen or look about move by less or more slowly (idle performances, clips of `benchmarks/moments`). A mouth that
 talks opens and shuts by a twentieth of the eyes' distance, five ways or more without a longer pause."""
 
-SHOUT = 0.38
+MAX_TALKING_OPENING = 0.38
 """Eye distances by which a mouth that talks opens at most, but for a tenth of the time: beyond, it makes faces (the
 clips' talkers open theirs by 0.25 to 0.33, the one who makes faces by 0.53)."""
 
-MUTE = 0.09
+MAX_SILENT_OPENING = 0.09
 """Eye distances by which the mouth may move during a nod or shake: a head that speaks along is no clear gesture."""
 
-CLEARLY = 0.8
+MIN_CLARITY = 0.8
 """How large most ways of a gesture are at least, against a clear one."""
 
-ALONE = 1.2
+MIN_AXIS_RATIO = 1.2
 """By how many times a nodding head's pitch moves more than its yaw, and a shaking one's yaw more than its pitch."""
 
 
-RESTS = 0.15
+REST_SHARE = 0.15
 """The share of a way at either end that counts as resting there already."""
 
 
@@ -70,7 +70,7 @@ class Gesture:
 
 def gestures(values: NDArray[np.floating], fps: float) -> list[Gesture]:
     """All gestures in the measures (N, 12) of consecutive frames."""
-    found = [one for state in RHYTHMS for one in _one_kind(state, values, fps) if one.clearly >= CLEARLY]
+    found = [one for state in RHYTHMS for one in _one_kind(state, values, fps) if one.clearly >= MIN_CLARITY]
     return [one for one in found if _alone(one, values)]
 
 
@@ -89,8 +89,8 @@ def swings(curve: NDArray[np.floating], least: float) -> list[Swing]:
     found = []
     for begin, end in pairwise(points):
         way = np.abs(curve[begin : end + 1] - curve[begin]) / abs(curve[end] - curve[begin])
-        last = begin + int(np.argmax(way >= 1 - RESTS))
-        first = begin + int(np.flatnonzero(way[: last - begin + 1] <= RESTS)[-1])
+        last = begin + int(np.argmax(way >= 1 - REST_SHARE))
+        first = begin + int(np.flatnonzero(way[: last - begin + 1] <= REST_SHARE)[-1])
         found.append(Swing(first, last, float(abs(curve[end] - curve[begin]))))
     return found
 
@@ -124,7 +124,7 @@ def _one_kind(state: State, values: NDArray[np.floating], fps: float) -> list[Ge
     for one in swings(curve, rhythm.swing):
         if runs[-1] and one.first - runs[-1][-1].last > pause:
             runs.append([])
-        speaks = state != "talk" and np.ptp(mouth[one.first : one.last + 1]) > MUTE
+        speaks = state != "talk" and np.ptp(mouth[one.first : one.last + 1]) > MAX_SILENT_OPENING
         if one.last - one.first <= longest and not speaks:
             runs[-1].append(one)
         else:
@@ -144,8 +144,8 @@ def _alone(one: Gesture, values: NDArray[np.floating]) -> bool:
     of = dict(zip(MEASURES, values[one.first : one.last + 1].T, strict=True))
     way = {name: float(np.abs(np.diff(of[name])).sum()) for name in ("yaw", "pitch", "roll")}
     if one.state == "talk":
-        return float(np.quantile(of["mouth_open"], 0.9) - of["mouth_open"].min()) <= SHOUT
-    if np.ptp(of["mouth_open"]) > MUTE:
+        return float(np.quantile(of["mouth_open"], 0.9) - of["mouth_open"].min()) <= MAX_TALKING_OPENING
+    if np.ptp(of["mouth_open"]) > MAX_SILENT_OPENING:
         return False
     own = way.pop(RHYTHMS[one.state].measure)
-    return own >= ALONE * max(way.values())
+    return own >= MIN_AXIS_RATIO * max(way.values())

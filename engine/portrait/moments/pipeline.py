@@ -1,4 +1,4 @@
-"""The moments of a driving video, stage by stage: watch it, find the portions, take a picture of each."""
+"""The moments of a driving video, stage by stage: watch it, find the segments, take a picture of each."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from engine.media.video import read_video
 from engine.perception.expression.measures import SPREAD
 from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
-from engine.portrait.moments.portions import Portion, find_portions
 from engine.portrait.moments.rest import own_rest
+from engine.portrait.moments.segments import Segment, find_segments
 from engine.portrait.moments.watching import FPS, LONGEST_SIDE, Watched, watch
 from engine.run import Run, write_report
 
 STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
 """The stages and their usual share of the time."""
 
-AROUND = 0.35
+POSTER_MARGIN_SHARE = 0.35
 """How much of the face's height a picture shows around it on every side."""
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A portion of a video that holds a state.
+    """A segment of a video that holds a state.
 
     name : the state's, with a number from the second best on. start, end, apex : seconds from the video's beginning;
     the face is at rest at `start` and `end`, and the state at its height at `apex`. score : how sure it is, in [0, 1].
@@ -89,9 +89,9 @@ def moments_of(watched: Watched) -> Moments:
     """The moments of a video that was watched."""
     rest = own_rest(watched.values[watched.found])
     apart = np.linalg.norm((watched.values - rest) / SPREAD, axis=1)
-    portions = find_portions(watched.values, watched.found, rest, FPS)
+    segments = find_segments(watched.values, watched.found, rest, FPS)
     at_rest = int(np.argmin(np.where(watched.found, apart, np.inf)))
-    return Moments(at_rest / FPS, tuple(_named(portions, watched.seconds)))
+    return Moments(at_rest / FPS, tuple(_named(segments, watched.seconds)))
 
 
 def write_moments(path: Path, moments: Moments, watched: Watched) -> None:
@@ -108,7 +108,7 @@ def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArra
     frame = next(iter(read_video(path, fps=FPS, trim=span, limits=limits, longest_side=LONGEST_SIDE))).rgb
     left, top, right, bottom = watched.boxes[place]
     half = (np.array(frame.shape[1::-1]) - 1) / 2
-    reach = min((0.5 + AROUND) * max(right - left, bottom - top), *half)
+    reach = min((0.5 + POSTER_MARGIN_SHARE) * max(right - left, bottom - top), *half)
     centre = np.clip([(left + right) / 2, (top + bottom) / 2], reach, 2 * half - reach)
     scale = POSTER_SIDE / (2 * reach)
     shift = (POSTER_SIDE - 1) / 2 - scale * centre
@@ -119,9 +119,9 @@ def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArra
     return np.asarray(drawn, np.uint8)
 
 
-def _named(portions: list[Portion], seconds: float) -> list[Moment]:
+def _named(segments: list[Segment], seconds: float) -> list[Moment]:
     named: list[Moment] = []
-    for one in portions:
+    for one in segments:
         number = 1 + sum(other.state == one.state for other in named)
         named.append(
             Moment(

@@ -14,7 +14,7 @@ UNLIKE_REST_WEIGHT = 0.3
 LOWERED_LIDS_WEIGHT = 2.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
-NEIGHBOURS = 0.04
+NEIGHBOUR_SHARE = 0.04
 """The share of the frames that are compared with each: rest is what a face comes back to again and again."""
 
 MIN_NEIGHBOURS = 5
@@ -28,12 +28,12 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     The frame among whose nearest neighbours it is closest, and which is not unlike a resting face at all: so a smile
     that lasts through half of a clip is not taken for rest, where the other half is quiet.
 
-    It is a habit: a portion ends where the face has come back to what it comes back to, be that a little amused. A calm face
-    that is seen in fewer than `NEIGHBOURS` of the frames is an exception. `neutral.probable_rest` looks for that one, however
+    It is a habit: a segment ends where the face has come back to what it comes back to, be that a little amused. A calm face
+    that is seen in fewer than `NEIGHBOUR_SHARE` of the frames is an exception. `neutral.probable_rest` looks for that one, however
     rare: in this place it finds two more of 80 joined performances, one wrongly, and misses a smile in the real clips
     (`benchmarks/moments`).
     """
-    neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOURS * len(values))), len(values) - 1)
+    neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOUR_SHARE * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
     unlike = np.sqrt(np.mean(((values - general_rest()) / USUAL)[:, FACE] ** 2, axis=1))
     blinking = lowered(values, np.quantile(values[:, LIDS], 0.7, axis=0))

@@ -21,7 +21,7 @@ FPS = 12.0
 LONGEST_SIDE = 640
 """Pixels of the frames that are looked at."""
 
-BLOCK = 120
+BLOCK_FRAMES = 120
 """Meshes that are kept until they are measured, ten seconds: memory stays flat in the length of the video."""
 
 
@@ -67,7 +67,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             found.append(mesh is not None)
             if mesh is not None:
                 block.append(mesh)
-            if len(block) == BLOCK:
+            if len(block) == BLOCK_FRAMES:
                 measure_block()
     measure_block()
     if sum(found) < FPS:

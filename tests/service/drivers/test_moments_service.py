@@ -127,7 +127,7 @@ def test_what_was_found_goes_with_a_driver_to_its_new_name(
     assert searching.client.patch("/v1/drivers/myself", json={"name": "me"}).json() == mine
 
 
-def test_a_job_of_a_portion_is_the_same_when_it_is_sent_again_after_the_driver_was_erased(
+def test_a_job_of_a_segment_is_the_same_when_it_is_sent_again_after_the_driver_was_erased(
     searching: Running, clip: tuple[bytes, list[Stretch]], picture: bytes
 ) -> None:
     create(searching, "brief", clip[0])
