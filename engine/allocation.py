@@ -6,7 +6,7 @@ import ctypes
 
 TRIM_THRESHOLD, MMAP_THRESHOLD, ARENA_MAX = -1, -3, -8
 """What `mallopt` of the GNU C library calls M_...; other libraries have none, or do nothing."""
-MOST_MAPPED = 32 << 20
+MAX_MMAP_BYTES = 32 << 20
 """Bytes from which an array is given back at once; the library allows no more."""
 
 
@@ -16,7 +16,7 @@ def keep_memory() -> None:
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     if mallopt is not None:
         mallopt(ARENA_MAX, 1)
-        mallopt(MMAP_THRESHOLD, MOST_MAPPED)
+        mallopt(MMAP_THRESHOLD, MAX_MMAP_BYTES)
         mallopt(TRIM_THRESHOLD, 1 << 30)
 
 

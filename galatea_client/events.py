@@ -18,7 +18,7 @@ from galatea_client.transport import Transport
 PAUSE_SECONDS = 1.0
 SILENCE_SECONDS = 60.0
 """The service sends a sign of life every 15 s: a line that is silent for this long is broken."""
-LEAST_SECONDS = 1.0
+MIN_ANSWER_SECONDS = 1.0
 """For an answer to begin, however little time is left."""
 
 
@@ -78,7 +78,7 @@ async def follow(transport: Transport, job_id: str, after: int = 0, deadline: fl
 
 async def _once(transport: Transport, job_id: str, after: int, deadline: float) -> AsyncGenerator[Event]:
     headers = {"Accept": "text/event-stream", **({"Last-Event-ID": str(after)} if after else {})}
-    left = max(deadline - time.monotonic(), LEAST_SECONDS)
+    left = max(deadline - time.monotonic(), MIN_ANSWER_SECONDS)
     timeout = httpx.Timeout(30.0, read=min(left, SILENCE_SECONDS))
     async with transport.stream("follow_job", path={"job_id": job_id}, headers=headers, timeout=timeout) as response:
         if response.status_code == 204:

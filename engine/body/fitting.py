@@ -48,7 +48,7 @@ CROSSING_DEPTH, CROSSING_SIGMA = 0.09, 0.01
 """Metres by which the middle of one forearm is before that of another that it crosses, at least, and how far it may be off that."""
 CONTOUR_ROUNDS, STEPS_PER_ROUND = 4, 4
 """How often contours are matched anew, and the most steps of the search each time."""
-NEAREST = 0.1
+MIN_DEPTH = 0.1
 """Metres from a camera at which bodies end: a search may lead through it."""
 
 
@@ -151,7 +151,7 @@ def _fit(
 
 def _project(points: NDArray[np.float64], camera: Camera) -> NDArray[np.float64]:
     """(..., 3) metres to (..., 2) pixels."""
-    return camera.project(points, np.float64, NEAREST)[..., :2]
+    return camera.project(points, np.float64, MIN_DEPTH)[..., :2]
 
 
 def _seen_from(camera: Camera, vectors: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -19,7 +19,7 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import vertex_normals
 from engine.render.character import Drawn
 
-NEAR, FAR = 0.05, 100.0
+NEAR_PLANE, FAR_PLANE = 0.05, 100.0
 """Metres from the camera between which things are seen."""
 
 PLATFORMS = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6")}
@@ -89,8 +89,8 @@ class LitPreview:
             camera.focal * camera.aspect,
             camera.centre[0] + 0.5,  # OpenGL's pixels have their centres at halves
             camera.centre[1] + 0.5,
-            znear=NEAR,
-            zfar=FAR,
+            znear=NEAR_PLANE,
+            zfar=FAR_PLANE,
         )
         scene.add(lens, pose=view)
         middle = posed.mean(0)

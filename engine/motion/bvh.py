@@ -33,10 +33,10 @@ CHANNELS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") f
 UNITS = {"metre": 1.0, "foot": 0.3048, "decimetre": 0.1, "CMU unit": 0.0254 / 0.45, "inch": 0.0254, "centimetre": 0.01}
 UNITS["millimetre"] = 0.001
 
-MAX_HIERARCHY = 1 << 20
+MAX_HIERARCHY_CHARACTERS = 1 << 20
 """Characters: 512 joints need a tenth of it."""
 
-HUGE = 1e7
+MAX_MAGNITUDE = 1e7
 """No number of a BVH file is larger: ten kilometres in millimetres."""
 
 _MOTION = re.compile(
@@ -57,7 +57,7 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
         BVH does not know), `motion_too_large`, `motion_not_finite`.
     """
     text = _read_text(source)
-    found = _MOTION.search(text, 0, MAX_HIERARCHY)
+    found = _MOTION.search(text, 0, MAX_HIERARCHY_CHARACTERS)
     if found is None:
         _refuse_text(text)
     assert found is not None
@@ -71,7 +71,7 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
     ends[parents[parents >= 0]] = np.nan
     values = _read_frames(text[found.end() :], frames, len(channels))
     rotations, translations = _to_local(values, channels, offsets)
-    if not all((np.abs(numbers) < HUGE).all() for numbers in (values, offsets)):  # false for NaN as well
+    if not all((np.abs(numbers) < MAX_MAGNITUDE).all() for numbers in (values, offsets)):  # false for NaN as well
         raise InputError("motion_not_finite", "The BVH file holds numbers that are not finite: export it again.")
     unit, metres = guess_unit(parents, offsets, ends)
     return SourceMotion(
@@ -146,8 +146,8 @@ def _read_text(source: Path | bytes) -> str:
 
 
 def _refuse_text(text: str) -> None:
-    if len(text) > MAX_HIERARCHY and not re.search(
-        r"^[^\S\n]*+(?:MOTION|Frames)\b", text[:MAX_HIERARCHY], re.MULTILINE | re.IGNORECASE
+    if len(text) > MAX_HIERARCHY_CHARACTERS and not re.search(
+        r"^[^\S\n]*+(?:MOTION|Frames)\b", text[:MAX_HIERARCHY_CHARACTERS], re.MULTILINE | re.IGNORECASE
     ):
         raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
     raise InputError("motion_truncated", "The BVH file ends before its frames begin: export or upload it again.")

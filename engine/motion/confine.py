@@ -22,11 +22,13 @@ from engine.motion.sole import soles
 
 Array = NDArray[np.float64]
 
-FREE = 0.5
+FREE_SHARE = 0.5
 """The share of the room in which places stay where they are."""
-TURNING = 0.5
+
+TURNING_METRES = 0.5
 """Metres of travel within which somebody with no room at all ahead comes back."""
-FORGOTTEN = 0.6
+
+STANCE_METRES = 0.6
 """Metres of travel after which a foot goes where the other goes, however far apart they stood at the beginning."""
 
 
@@ -56,7 +58,7 @@ def confined(skeleton: Skeleton, clip: Clip, room: Room, leap: float = 1.0) -> C
         joint = places[:, ankle] + rotation.rotate(turns, sole.toe)
         there = begin + _drawn(joint - begin, room)
         own = np.linalg.norm((joint - joint[0])[:, [0, 2]], axis=1)
-        there = there + (joint[0] - there[0]) * _fading(own / FORGOTTEN)[:, None]
+        there = there + (joint[0] - there[0]) * _fading(own / STANCE_METRES)[:, None]
         moved = max(moved, float(np.abs(there - joint).max()))
         held = HeldFoot(turns, toes, there - rotation.rotate(turns, sole.toe) - sunk, np.ones(len(root)))
         feet.append((sole, held))
@@ -83,10 +85,10 @@ def _drawn(way: Array, room: Room) -> Array:
 def _saturated(way: Array, room: float) -> Array:
     """Where a way (F,), not below 0 where it counts, ends: itself at first, at most `room` in the end, smooth between."""
     if room <= 0:
-        return room * -np.expm1(-np.maximum(way, 0) / TURNING)
-    rest = (1 - FREE) * room
-    beyond = np.maximum(way - FREE * room, 0)
-    return np.minimum(way, FREE * room) + rest * -np.expm1(-beyond / rest)
+        return room * -np.expm1(-np.maximum(way, 0) / TURNING_METRES)
+    rest = (1 - FREE_SHARE) * room
+    beyond = np.maximum(way - FREE_SHARE * room, 0)
+    return np.minimum(way, FREE_SHARE * room) + rest * -np.expm1(-beyond / rest)
 
 
 def _fading(share: Array) -> Array:

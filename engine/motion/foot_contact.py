@@ -20,14 +20,19 @@ from engine.motion.sole import soles
 Array = NDArray[np.float64]
 Contacts = NDArray[np.bool_]
 
-LOW, STILL_LOW = 0.05, 0.08
-"""Metres, for legs of `LEG`."""
-SLOW, STILL_SLOW = 0.4, 0.7
-"""Metres a second, for legs of `LEG`."""
-LEG = 0.85
-DRIFTS = 0.06
-"""Metres, for legs of `LEG`: a foot whose ball wanders farther than this from its place, shuffles."""
-SHORTEST = 0.07
+REFERENCE_LEG = 0.85
+"""Metres of the legs for which lengths and speeds are given here: those of others are in proportion."""
+
+CONTACT_HEIGHT, RELEASE_HEIGHT = 0.05, 0.08
+"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot begins to stand, and while it goes on standing."""
+
+CONTACT_SPEED, RELEASE_SPEED = 0.4, 0.7
+"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot begins to stand, and while it goes on."""
+
+MAX_DRIFT = 0.06
+"""Metres, for legs of `REFERENCE_LEG`: a foot whose ball wanders farther than this from its place, shuffles."""
+
+MIN_CONTACT_SECONDS = 0.07
 """Seconds that a foot must stand, and seconds for which it may seem not to."""
 
 
@@ -56,14 +61,14 @@ def sole_places(skeleton: Skeleton, clip: Clip) -> Array:
     return np.stack(points, 1)
 
 
-def find_contacts(points: Array, fps: float, leg: float = LEG) -> Contacts:
+def find_contacts(points: Array, fps: float, leg: float = REFERENCE_LEG) -> Contacts:
     """(F, 2) bool: in which frames each foot stands, from `sole_places`; `leg` metres long."""
-    scale = leg / LEG
+    scale = leg / REFERENCE_LEG
     heights = points[:, :, :2, 1] / scale
     speeds = _speeds(points[:, :, :2], fps) / scale
-    begins = np.any((heights < LOW) & (speeds < SLOW), axis=-1)
-    lasts = np.any((heights < STILL_LOW) & (speeds < STILL_SLOW), axis=-1)
-    shortest = max(round(SHORTEST * fps), 1)
+    begins = np.any((heights < CONTACT_HEIGHT) & (speeds < CONTACT_SPEED), axis=-1)
+    lasts = np.any((heights < RELEASE_HEIGHT) & (speeds < RELEASE_SPEED), axis=-1)
+    shortest = max(round(MIN_CONTACT_SECONDS * fps), 1)
     contacts = np.zeros(begins.shape, bool)
     for side in range(2):
         held = _hysteresis(begins[:, side], lasts[:, side])
@@ -80,7 +85,7 @@ def floor_height(points: Array, fps: float) -> float:
     speeds = _speeds(flat, fps)
     lowest = flat[..., 1].argmin(1)
     heights = flat[frames, lowest, 1]
-    slow = speeds[frames, lowest] < SLOW
+    slow = speeds[frames, lowest] < CONTACT_SPEED
     low = heights < np.percentile(heights, 10) + 0.15
     chosen = heights[slow & low]
     return float(np.median(chosen) if len(chosen) >= max(2, 0.05 * len(heights)) else np.percentile(heights, 10))
@@ -137,12 +142,12 @@ def _without_shuffling(stands: NDArray[np.bool_], ball: Array, fps: float) -> ND
     kept = stands.copy()
     level = ball[:, [0, 2]]
     speeds = _speeds(level, fps)
-    reach, shortest = max(round(0.1 * fps), 1), max(round(SHORTEST * fps), 1)
+    reach, shortest = max(round(0.1 * fps), 1), max(round(MIN_CONTACT_SECONDS * fps), 1)
     waiting = spans(kept)
     while waiting:
         first, last = waiting.pop()
         here = level[first : last + 1]
-        if np.linalg.norm(here - np.median(here, axis=0), axis=1).max() <= DRIFTS:
+        if np.linalg.norm(here - np.median(here, axis=0), axis=1).max() <= MAX_DRIFT:
             continue
         fastest = first + int(np.argmax(speeds[first : last + 1]))
         begin, end = max(fastest - reach, first), min(fastest + reach, last)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.foot_contact import (
-    LEG,
+    REFERENCE_LEG,
     Contacts,
     FeetReport,
     find_contacts,
@@ -35,13 +35,13 @@ from engine.motion.sole import Sole, leg_length, soles
 
 Array = NDArray[np.float64]
 
-BLEND = 0.2
+BLEND_SECONDS = 0.2
 """Seconds in which a foot goes over from its own way to its place on the ground, and back."""
 
-FLAT_PITCH, FLAT_ROLL = np.radians(4), np.radians(12)
+MAX_FLAT_PITCH, MAX_FLAT_ROLL = np.radians(4), np.radians(12)
 """A standing foot tilted less than this is meant to lie flat."""
 
-PIVOTS = np.radians(15)
+MIN_PIVOT_ANGLE = np.radians(15)
 """A standing foot that turns by more is meant to turn, about its ball."""
 
 
@@ -105,8 +105,8 @@ def _level_feet(skeleton: Skeleton, clip: Clip, leg: float) -> Clip:
     for sole in soles(skeleton):
         ankle = places[:, sole.joints[2]]
         speed = np.linalg.norm(np.gradient(ankle, axis=0), axis=-1) * clip.fps if len(ankle) > 1 else np.zeros(1)
-        low = ankle[:, 1] < np.percentile(ankle[:, 1], 10) + 0.04 * leg / LEG
-        still = np.flatnonzero(low & (speed < 0.25 * leg / LEG))
+        low = ankle[:, 1] < np.percentile(ankle[:, 1], 10) + 0.04 * leg / REFERENCE_LEG
+        still = np.flatnonzero(low & (speed < 0.25 * leg / REFERENCE_LEG))
         if len(still) < 3:
             continue
         joint, toe = sole.joints[2:]
@@ -152,13 +152,13 @@ def _plant(sole: Sole, own: HeldFoot, stands: NDArray[np.bool_], fps: float) -> 
     frames = len(stands)
     yaw, tilt = _yaw_and_tilt(own.turns, sole)
     yaw = np.unwrap(yaw)
-    pitch, roll = _flattened(tilt @ sole.lateral, FLAT_PITCH), _flattened(tilt @ sole.forward, FLAT_ROLL)
+    pitch, roll = _flattened(tilt @ sole.lateral, MAX_FLAT_PITCH), _flattened(tilt @ sole.forward, MAX_FLAT_ROLL)
     turns, toes, ankle = own.turns.copy(), own.toes.copy(), own.ankle.copy()
     pieces = spans(stands)
     for first, last in pieces:
         here = slice(first, last + 1)
         heading = yaw[here]
-        if np.ptp(heading) < PIVOTS:
+        if np.ptp(heading) < MIN_PIVOT_ANGLE:
             heading = np.full(last - first + 1, np.median(heading))
         level = rotation.about("y", heading)
         tilted = pitch[here, None] * sole.lateral + roll[here, None] * sole.forward
@@ -179,9 +179,9 @@ def _flattened(angles: Array, flat: float) -> Array:
 
 
 def _blend(own: HeldFoot, planted: HeldFoot, pieces: list[tuple[int, int]], fps: float) -> HeldFoot:
-    """Between spans of standing, what was changed at their ends fades away over `BLEND` seconds."""
+    """Between spans of standing, what was changed at their ends fades away over `BLEND_SECONDS` seconds."""
     frames = len(own.ankle)
-    reach = max(round(BLEND * fps), 1)
+    reach = max(round(BLEND_SECONDS * fps), 1)
     weights, moves = np.zeros((frames, 1)), np.zeros((frames, 3))
     bends, toe_bends = np.zeros((frames, 3)), np.zeros((frames, 3))
     edges = [(-1, -1), *pieces, (frames, frames)]

@@ -16,14 +16,16 @@ from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 
-FLIP = np.radians(60)
-FASTEST = np.radians(3600)
-"""A second: people's joints stay under it, but for the inner rotation of a pitcher's arm."""
+MIN_FLIP_ANGLE = np.radians(60)
+"""A joint that turns by less from one frame to the next is not flipped."""
 
-LONGEST = 0.5
+MAX_ANGULAR_SPEED = np.radians(3600)
+"""Radians a second: people's joints stay under it, but for the inner rotation of a pitcher's arm."""
+
+MAX_FLIP_SECONDS = 0.5
 """Seconds for which a joint may be flipped over and come back: then those frames are bridged."""
 
-SOFTENED = 0.06
+SPREAD_SECONDS = 0.06
 """Seconds before and after a flip that is not taken back, over which it is spread."""
 
 
@@ -31,7 +33,7 @@ def without_flips(motion: SourceMotion) -> SourceMotion:
     """The motion with flipped joints turned evenly from the frame before to the frame after; the same motion if none
     flips."""
     steps = rotation.angle(rotation.multiply(rotation.inverse(motion.rotations[:-1]), motion.rotations[1:]))
-    flips = steps > max(FLIP, float(FASTEST / motion.fps))
+    flips = steps > max(MIN_FLIP_ANGLE, float(MAX_ANGULAR_SPEED / motion.fps))
     if not flips.any():
         return motion
     rotations = motion.rotations.copy()
@@ -50,11 +52,11 @@ def _bridges(turns: Array, flips: NDArray[np.intp], fps: float) -> list[tuple[in
     while place < len(flips):
         flip = int(flips[place])
         back = int(flips[place + 1]) + 1 if place + 1 < len(flips) else -1
-        if back > 0 and back - flip <= LONGEST * fps and _apart(turns[flip], turns[back]) < np.pi / 2:
+        if back > 0 and back - flip <= MAX_FLIP_SECONDS * fps and _apart(turns[flip], turns[back]) < np.pi / 2:
             bridges.append((flip, back))
             place += 2
         else:
-            reach = max(round(SOFTENED * fps), 1)
+            reach = max(round(SPREAD_SECONDS * fps), 1)
             bridges.append((max(flip - reach, 0), min(flip + 1 + reach, len(turns) - 1)))
             place += 1
     return bridges

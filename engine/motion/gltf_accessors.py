@@ -17,10 +17,10 @@ from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS
 
 T = TypeVar("T")
 
-MOST_READ = 4 * MAX_NUMBERS
+MAX_NUMBERS_READ = 4 * MAX_NUMBERS
 """Numbers that a file may have read in all: many accessors can point to the same bytes, or to none."""
 
-MOST_ZEROS = 3 * MAX_FRAMES
+MAX_ZERO_ELEMENTS = 3 * MAX_FRAMES
 """Elements of an accessor without bytes: keys with their tangents."""
 
 TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
@@ -52,7 +52,7 @@ class Accessors:
             raise unreadable("an accessor is empty")
         as_it_lies = self._dense(part, count, width, kind)
         self._read += count * width
-        if self._read > MOST_READ:
+        if self._read > MAX_NUMBERS_READ:
             raise _too_many()
         if index not in self._found:
             self._found[index] = _finite(_fractions(self._changed(as_it_lies, part, count, width, kind), part, kind))
@@ -70,7 +70,7 @@ class Accessors:
         """The numbers in the accessor's view, or as many zeros where it has none."""
         if part.bufferView is not None:
             return self._table(part.bufferView, natural(part.byteOffset, 0), count, width, kind)
-        if count > MOST_ZEROS:
+        if count > MAX_ZERO_ELEMENTS:
             raise _too_many()
         return np.zeros((count, width), kind)
 

@@ -13,7 +13,7 @@ from typing import Any, cast
 from engine.errors import InputError
 from engine.motion.source_motion import MAX_BYTES
 
-MAX_JSON = 8 << 20
+MAX_JSON_BYTES = 8 << 20
 """Bytes of a file's JSON beside the buffers in it."""
 
 MAX_NODES = 20_000
@@ -23,9 +23,10 @@ MAX_SKIN_JOINTS = 65_536
 """Joints that all skins name, together: a character of a hundred parts names each of its joints a hundred times."""
 
 MAX_ANIMATIONS = 4096
+"""Animations of a file."""
 
 MAX_CHANNELS = 65_536
-"""Of all animations together."""
+"""Channels of all animations of a file together."""
 
 _MAGIC = b"glTF"
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
@@ -245,5 +246,5 @@ def _chunk(data: bytes, place: int, length: int) -> tuple[bytes, int, int]:
 
 
 def _require_few_parts(size: int) -> None:
-    if size > MAX_JSON:
+    if size > MAX_JSON_BYTES:
         raise InputError("motion_too_large", "The glTF file describes too many parts: export the skeleton alone.")

@@ -13,7 +13,7 @@ from engine.motion import rotation
 from engine.motion.gltf_accessors import Accessors
 from engine.motion.gltf_file import GltfFile, unreadable
 from engine.motion.gltf_skeleton import (
-    FEWEST_JOINTS,
+    MIN_JOINTS,
     NodeTree,
     at_rest,
     bind_pose,
@@ -23,7 +23,7 @@ from engine.motion.gltf_skeleton import (
 )
 from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
 
-USUAL_FPS = 30.0
+DEFAULT_FPS = 30.0
 """For clips whose keys are sparse."""
 
 INTERPOLATIONS = (None, "LINEAR", "STEP", "CUBICSPLINE")
@@ -68,7 +68,7 @@ def read_gltf_motion(source: Path | bytes, clip: str | None = None, name: str = 
     animations = list(file.parts.animations or [])
     if not animations:
         raise InputError("motion_without_animation", "The glTF file has no animation: export it with one.")
-    if not skinned and max(len(_turned(animation)) for animation in animations) < FEWEST_JOINTS:
+    if not skinned and max(len(_turned(animation)) for animation in animations) < MIN_JOINTS:
         raise InputError("motion_without_skeleton", "The glTF file has no skeleton: export a character with its bones.")
     names = _clip_names(file)
     if clip is not None and clip not in names:
@@ -206,7 +206,7 @@ def _sampling(tracks: list[tuple[int, _Track]], joints: int) -> tuple[float, Arr
     dense = max((track.times for _, track in tracks), key=len)
     steps = np.diff(dense)
     step = float(np.median(steps[steps > 0])) if (steps > 0).any() else 1.0
-    fps = 1 / step if 1 / 240 <= step <= 1 / 20 else USUAL_FPS
+    fps = 1 / step if 1 / 240 <= step <= 1 / 20 else DEFAULT_FPS
     fps = round(fps) if abs(fps - round(fps)) < 0.05 else fps
     count = int(np.floor((last - first) * fps + 1e-3)) + 1
     if count > MAX_FRAMES or count * joints * 3 > MAX_NUMBERS:

@@ -15,7 +15,7 @@ from engine.motion.gltf_accessors import Accessors
 from engine.motion.gltf_file import GltfFile, unreadable
 from engine.motion.source_motion import MAX_JOINTS, Array, place
 
-FEWEST_JOINTS = 10
+MIN_JOINTS = 10
 """What has fewer is no skeleton of a person: hips, limbs, head."""
 
 
@@ -72,10 +72,10 @@ def find_skeletons(tree: NodeTree, joints: Collection[int], turned: Collection[i
     waiting, found = [[node for node in tree.order if tree.parents[node] < 0]], []
     while waiting:
         branches = level = waiting.pop()
-        large = [node for node in level if count[node] >= FEWEST_JOINTS]
+        large = [node for node in level if count[node] >= MIN_JOINTS]
         while len(large) == 1 and large[0] not in marked:
             branches = tree.children[large[0]]
-            large = [node for node in branches if count[node] >= FEWEST_JOINTS]
+            large = [node for node in branches if count[node] >= MIN_JOINTS]
         if len(large) > 1:
             waiting.extend([node] for node in reversed(large))
         else:

@@ -9,10 +9,10 @@ from engine.motion import rotation
 
 Array = NDArray[np.float64]
 
-REACH = 0.9995
+MAX_REACH_SHARE = 0.9995
 """Of a limb's length: a limb that is quite straight has no plane."""
 
-STRAIGHT = 0.12
+STRAIGHT_SINE = 0.12
 """The sine of the bend under which the limb's own plane is mixed with its hinge's."""
 
 
@@ -40,7 +40,9 @@ def two_bones(
     first, second = b - a, c - b
     long_first, long_second = _length(first), _length(second)
     wanted = np.asarray(target, np.float64) - a
-    distance = np.clip(_length(wanted), np.abs(long_first - long_second) + 1e-4, REACH * (long_first + long_second))
+    distance = np.clip(
+        _length(wanted), np.abs(long_first - long_second) + 1e-4, MAX_REACH_SHARE * (long_first + long_second)
+    )
     direction = rotation.normalize(wanted)
     normal = _normal(first, second, rotation.rotate(upper, hinge))
     turned = rotation.rotate(rotation.between(c - a, direction), normal)
@@ -58,7 +60,7 @@ def _normal(first: Array, second: Array, hinge: Array) -> Array:
     """The axis about which the limb is bent, perpendicular to the way from its start to its end."""
     cross = np.cross(first, second) / np.maximum(_length(first) * _length(second), 1e-12)
     bend = _dot(cross, rotation.normalize(hinge))
-    share = np.clip(bend / STRAIGHT, 0, 1)
+    share = np.clip(bend / STRAIGHT_SINE, 0, 1)
     share = share * share * (3 - 2 * share)
     across = rotation.normalize(first + second)
     straight = rotation.normalize(hinge - _dot(hinge, across) * across)

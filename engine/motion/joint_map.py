@@ -19,10 +19,11 @@ REQUIRED = (
     *(f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
 )
 
-LEAST_TURN = np.radians(3)
+MIN_TURN_ANGLE = np.radians(3)
 """A joint that turns by less is held."""
 
-MOST_NAMED = 10
+MAX_JOINTS_TOLD = 10
+"""Names of joints in a refusal, at most."""
 
 CHAINS = tuple(
     tuple(side + part for part in chain)
@@ -88,7 +89,7 @@ def lost_joints(motion: SourceMotion, mapping: Mapping[str, str]) -> tuple[str, 
         if joint in used and motion.parents[joint] >= 0:
             used.add(int(motion.parents[joint]))
     change = rotation.multiply(rotation.inverse(motion.rotations[:1]), motion.rotations)
-    turns = rotation.angle(change).max(0) > LEAST_TURN
+    turns = rotation.angle(change).max(0) > MIN_TURN_ANGLE
     return tuple(name for joint, name in enumerate(motion.names) if turns[joint] and joint not in used)
 
 
@@ -97,7 +98,7 @@ def lost_warning(motion: SourceMotion, mapping: Mapping[str, str]) -> str | None
     lost = lost_joints(motion, mapping)
     if not lost:
         return None
-    named = ", ".join(name[:60] for name in lost[:MOST_NAMED]) + (", ..." if len(lost) > MOST_NAMED else "")
+    named = ", ".join(name[:60] for name in lost[:MAX_JOINTS_TOLD]) + (", ..." if len(lost) > MAX_JOINTS_TOLD else "")
     return f"{len(lost)} of the motion's joints move nothing of the character: {named}. Say by motion_joints what they move."
 
 

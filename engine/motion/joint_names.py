@@ -47,10 +47,13 @@ _PHALANGES = {"proximal": 1, "intermediate": 2, "distal": 3}
 _PREFIX = re.compile(
     r"^(?:.*[:|]|character\d*_|(?:j_)?bip(?:ed)?\d*[ _]|valvebiped_?|def[-_]|org[-_]|bone[-_]|joint_|jnt_|j_)", re.I
 )
-COMMON = 0.6
+COMMON_AFFIX_SHARE = 0.6
 """The share of names that begin or end alike for that to say nothing: neither side of a body has so many joints."""
-FEWEST_ALIKE = 5
-DISTINCT = 0.8
+
+MIN_NAMES_ALIKE = 5
+"""What fewer names have in common is no habit of the file."""
+
+COUNTER_SHARE = 0.8
 """The share of different numbers among those behind names, from which on they count the joints of the file."""
 
 
@@ -83,9 +86,9 @@ def _without_common(names: list[list[str]]) -> list[list[str]]:
     """Names, as their tokens, without what most of them begin with or end in."""
     names = _without_counts(names)
     for end in (0, -1):
-        while len(names) >= FEWEST_ALIKE:
+        while len(names) >= MIN_NAMES_ALIKE:
             word, times = Counter(name[end] for name in names if name).most_common(1)[0]
-            if times < COMMON * len(names) or word in _SIDES or word in _KNOWN or _FINGER.fullmatch(word):
+            if times < COMMON_AFFIX_SHARE * len(names) or word in _SIDES or word in _KNOWN or _FINGER.fullmatch(word):
                 break
             shorter = [
                 (name[1:] if end == 0 else name[:-1]) if len(name) > 1 and name[end] == word else name for name in names
@@ -99,7 +102,9 @@ def _without_common(names: list[list[str]]) -> list[list[str]]:
 def _without_counts(names: list[list[str]]) -> list[list[str]]:
     """Without the numbers behind names, where these count through all joints."""
     numbers = [name[-1] for name in names if len(name) > 1 and name[-1].isdigit()]
-    if len(numbers) < max(COMMON * len(names), FEWEST_ALIKE) or len(set(numbers)) < DISTINCT * len(numbers):
+    if len(numbers) < max(COMMON_AFFIX_SHARE * len(names), MIN_NAMES_ALIKE) or len(set(numbers)) < COUNTER_SHARE * len(
+        numbers
+    ):
         return names
     return [name[:-1] if len(name) > 1 and name[-1].isdigit() else name for name in names]
 

@@ -16,10 +16,10 @@ from engine.motion.sole import Sole
 
 Array = NDArray[np.float64]
 
-STRETCH = 0.998
+MAX_STRETCH_SHARE = 0.998
 """The share of a leg's length to which a foot on the ground may stretch it."""
 
-KNEE = (1.0, 0.0, 0.0)
+KNEE_AXIS = (1.0, 0.0, 0.0)
 """Knees bend about the axis to the left: a positive turn brings the shin back."""
 
 
@@ -39,7 +39,7 @@ def set_legs(world: Array, places: Array, feet: Sequence[tuple[Sole, HeldFoot]])
     for sole, foot in feet:
         hip, knee, ankle, toe = sole.joints
         limb = (places[:, hip], places[:, knee], places[:, ankle])
-        world[:, hip], world[:, knee], _ = two_bones(limb, (world[:, hip], world[:, knee]), foot.ankle, KNEE)
+        world[:, hip], world[:, knee], _ = two_bones(limb, (world[:, hip], world[:, knee]), foot.ankle, KNEE_AXIS)
         world[:, ankle] = foot.turns
         if toe >= 0:
             world[:, toe] = foot.toes
@@ -61,7 +61,7 @@ def lowering(feet: Sequence[tuple[Sole, HeldFoot]], places: Array, fps: float, l
         hip, knee, ankle, _ = sole.joints
         length = np.linalg.norm(places[0, knee] - places[0, hip]) + np.linalg.norm(places[0, ankle] - places[0, knee])
         aside = np.linalg.norm((foot.ankle - places[:, hip])[:, [0, 2]], axis=1)
-        height = np.sqrt(np.maximum((STRETCH * length) ** 2 - aside**2, 0))
+        height = np.sqrt(np.maximum((MAX_STRETCH_SHARE * length) ** 2 - aside**2, 0))
         down = places[:, hip, 1] - foot.ankle[:, 1] - height
         needed = np.maximum(needed, np.clip(down, 0, 0.2 * length) * foot.held)
     if not needed.any():

@@ -18,21 +18,26 @@ from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 
-FEWEST_FRAMES = 8
-EVEN = 0.3
+MIN_FRAMES = 8
+"""A motion of fewer frames is no loop."""
+
+MAX_SEAM_ERROR = 0.3
 """By how much a joint may miss the first pose: of the usual step of the joint that is quickest."""
-LEVEL = 0.02
+
+MAX_HEIGHT_ERROR = 0.02
 """Leg lengths by which the hips may miss their first height."""
-MOVING = 0.1
+
+MIN_SPEED_SHARE = 0.1
 """What is slower than this share of its usual speed is at rest."""
-WHOLE = 0.15
+
+WHOLE_FRAME_TOLERANCE = 0.15
 """Frames: files either show the first pose again or leave that out; what is found between is noise, if less than this."""
 
 
 def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
     """The motion as a loop, if it leads into itself and its file does not say otherwise; else the same motion.
     `heights` (F,): of the hips, leg lengths."""
-    if motion.loops is not None or len(motion.rotations) < FEWEST_FRAMES:
+    if motion.loops is not None or len(motion.rotations) < MIN_FRAMES:
         return motion
     turns, places = motion.rotations, motion.translations
     speeds = rotation.angle(_change(turns[:-1], turns[1:])).max(1)
@@ -42,10 +47,10 @@ def as_loop(motion: SourceMotion, heights: Array) -> SourceMotion:
     frames = float(np.sum(gap * pace) / max(np.sum(pace**2), 1e-12))
     missed = np.linalg.norm(gap - frames * pace, axis=-1).max()
     sunk = abs(heights[0] - heights[-1] - frames * rise)
-    moves = usual > 0 and (speeds[0] + speeds[-1]) / 2 > MOVING * usual
-    if not moves or not -0.5 < frames < 1.5 or missed > EVEN * usual or sunk > LEVEL:
+    moves = usual > 0 and (speeds[0] + speeds[-1]) / 2 > MIN_SPEED_SHARE * usual
+    if not moves or not -0.5 < frames < 1.5 or missed > MAX_SEAM_ERROR * usual or sunk > MAX_HEIGHT_ERROR:
         return motion
-    if abs(frames - round(frames)) < WHOLE:
+    if abs(frames - round(frames)) < WHOLE_FRAME_TOLERANCE:
         frames = round(frames)
     whole = len(turns) - 1 + frames
     kept = min(int(np.ceil(whole)), len(turns))

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 LIMBS = {"Arm": "ForeArm", "ForeArm": "Hand", "UpLeg": "Leg", "Leg": "Foot"}
 
-SNAP = np.radians(25)
+MAX_SNAP_ANGLE = np.radians(25)
 """A rest pose that stands nearer than this to a world axis is meant to stand along it."""
 
 
@@ -74,7 +74,7 @@ def standing_turn(places: Array, joints: Mapping[str, int], snap: bool) -> Array
         nearest = min(
             _axis_turns(), key=lambda other: float(rotation.angle(rotation.multiply(other, rotation.inverse(turn))))
         )
-        if rotation.angle(rotation.multiply(nearest, rotation.inverse(turn))) < SNAP:
+        if rotation.angle(rotation.multiply(nearest, rotation.inverse(turn))) < MAX_SNAP_ANGLE:
             return nearest
     return turn
 

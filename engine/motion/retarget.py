@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 
 Facing = Literal["start", "main", "keep"]
 
-SHORTEST = 0.05
+MIN_LEG_SHARE = 0.05
 """Thigh and shin of somebody, as a share of the way from the hips to the farthest of their joints: the legs of any figure
 are longer, and by those that are not no way can be measured."""
 
@@ -173,7 +173,7 @@ def _require_legs(motion: SourceMotion, joints: Mapping[str, str], places: Array
     hips = places[:, motion.names.index(joints["Hips"]), None]
     reach = float(np.median(np.linalg.norm(mapped - hips, axis=-1).max(1)))
     legs = _leg_length(places, motion.names, joints)
-    if legs <= SHORTEST * reach:
+    if legs <= MIN_LEG_SHARE * reach:
         raise not_humanoid(
             motion,
             joints,

@@ -12,9 +12,11 @@ from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
-HEEL = 0.35
-TIP = 0.45
-"""Of the way from ankle to ball, seen from above: how far the heel lies behind the ankle and the toes before the ball."""
+HEEL_SHARE = 0.35
+"""How far the heel lies behind the ankle, as a share of the way from ankle to ball, seen from above."""
+
+TIP_SHARE = 0.45
+"""How far the tips of the toes lie before the ball, as a share of the way from ankle to ball, seen from above."""
 
 
 @dataclass(frozen=True)
@@ -69,9 +71,9 @@ def _sole(skeleton: Skeleton, side: str) -> Sole:
     return Sole(
         joints=(hip, knee, ankle, toe),
         ankle=heads[ankle],
-        heel=ground - HEEL * level,
+        heel=ground - HEEL_SHARE * level,
         toe=reach,
         ball=under,
-        tip=under + TIP * level * (toe >= 0),
+        tip=under + TIP_SHARE * level * (toe >= 0),
         forward=rotation.normalize(level),
     )

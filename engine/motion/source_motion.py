@@ -13,10 +13,17 @@ from engine.motion import kinematics, rotation
 Array = NDArray[np.float64]
 
 MAX_JOINTS = 512
+"""Joints of a motion's skeleton."""
+
 MAX_DEPTH = 128
+"""Joints from a skeleton's root down to its farthest leaf."""
+
 MAX_FRAMES = 72_000
-"""Ten minutes at 120 frames a second."""
+"""Frames of a motion: ten minutes at 120 a second."""
+
 MAX_BYTES = 64 << 20
+"""Bytes of a motion's file."""
+
 MAX_NUMBERS = 8_000_000
 """Joints' channels times frames: what ten minutes of a skeleton with 37 joints at 120 frames a second need."""
 

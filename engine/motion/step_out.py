@@ -25,10 +25,10 @@ from engine.motion.sole import Sole, leg_length, soles
 
 Array = NDArray[np.float64]
 
-LIFT = 0.08
+STEP_LIFT = 0.08
 """Leg lengths that a foot is lifted in a step; less if the step is shorter than three times this."""
 
-STEP = 0.45
+MAX_STEP_SECONDS = 0.45
 """Seconds of a step into place, at most."""
 
 
@@ -134,11 +134,11 @@ def _windows(contacts: NDArray[np.bool_], gaps: Array, seconds: float, fps: floa
         if gaps[side] < 0.01:
             windows.append(_Window(0.0, seconds, False))
         elif both_wait:
-            step = min(STEP, 0.48 * seconds)
+            step = min(MAX_STEP_SECONDS, 0.48 * seconds)
             begin = 0.04 * seconds if side == int(np.argmax(gaps)) else 0.52 * seconds
             windows.append(_Window(begin, begin + step, True))
         elif lasting[side] > 0:
-            step = min(STEP, max(lasting[side], 0.3))
+            step = min(MAX_STEP_SECONDS, max(lasting[side], 0.3))
             windows.append(_Window(0.0, step, True))
         else:
             landing = next((first / fps for first, _ in spans(contacts[:, side])), seconds)
@@ -213,7 +213,7 @@ def _stepped(sole: Sole, own: _Track, clip_foot: _Track, window: _Window, times:
     toe = own.toe * (1 - share[:, None]) + clip_foot.toe * share[:, None]
     end = int(np.searchsorted(times, window.end).clip(0, len(times) - 1))
     gap = float(np.linalg.norm((clip_foot.toe[end] - own.toe[0])[[0, 2]]))
-    high = min(LIFT * leg, gap / 3) * np.sin(np.pi * u) ** 2 * window.lifted
+    high = min(STEP_LIFT * leg, gap / 3) * np.sin(np.pi * u) ** 2 * window.lifted
     toe = toe + high[:, None] * [0, 1, 0]
     turns = rotation.slerp(np.broadcast_to(own.turns, clip_foot.turns.shape), clip_foot.turns, share)
     toes = rotation.slerp(np.broadcast_to(own.toes, clip_foot.toes.shape), clip_foot.toes, share)

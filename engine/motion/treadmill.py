@@ -15,61 +15,75 @@ from scipy.ndimage import gaussian_filter1d
 
 from engine.motion.clip import Clip
 from engine.motion.edit import travel
-from engine.motion.foot_contact import LEG, sole_places
+from engine.motion.foot_contact import REFERENCE_LEG, sole_places
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import leg_length
 
 Array = NDArray[np.float64]
 
-SLOWEST = 0.2
-"""Metres a second, for legs of `LEG`: feet that go back slower than this shuffle."""
-LOW = 0.01
-"""Metres, for legs of `LEG`: how far above the lowest point of both soles another hardly stands."""
-LIKE = 0.5
+MIN_GROUND_SPEED = 0.2
+"""Metres a second, for legs of `REFERENCE_LEG`: feet that go back slower than this shuffle."""
+
+CONTACT_HEIGHT_SCALE = 0.01
+"""Metres, for legs of `REFERENCE_LEG`: how far above the lowest point of both soles another hardly stands."""
+
+STEP_TOLERANCE = 0.5
 """How far a point's step may differ from the ground's and still go with it, as a share of the ground's."""
-ROUNDS = 6
-"""Of finding the ground's step by the points that go with it."""
-OFTEN, EACH = 0.5, 0.2
-"""The share of the time in which something goes with the ground, and each foot's share of that, at least."""
-LEVEL = 0.03
-"""Metres, for legs of `LEG`: what goes with the ground at heights that differ by more, pedals, say."""
-IN_PLACE = 0.25
+
+GROUND_STEP_ROUNDS = 6
+"""Rounds of finding the ground's step by the points that go with it."""
+
+MIN_CONTACT_SHARE = 0.5
+"""The share of the time in which something goes with the ground, at least."""
+
+MIN_FOOT_SHARE = 0.2
+"""Each foot's share of what goes with the ground, at least."""
+
+MAX_HEIGHT_SPREAD = 0.03
+"""Metres, for legs of `REFERENCE_LEG`: what goes with the ground at heights that differ by more, pedals, say."""
+
+MAX_ROOT_TRAVEL_SHARE = 0.25
 """What the root may travel by itself, as a share of the ground's way."""
-SMOOTH = 0.06
+
+SPEED_SIGMA_SECONDS = 0.06
 """Seconds over which the body's speed is evened out."""
-IN_THE_AIR = 0.05
+
+AIRBORNE_WEIGHT = 0.05
 """The weight of the ground's mean step beside those of the points that stand (0 to 1 each)."""
 
 
 def walked_on(skeleton: Skeleton, clip: Clip) -> Clip:
     """The clip travelling as its feet walk, if it is a walk in place; else the same clip."""
-    scale = leg_length(skeleton) / LEG
+    scale = leg_length(skeleton) / REFERENCE_LEG
     if len(clip.rotations) < 3:
         return clip
     steps, heights = _steps(skeleton, clip)
-    lowest = np.exp((heights.min(1, keepdims=True) - heights) / (LOW * scale))
+    lowest = np.exp((heights.min(1, keepdims=True) - heights) / (CONTACT_HEIGHT_SCALE * scale))
     ground = np.median((steps * lowest[..., None]).sum(1) / lowest.sum(1)[:, None], axis=0)
-    for _ in range(ROUNDS):
+    for _ in range(GROUND_STEP_ROUNDS):
         speed = float(np.linalg.norm(ground))
-        if speed * clip.fps < SLOWEST * scale:
+        if speed * clip.fps < MIN_GROUND_SPEED * scale:
             return clip
-        stands = lowest * np.exp(-((np.linalg.norm(steps - ground, axis=-1) / (LIKE * speed)) ** 2))
+        stands = lowest * np.exp(-((np.linalg.norm(steps - ground, axis=-1) / (STEP_TOLERANCE * speed)) ** 2))
         ground = (steps * stands[..., None]).sum((0, 1)) / stands.sum()
     left = stands[:, :3].sum() / stands.sum()
     own = travel(clip) if clip.loops else (clip.root[-1] - clip.root[0]) * [1, 0, 1]
-    level = np.abs(heights - (heights * stands).sum() / stands.sum()) < LEVEL * scale
-    walks = (stands * level).max(1).mean() > OFTEN and EACH < left < 1 - EACH
-    if not walks or np.linalg.norm(own) > IN_PLACE * speed * len(steps):
+    level = np.abs(heights - (heights * stands).sum() / stands.sum()) < MAX_HEIGHT_SPREAD * scale
+    walks = (stands * level).max(1).mean() > MIN_CONTACT_SHARE and MIN_FOOT_SHARE < left < 1 - MIN_FOOT_SHARE
+    if not walks or np.linalg.norm(own) > MAX_ROOT_TRAVEL_SHARE * speed * len(steps):
         return clip
     return replace(clip, root=(clip.root + _way(steps, stands, ground, clip)).astype(np.float32))
 
 
 def _way(steps: Array, stands: Array, ground: Array, clip: Clip) -> Array:
     """(F, 3) how far the body goes on: as what stands goes back, and evenly while hardly anything stands."""
-    back = (steps * stands[..., None]).sum(1) + IN_THE_AIR * ground
-    weights = stands.sum(1) + IN_THE_AIR
+    back = (steps * stands[..., None]).sum(1) + AIRBORNE_WEIGHT * ground
+    weights = stands.sum(1) + AIRBORNE_WEIGHT
     mode: Literal["wrap", "nearest"] = "wrap" if clip.loops else "nearest"
-    smooth = [gaussian_filter1d(values, SMOOTH * clip.fps, axis=0, mode=mode) for values in (back, weights[:, None])]
+    smooth = [
+        gaussian_filter1d(values, SPEED_SIGMA_SECONDS * clip.fps, axis=0, mode=mode)
+        for values in (back, weights[:, None])
+    ]
     return np.concatenate([np.zeros((1, 3)), -np.cumsum(smooth[0] / smooth[1], axis=0)])[: len(clip.rotations)]
 
 

@@ -17,6 +17,8 @@ from engine.motion.options import MotionClip, MotionJoints
 from engine.run import Run, write_report
 
 STAGES = {"read": 4.0, "map_joints": 1.0}
+"""The stages and their usual share of the time."""
+
 MAX_NAMES_TOLD = 1000
 """Animations, and skeletons, of a file that are told of."""
 

@@ -13,7 +13,7 @@ from engine.perception.solutions import solution
 
 SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
-SURE_CONFIDENCE = 0.5
+MIN_CONFIDENCE = 0.5
 """Confidence of a detection by which a picture is said to show several faces."""
 MAX_FACES = 20
 """Faces of a picture that are looked for, at most."""
@@ -168,7 +168,7 @@ def same_face(a: NDArray[np.float32], b: NDArray[np.float32]) -> bool:
 
 def several_faces(rgb: NDArray[np.uint8]) -> bool:
     """Whether a picture shows more than one face, by a quick look at those that are near."""
-    with _detector(SURE_CONFIDENCE, far=False) as detector:
+    with _detector(MIN_CONFIDENCE, far=False) as detector:
         return len(_detected(detector, rgb, (0, 0, rgb.shape[1], rgb.shape[0]))) > 1
 
 

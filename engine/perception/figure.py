@@ -21,7 +21,7 @@ PAPER = 100.0
 """Grey levels; darker ground is no paper, on which lines are darker still."""
 PLAIN = 0.15
 """Largest share of the border that the figure may touch."""
-SURE_SHARE = 0.4
+MIN_CERTAIN_SHARE = 0.4
 """Share of what the networks believe in (0.3 and more) that they are sure of (0.9 and more), above which the
 picture is theirs. On photographs, paintings and cartoons it was 0.7 and more, on a child's drawing 0.05."""
 
@@ -34,7 +34,7 @@ def figure_on_plain_ground(
     `belief` (H, W) is what the networks saw. If they are sure, they are believed. `known` (H, W) is what belongs to the
     figure although they may see nothing, as the face of one that they take for none.
     """
-    if (belief > 0.9).sum() > SURE_SHARE * (belief > 0.3).sum():
+    if (belief > 0.9).sum() > MIN_CERTAIN_SHARE * (belief > 0.3).sum():
         return None
     size = size_within(rgb.shape, SIZE)
     small = resized(np.ascontiguousarray(rgb), size).astype(np.float32)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 BLOCK = 32
 """Points worked on at a time, so that a long clip takes little memory."""
-REACH = 12
+HALF_WINDOW_FRAMES = 12
 """Frames looked at on either side."""
 TEMPORAL_SIGMA = 8.0
 """Frames."""
@@ -62,7 +62,7 @@ def steady(
 
 def _steady(tracks: NDArray[np.float32], sigma: NDArray[np.floating]) -> NDArray[np.float32]:
     width = 2.0 * (RANGE * np.maximum(sigma, 1e-4)) ** 2
-    count, reach = len(tracks), min(REACH, len(tracks) - 1)
+    count, reach = len(tracks), min(HALF_WINDOW_FRAMES, len(tracks) - 1)
     total = tracks.astype(np.float32).copy()
     weight = np.ones(tracks.shape[:2], np.float32)
     longer = _extended(tracks, reach)

@@ -33,7 +33,7 @@ CHANGES = {"unit": 0.75, "blink": 1.0, "head": 9.0, "gaze": 7.0, "breath": 1.0}
 UNSEEN = 300
 """Supersampled pixels that neither key frame saw, beyond which a frame is lit in full: one in three thousand."""
 
-LEAST = 0.02
+MIN_COVERAGE = 0.02
 """What is seen by less than this share of a pixel counts as not seen."""
 
 SAME_SURFACE = 0.0025
@@ -85,7 +85,7 @@ def carry(first: Exposure, last: Exposure, share: float, scene: Scene, samples: 
     light, weight = np.zeros((*camera.size, 3), np.float32), np.zeros(camera.size, np.float32)
     for key, factor in ((first, 1 - share), (last, share)):
         _look_up(key, scene, raster, camera, factor, light, weight)
-    covered, known = parts >= 0, weight > LEAST
+    covered, known = parts >= 0, weight > MIN_COVERAGE
     if int((covered & ~known).sum()) > UNSEEN * (samples / SAMPLES) ** 2:
         return None
     radiance = backdrop(camera.size)

@@ -67,17 +67,17 @@ def spell(text: str, start: float, tempo: float = 1.0) -> tuple[Phoneme, ...]:
     return tuple(said)
 
 
-CALM = "w 'e l , a i t i k , w i k @ t r 'a i p l i s"
+CALM_SENTENCE = "w 'e l , a i t i k , w i k @ t r 'a i p l i s"
 """About: well, I think we could try, please."""
 
-EAGER = "l 'u k , t i s i s 'i r i l i p 'i k , 'w a u"
+EAGER_SENTENCE = "l 'u k , t i s i s 'i r i l i p 'i k , 'w a u"
 """About: look, this is really big, wow."""
 
 
 def talk(t: float) -> Pose:
     """A calm sentence: small beats of the head, brows that stress a word, blinks at the pauses."""
     seconds = performance("talk").seconds
-    said = spell(CALM, 0.25)
+    said = spell(CALM_SENTENCE, 0.25)
     units: Units = {}
     _mouth(units, t, said, seconds, force=0.85)
     beat = _stress(t, said)
@@ -97,7 +97,7 @@ def talk(t: float) -> Pose:
 def talk_strong(t: float) -> Pose:
     """An eager one: the mouth articulates, brows and head underline every stress."""
     seconds = performance("talk-strong").seconds
-    said = spell(EAGER, 0.25, tempo=1.04)
+    said = spell(EAGER_SENTENCE, 0.25, tempo=1.04)
     units: Units = {}
     _mouth(units, t, said, seconds, force=1.25)
     beat = _stress(t, said)

@@ -14,7 +14,7 @@ import pytest
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.gltf_file import MAX_JSON
+from engine.motion.gltf_file import MAX_JSON_BYTES
 from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
 from engine.motion.joint_map import map_joints
 from engine.motion.kinematics import joint_places, world_rotations
@@ -349,9 +349,9 @@ def test_gltf_with_its_numbers_elsewhere_says_what_to_do(skeleton: Skeleton, tmp
 
 def test_parts_of_a_text_are_counted_without_the_numbers_in_it(skeleton: Skeleton) -> None:
     writer = character(skeleton, built_in("bow", skeleton))
-    writer.data += bytes(MAX_JSON)
+    writer.data += bytes(MAX_JSON_BYTES)
     assert read_gltf_motion(as_text(writer)).name == "bow"
-    many = b'{"asset": {}, "extras": [' + b"[]," * (MAX_JSON // 3) + b"0]}"
+    many = b'{"asset": {}, "extras": [' + b"[]," * (MAX_JSON_BYTES // 3) + b"0]}"
     with pytest.raises(InputError) as error:
         read_gltf_motion(many)
     assert error.value.code == "motion_too_large"

@@ -13,7 +13,7 @@ from engine.motion.skeleton import Skeleton
 Array = NDArray[np.float64]
 
 BEATS, BEAT_SECONDS = 8, 0.5
-STEP = 0.3
+STEP_WIDTH = 0.3
 """Leg lengths from side to side."""
 
 
@@ -33,14 +33,14 @@ def dance(skeleton: Skeleton, fps: float) -> Clip:
     groove = np.sin(2 * np.pi * beat / 2 - 0.5)
     posture = Posture(
         frames=frames,
-        root=(0.5 * STEP * side, -0.06 - 0.028 * bounce, 0.012 * groove),
+        root=(0.5 * STEP_WIDTH * side, -0.06 - 0.028 * bounce, 0.012 * groove),
         hips=(2.0, 7.0 * np.sin(np.pi * beat - 0.4), 6.0 * np.sin(np.pi * bar / 2 + 0.5)),
         spine=(5.0 + 2.5 * bounce, -16.0 * np.sin(np.pi * beat - 0.7), -7.0 * np.sin(np.pi * bar / 2 + 0.3)),
         head=(3.0 + 5.0 * bounce, 9.0 * side, 5.0 * np.sin(np.pi * bar / 2 + 1.0)),
         arms={"Left": _arm(beat, up, 0.0), "Right": _arm(beat, up, 1.0)},
         feet={
-            "Left": Foot(aside=STEP * left_at + 0.02, up=left_up, pitch=200.0 * left_up, yaw=12.0),
-            "Right": Foot(aside=-STEP * right_at - 0.02, up=right_up, pitch=200.0 * right_up, yaw=12.0),
+            "Left": Foot(aside=STEP_WIDTH * left_at + 0.02, up=left_up, pitch=200.0 * left_up, yaw=12.0),
+            "Right": Foot(aside=-STEP_WIDTH * right_at - 0.02, up=right_up, pitch=200.0 * right_up, yaw=12.0),
         },
     )
     return embody(posture, skeleton, "dance", fps, loops=True)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.face_track.face_crop import FaceCrop
-from engine.perception.faces import SURE_CONFIDENCE, FaceTracker
+from engine.perception.faces import MIN_CONFIDENCE, FaceTracker
 
 LOOK = (80, 72)
 """Height and width at which faces are compared, pixels."""
@@ -54,7 +54,7 @@ class CoveredFace:
 
     def _detected(self, rgb: NDArray[np.uint8], seen: FaceCrop) -> bool:
         if self._detector is None:
-            self._detector = FaceTracker(confidence=SURE_CONFIDENCE, alone=True)
+            self._detector = FaceTracker(confidence=MIN_CONFIDENCE, alone=True)
         low, high = seen.mesh[:, :2].min(axis=0), seen.mesh[:, :2].max(axis=0)
         middle, reach = (low + high) / 2, AROUND * float((high - low).max())
         x0, y0 = np.maximum(middle - reach, 0).astype(int)

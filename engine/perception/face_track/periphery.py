@@ -20,11 +20,11 @@ ANCHOR = 3.0
 FOUND_AGAIN = 12.0
 """The same after frames without a face, from where the face would carry it."""
 WINDOW = (21, 21)
-COARSE, NEAR = 2, 1
+TRACKING_PYRAMID_LEVELS, ANCHOR_PYRAMID_LEVELS = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
 FADE = 17
 """Frames over which a point that is lost, or found again, loses or gains its say."""
-ENOUGH = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
+MATCH_TERMINATION = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
 """A match is found after so many steps, or when a step is shorter than so many working pixels."""
 
 
@@ -95,17 +95,17 @@ class PeripheryTracker:
         if carry is None:
             self._broken[:] = True
             return last, np.zeros(len(last), bool)
-        moved, good = _match(self._last, grey, last, last, COARSE)
+        moved, good = _match(self._last, grey, last, last, TRACKING_PYRAMID_LEVELS)
         good &= ~self._broken
         moved[self._broken] = carry(self._start[self._broken])
         # against the first frame, from where the track is now: takes the drift out
-        anchored, sound = _match(self._first, grey, self._start, moved, NEAR)
+        anchored, sound = _match(self._first, grey, self._start, moved, ANCHOR_PYRAMID_LEVELS)
         sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(self._broken, FOUND_AGAIN, ANCHOR)
-        sound &= _comes_back(self._first, grey, self._start, anchored, NEAR)
+        sound &= _comes_back(self._first, grey, self._start, anchored, ANCHOR_PYRAMID_LEVELS)
         self._broken &= ~sound
         loose = ~sound
         if loose.any():
-            good[loose] &= _comes_back(self._last, grey, last[loose], moved[loose], COARSE)
+            good[loose] &= _comes_back(self._last, grey, last[loose], moved[loose], TRACKING_PYRAMID_LEVELS)
             moved[loose & ~good] = last[loose & ~good]
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
 
@@ -139,7 +139,7 @@ def _match(
         guess[:, None].copy(),
         winSize=WINDOW,
         maxLevel=levels,
-        criteria=ENOUGH,
+        criteria=MATCH_TERMINATION,
         flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
     )
     return np.asarray(there[:, 0], np.float32), np.asarray(found[:, 0] == 1)
