@@ -7,9 +7,10 @@ from typing import Self
 
 import httpx
 
-from galatea_client.core import Core, address_of, headers_of
+from galatea_client.core import Core
 from galatea_client.job import AsyncJob
 from galatea_client.lines import AsyncLine
+from galatea_client.requests import address_of, headers_of
 from galatea_client.transport import Transport
 
 

@@ -9,9 +9,10 @@ from typing import Any, Concatenate, ParamSpec, Self, TypeVar
 
 import httpx
 
-from galatea_client.core import Core, address_of, headers_of
+from galatea_client.core import Core
 from galatea_client.job import Job
 from galatea_client.lines import BlockingLine, each, run
+from galatea_client.requests import address_of, headers_of
 from galatea_client.transport import Transport
 
 P = ParamSpec("P")

@@ -107,3 +107,13 @@ async def _write(
 def _digest(path: Path) -> str:
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def target_file(to: str | Path, name: str) -> Path:
+    """The file to write: in the folder, or the one that was named. Missing folders are made."""
+    path = Path(to)
+    if path.is_dir() or path.suffix == "":
+        path.mkdir(parents=True, exist_ok=True)
+        return path / Path(name).name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
