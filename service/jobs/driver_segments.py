@@ -61,6 +61,6 @@ def _segment(
     if options.get(option) is not None:
         detail = f"“{item.name}” names a portion of a driver, and “{option}” another: leave one of them out."
         raise Problem(422, "portion_and_trim", detail)
-    name, _, moment = value.partition("/")
-    file_id, segment = driver_segments.segment(context, owner, name, moment)
+    name, _, segment_name = value.partition("/")
+    file_id, segment = driver_segments.segment(context, owner, name, segment_name)
     return file_id, [segment.start, segment.end]

@@ -52,7 +52,7 @@ def segments(inspection: Inspection[Segments]) -> tuple[Segment, ...]:
     return inspection.document.moments if inspection.document is not None else ()
 
 
-def segment(context: Context, owner: str, name: str, moment: str) -> tuple[str, Segment]:
+def segment(context: Context, owner: str, name: str, segment_name: str) -> tuple[str, Segment]:
     """The file of a driver, and one of its segments. Raises a 422 problem where there is none of this name (yet)."""
     with context.database.read() as session:
         driver = repository.get(session, DRIVERS, owner, name)
@@ -62,11 +62,11 @@ def segment(context: Context, owner: str, name: str, moment: str) -> tuple[str, 
     if inspection.status == "pending":
         raise Problem(422, "moments_pending", f"“{name}” is still being searched for moments: wait until it is ready.")
     for one in segments(inspection):
-        if one.name == moment:
+        if one.name == segment_name:
             return driver.file_id, one
     names = ", ".join(one.name for one in segments(inspection)) or "none"
-    raise Problem(422, "unknown_moment", f"“{name}” has no moment “{moment[:80]}”; it has {names}.")
+    raise Problem(422, "unknown_moment", f"“{name}” has no moment “{segment_name[:80]}”; it has {names}.")
 
 
-def missing_segment(name: str, moment: str) -> Problem:
-    return Problem(404, "moment_not_found", f"“{name}” has no moment “{moment[:80]}” (yet).")
+def missing_segment(name: str, segment_name: str) -> Problem:
+    return Problem(404, "moment_not_found", f"“{name}” has no moment “{segment_name[:80]}” (yet).")

@@ -25,13 +25,13 @@ TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN)
 MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_points(TEMPLATE, SPACE, BONES)
 FOCAL, CENTRE, SIZE = 1400.0, (320.0, 400.0), (820, 640)
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, SIZE)
-LEAST = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + COEFFICIENTS)])
+REST_PARAMETERS = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + COEFFICIENTS)])
 
 
 def parameters(coefficients: dict[int, float], **turns: tuple[float, float, float]) -> np.ndarray:
     """Somebody with these coefficients, arms half lowered unless said otherwise."""
     given = {"LeftArm": (0, 0, -0.8), "RightArm": (0, 0, 0.8)} | turns
-    found = LEAST.copy()
+    found = REST_PARAMETERS.copy()
     for name, turn in given.items():
         found[3 + 3 * FITTED_JOINTS.index(name) :][:3] = turn
     for number, value in coefficients.items():

@@ -16,7 +16,7 @@ from running import Running, eventually
 
 ROOT = Path(__file__).parent.parent.parent
 SEED = int(os.environ.get("GALATEA_HOSTILE_SEED", "7"))
-MOST_MB = 150
+MAX_GROWTH_MB = 150
 """How much the API and the worker may grow while hundreds of files pass through."""
 
 
@@ -112,6 +112,6 @@ def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_p
     )
     assert outside(service) == before
     for process, weighed in zip(lasting, weight, strict=True):
-        assert memory_mb(process) < weighed + MOST_MB
+        assert memory_mb(process) < weighed + MAX_GROWTH_MB
     assert not list((service.data_dir / "incoming").iterdir())
     eventually(lambda: not list((service.data_dir / "jobs").glob("*/attempt-*")), "no attempt left anything")

@@ -22,7 +22,7 @@ from service.outbound.address import AddressRefused
 from service.outbound.client import client
 from service.traces.current import origin_logged
 from service.traces.tracer import fail, parent_of, trace_id
-from service.webhooks import delivery_lease as course
+from service.webhooks import delivery_lease
 from service.webhooks.delivery_lease import UNREADABLE, Claim, Outcome
 from service.webhooks.signing import signed_headers
 from worker.retry_db import retry_db
@@ -48,12 +48,14 @@ class WebhookSender:
         then."""
         self._going_on = {attempt for attempt in self._going_on if not attempt.done()}
         with self._context.database.read() as session:
-            if not course.due(session, self._context.settings, moment or course.present(session)):
+            if not delivery_lease.due(session, self._context.settings, moment or delivery_lease.present(session)):
                 return self._going_on
         while len(self._going_on) < self._context.settings.webhook_concurrency:
             with self._context.database.write() as session:
-                began = moment or course.present(session)  # each time anew: a lease begins now, however late we are
-                claim = course.claim(session, self._context.settings, began)
+                began = moment or delivery_lease.present(
+                    session
+                )  # each time anew: a lease begins now, however late we are
+                claim = delivery_lease.claim(session, self._context.settings, began)
             if claim is None:
                 break
             self._going_on.add(self._pool.submit(self._deliver, claim, began))
@@ -94,7 +96,7 @@ class WebhookSender:
 
     def _settle(self, claim: Claim, outcome: Outcome, moment: datetime) -> None:
         with self._context.database.write() as session:
-            course.settle(session, claim, outcome, moment + timedelta(seconds=outcome.seconds), self._chance)
+            delivery_lease.settle(session, claim, outcome, moment + timedelta(seconds=outcome.seconds), self._chance)
 
 
 def send(http: httpx.Client, claim: Claim, moment: datetime) -> Outcome:

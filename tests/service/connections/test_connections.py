@@ -17,7 +17,7 @@ from running import Running, eventually
 from service.connections.connection_limit import ConnectionLimit, most_connections
 
 Start = Callable[..., Running]
-MOST = 20
+MAX_CONNECTIONS = 20
 SHARED = 15
 """Three quarters of them: all that one address gets."""
 
@@ -124,11 +124,11 @@ def job_input(running: Running, picture: bytes) -> bytes:
 
 
 def test_connections_that_bring_nothing_make_room_for_others(start: Start) -> None:
-    running = start(worker="false", connections=MOST)
-    lines = [connect(running, PARTIAL_HEAD if number % 2 else b"") for number in range(3 * MOST)]
+    running = start(worker="false", connections=MAX_CONNECTIONS)
+    lines = [connect(running, PARTIAL_HEAD if number % 2 else b"") for number in range(3 * MAX_CONNECTIONS)]
     assert all(healthy(running) for _ in range(5))
     told = [line for line in lines if _has_answer(line)]
-    assert 3 * MOST - SHARED <= len(told) < 3 * MOST
+    assert 3 * MAX_CONNECTIONS - SHARED <= len(told) < 3 * MAX_CONNECTIONS
     for one in told:
         answer = until_closed(one)
         assert problem(answer) == (503, "too_many_connections")
@@ -149,7 +149,7 @@ def _has_answer(connection: socket.socket) -> bool:
 
 
 def test_where_all_are_busy_the_newcomer_is_turned_away(start: Start, picture: bytes) -> None:
-    running = start(worker="false", connections=MOST)
+    running = start(worker="false", connections=MAX_CONNECTIONS)
     job = running.submit(picture)["id"]
     running.client.close()
     followers = [connect(running, request("GET", f"/v1/jobs/{job}/events")) for _ in range(SHARED)]

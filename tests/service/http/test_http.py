@@ -12,7 +12,7 @@ from raw_http import connect, problem, until_closed
 from running import Running
 
 PIECE = 16 * 1024
-MOST = 64 << 20
+MAX_BYTES_SENT = 64 << 20
 """Bytes that are sent before the test gives up: more than any buffers on the way hold."""
 
 
@@ -35,7 +35,7 @@ def test_what_never_ends_is_cut_off(running: Running, beginning: bytes, piece: b
     address = (running.client.base_url.host, running.client.base_url.port)
     with socket.create_connection(address, timeout=60) as connection, pytest.raises(ConnectionError):
         connection.sendall(beginning)
-        while sent < MOST:
+        while sent < MAX_BYTES_SENT:
             connection.sendall(piece)
             sent += len(piece)
     assert api.memory_info().rss - before < 16 << 20

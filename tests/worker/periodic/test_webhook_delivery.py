@@ -33,8 +33,7 @@ from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
 from service.tables.keys import LOCAL, Key
 from service.tables.webhooks import Delivery, DeliveryAttempt, EventType, Webhook
-from service.webhooks import delivery_lease as course
-from service.webhooks import outbox, service
+from service.webhooks import delivery_lease, outbox, service
 from service.webhooks import repository as webhooks
 from service.webhooks.schedule import RETRIES, pause
 from service.webhooks.schemas import WebhookIn
@@ -464,17 +463,17 @@ def test_what_a_dead_worker_had_claimed_is_sent_by_another(
     succeeded(context)
     moment = now()
     with context.database.write() as session:
-        dead = course.claim(session, context.settings, moment)
+        dead = delivery_lease.claim(session, context.settings, moment)
         assert dead is not None
-        assert course.claim(session, context.settings, moment) is None, "not twice at the same time"
+        assert delivery_lease.claim(session, context.settings, moment) is None, "not twice at the same time"
     lease = 2 * context.settings.webhook_seconds * SECOND
     deliver(sender, moment + lease - SECOND)
     assert receiver.calls == []
     deliver(sender, moment + lease)
     assert len(receiver.calls) == 1
     with context.database.write() as session:
-        late = course.Outcome(1.0, code="refused", detail="too late")
-        assert not course.settle(session, dead, late, moment + HOUR, Random(1))
+        late = delivery_lease.Outcome(1.0, code="refused", detail="too late")
+        assert not delivery_lease.settle(session, dead, late, moment + HOUR, Random(1))
     assert deliveries(context)[0].status == "delivered"
     assert len(attempts(context, deliveries(context)[0])) == 1
 
@@ -488,7 +487,7 @@ def test_a_clock_that_is_set_back_delays_nothing(context: Context, sender: Webho
     wait(sender.look(ahead))
     succeeded(context)
     with context.database.write() as session:
-        assert course.claim(session, context.settings, ahead) is not None
+        assert delivery_lease.claim(session, context.settings, ahead) is not None
     succeeded(context)
     with context.database.write() as session:
         session.get_one(Delivery, deliveries(context)[-1].id).next_attempt_at = ahead
