@@ -139,6 +139,7 @@ def main() -> None:
     measured: dict[str, Measured] = {}
     failed: list[list[str]] = []
     with tempfile.TemporaryDirectory() as folder:
+        assert KIND.rehearse is not None
         KIND.rehearse(Path(folder))
     for picture in asked.pictures or pictures():
         with tempfile.TemporaryDirectory() as folder:

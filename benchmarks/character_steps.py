@@ -51,7 +51,8 @@ def wake(photo: Path, options: Mapping[str, Any]) -> Woken:
     """The stages of `engine.character.pipeline` up to the character."""
     asked = options_for(photo, options)
     placed = tuple((name, x, y) for name, (x, y) in sorted(asked.joints.items()))
-    choice = Choice(asked.person_box, asked.person_index, placed)
+    index = None if asked.person_index == "all" else asked.person_index
+    choice = Choice(asked.person_box, index, placed)
     figure = find_figure(photo, choice, asked.partial, Limits(), lambda code, message: None)
     silhouette = cut_out(figure, None, asked.mask_strokes, Limits(), None, None, lambda code, message: None)
     fitted = fit_template(figure, silhouette)

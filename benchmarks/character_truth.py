@@ -16,9 +16,9 @@ import argparse
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import cv2
 import numpy as np
@@ -137,7 +137,7 @@ def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
     character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
-    with depth_is_warped():
+    with patch.object(layers, "part_surface", warped_depth):
         by_depth = build_mesh(figure, silhouette, fitted, labels)
     bare = pose_template(fitted, fitted.picture_camera(), load_human())
     return Surfaces(
@@ -145,16 +145,6 @@ def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -
         (silhouette.camera(fitted.picture_camera()).to_metres(by_depth.vertices), by_depth.triangles),
         (fitted.picture_camera().to_metres(bare.vertices), bare.triangles),
     )
-
-
-@contextmanager
-def depth_is_warped() -> Iterator[None]:
-    """For as long as it lasts, parts take the template's depth through the warp; normals are not looked at."""
-    layers.part_surface = warped_depth  # type: ignore[assignment]
-    try:
-        yield
-    finally:
-        layers.part_surface = part_surface
 
 
 def warped_depth(
@@ -165,7 +155,7 @@ def warped_depth(
     bare: NDArray[np.bool_] | None = None,
 ) -> Surface:
     """`part_surface` with the template's depth looked up where the warp leads, and along the outline, where both have the
-    same, that of the outline."""
+    same, that of the outline; normals are not looked at."""
     surface = part_surface(mask, warp, template, weights, bare)
     x, y = (np.ascontiguousarray(warp.places[..., k]) for k in range(2))
     source = template.depth[filled(warp, template).nearest]

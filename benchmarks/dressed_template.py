@@ -67,14 +67,16 @@ ARMS_DOWN: Turns = {
     "LeftForeArm": (0, -14, 0),
     "RightForeArm": (0, 14, 0),
 }
-HAND_ON_HIP: Turns = ARMS_DOWN | {
+HAND_ON_HIP: Turns = {
+    **ARMS_DOWN,
     "LeftArm": (65, 0, -50),
     "LeftForeArm": (0, -95, 0),
     "Hips": (0, 0, 3),
     "Spine1": (0, 0, -4),
     "RightUpLeg": (0, 0, -7),
 }
-WALKING: Turns = ARMS_DOWN | {
+WALKING: Turns = {
+    **ARMS_DOWN,
     "LeftUpLeg": (-24, 0, 0),
     "LeftLeg": (8, 0, 0),
     "RightUpLeg": (9, 0, 0),
@@ -83,7 +85,7 @@ WALKING: Turns = ARMS_DOWN | {
     "RightArm": (0, 22, 68),
     "RightForeArm": (0, 30, 0),
 }
-WAVING: Turns = ARMS_DOWN | {"RightArm": (0, 0, -10), "RightForeArm": (0, 10, -75), "Head": (0, 0, -5)}
+WAVING: Turns = {**ARMS_DOWN, "RightArm": (0, 0, -10), "RightForeArm": (0, 10, -75), "Head": (0, 0, -5)}
 APART: Turns = {
     "LeftArm": (0, 0, -35),
     "RightArm": (0, 0, 40),
@@ -120,8 +122,8 @@ def dress(look: Look) -> Person:
         turns[rig.index(joint)] = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
     heads = skeleton.heads.astype(np.float64)
     transforms = bone_transforms(rig.parents, heads, turns)
-    posed = skin(rest, rig.bones, rig.weights, transforms)
-    posed = posed + 0.01 * away[:, None] * vertex_normals(posed, triangles)
+    bare = skin(rest, rig.bones, rig.weights, transforms)
+    posed = bare + 0.01 * away[:, None] * vertex_normals(bare, triangles)
     joints = np.einsum("jab,jb->ja", transforms[:, :3, :3], heads) + transforms[:, :3, 3]
     ground = np.array([0.0, float(posed[standing, 1].min()), 0.0])
     colours = _colours(look, moved, hairy, rest)

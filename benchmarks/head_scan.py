@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -42,7 +43,7 @@ class HeadScan:
 
 def read_head_scan(folder: Path) -> HeadScan:
     """The scan in `folder`: `head.obj` and `color.jpg`."""
-    mesh = trimesh.load(folder / "head.obj", process=False, force="mesh")
+    mesh: Any = trimesh.load_mesh(folder / "head.obj", process=False)
     vertices = np.asarray(mesh.vertices, float)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     uv = np.asarray(mesh.visual.uv, float) * [1, -1] + [0, 1]  # OBJ counts from the bottom, glTF from the top

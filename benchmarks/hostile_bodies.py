@@ -133,7 +133,7 @@ def main() -> None:
         seconds = time.monotonic() - began
     print(machine())
     waits = sorted(met.waits, reverse=True)
-    figures = [
+    figures: list[list[object]] = [
         ["requests", sum(met.answers.values())], ["seconds", f"{seconds:.0f}"], ["answered by 500", len(met.faults)],
         ["cut without an answer", met.answers["0"]],
         ["longest wait of the other one, s", f"{waits[0][0]:.2f}"],

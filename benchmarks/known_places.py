@@ -57,7 +57,7 @@ def _street(
     near = np.array([[0, top], [width, top], [1.5 * width, height], [-0.5 * width, height]], np.float32)
     seen = cv2.warpPerspective(flat, cv2.getPerspectiveTransform(far, near), (width, height), flags=cv2.INTER_AREA)
     picture[top:] = seen[top:]
-    return picture
+    return np.asarray(picture, np.uint8)
 
 
 def _tinted(photo: NDArray[np.uint8], colour: tuple[int, int, int]) -> NDArray[np.uint8]:

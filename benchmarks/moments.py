@@ -145,7 +145,9 @@ def labels() -> dict[str, tuple[list[Stretch], list[Stretch]]]:
 
 def main() -> None:
     head = ("state", "right", "wrong", "found", "missed", "precision", "recall")
-    tables = {title: {state: Tally() for state in STATES} for title in (JOINED, *ALTERATIONS)}
+    tables: dict[str, dict[str, Tally]] = {
+        title: {state: Tally() for state in STATES} for title in (JOINED, *ALTERATIONS)
+    }
     faults, seconds, spent = [], 0.0, 0.0
     with tempfile.TemporaryDirectory() as folder:
         for seed in SEEDS:

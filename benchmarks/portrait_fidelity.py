@@ -32,11 +32,12 @@ FRAMES, STEP = 240, 8
 REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
 WARP = Parts(layers=False, hidden=False, details=False, eyes=False)
-PLANE, SPACE = {"head_3d": False}, {"head_3d": True}
+PLANE, SPACE = False, True
+"""Whether heads turn in 3D."""
 SMOOTHING = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
 FULL = "+ full ratio image"
 ALL = "+ second look (all)"
-ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
+ABLATIONS: tuple[tuple[str, Parts, bool], ...] = (
     ("warp, no smoothing", WARP, PLANE),
     ("warp, constant smoothing", WARP, PLANE),
     ("warp, confidence-aware", WARP, PLANE),
@@ -52,7 +53,7 @@ ABLATIONS: tuple[tuple[str, Parts, dict[str, bool]], ...] = (
 
 def fidelity(names: Sequence[str], pictures: Path | None) -> None:
     """Print the main table: still frame, bare warp, ours on the disguised clip, ours on the clip itself."""
-    rows, figures = [], []
+    rows, figures, compared = [], [], []
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             true, acting, own = _prepared(path, Path(folder), with_self=True)
@@ -64,13 +65,14 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
             regions = _regional(kept, made)
         values = [*still, *warp, *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
         figures.append(values)
+        compared.append((warp, ours))
         rows.append([path.stem, *_shown(values, DIGITS)])
         _save(pictures, f"fidelity-{path.stem}", kept, bare, made)
     rows.append(mean_row("mean", figures, DIGITS))
     head = ["clip", "still L1", "px", "SSIM", "warp L1", "px", "SSIM", "ours L1", "px", "SSIM", "face", "hair", "backgr.", "self L1", "px", "SSIM"]  # fmt: skip
     print(table("Fidelity: a clip's first frame driven by the disguised clip, against the clip", head, rows))
     print("\nL1 in [0, 1]; px: mean distance of 68 points at 256 px; face, hair, backgr.: ours' L1 split.")
-    ahead = [f[6] < f[3] and (f[7] or 9) < (f[4] or 0) for f in figures]
+    ahead = [ours[0] < warp[0] and (ours[1] or 9) < (warp[1] or 0) for warp, ours in compared]
     print(f"Ahead of the bare warp on both: {sum(ahead)} of {len(ahead)} clips.")
 
 
@@ -86,9 +88,9 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
         with TemporaryDirectory() as folder:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
             kept = true[::STEP]
-            for label, parts, space in ABLATIONS:
+            for label, parts, head_3d in ABLATIONS:
                 rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING.get(label, "confidence"))
-                options = replace(acting.options, **space)
+                options = replace(acting.options, head_3d=head_3d)
                 varied = replace(acting, rig=rig, options=options, looked=label == ALL)
                 made = list(varied.frames(parts, refined=label != FULL, step=STEP))
                 regions = _regional(kept, made)
@@ -108,9 +110,9 @@ def pair(pictures: Path | None) -> None:
     for label, driver in (("disguised", tool("disguise").disguise(true, landmarks)), ("itself", true)):
         with TemporaryDirectory() as folder:
             options = PortraitOptions(neutral_frame=0)
-            target, *ready = read_target(Path(folder), neutral, options)
+            target, layers, rig = read_target(Path(folder), neutral, options)
             track, chosen = read_driver(write_clip(Path(folder) / "driver.mp4", driver), target, 0)
-            made = list(Acting(track, chosen, target, *ready, options.acting()).frames())[-1]
+            made = list(Acting(track, chosen, target, layers, rig, options.acting()).frames())[-1]
         kept = [neutral, smile]
         still, ours = (_measures(kept, [neutral, frame], last=True) for frame in (neutral, made))
         rows.append([label, *_shown([*still, *ours], (4, 2, 4, 4, 2, 4))])
@@ -127,13 +129,13 @@ def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[n
     true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
     disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))
     options = PortraitOptions(neutral_frame=0, size=(width, height) if max(width, height) > 64 else None)
-    target, *ready = read_target(folder, true[0], options)
+    target, layers, rig = read_target(folder, true[0], options)
     track, neutral = read_driver(write_clip(folder / "disguised.mp4", disguised), target, 0)
-    acting = Acting(track, neutral, target, *ready, options.acting())
+    acting = Acting(track, neutral, target, layers, rig, options.acting())
     if not with_self:
         return true, acting, acting
     track, neutral = read_driver(write_clip(folder / "itself.mp4", true), target, 0)
-    return true, acting, Acting(track, neutral, target, *ready, options.acting())
+    return true, acting, Acting(track, neutral, target, layers, rig, options.acting())
 
 
 def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:

@@ -37,7 +37,7 @@ def stillness(names: Sequence[str]) -> None:
     rows = []
     with TemporaryDirectory() as folder:
         rgb = read_image(media(TARGET)).rgb
-        target, *ready = read_target(Path(folder), rgb, options)
+        target, layers, rig = read_target(Path(folder), rgb, options)
         face = np.zeros(target.rgb.shape[:2], np.uint8)
         cv2.fillPoly(face, [target.mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
         for path in driving_clips(names):
@@ -48,7 +48,7 @@ def stillness(names: Sequence[str]) -> None:
                 for _ in range(REPEATS)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
-            frames = list(Acting(track, neutral, target, *ready, options.acting()).frames())
+            frames = list(Acting(track, neutral, target, layers, rig, options.acting()).frames())
             deviation = np.array(frames, np.float32).std(axis=0).mean(axis=2)[face > 0]
             inner = np.array(frames[10:-10], np.float32).std(axis=0).mean(axis=2)[face > 0]
             jitter = track.meshes[..., :2].std(axis=0).mean()
@@ -102,9 +102,9 @@ def _followed(path: Path) -> tuple[NDArray[np.float32], NDArray[np.float32], NDA
     """Meshes (N, 478, 3) of a clip: unfiltered; as they drive; and as they are seen on its first frame driven by it."""
     with TemporaryDirectory() as folder:
         options = PortraitOptions(neutral_frame=0)
-        target, *ready = read_target(Path(folder), next(iter(read_video(path))).rgb, options)
+        target, layers, rig = read_target(Path(folder), next(iter(read_video(path))).rgb, options)
         track, neutral = read_driver(path, target, 0)
-        made = _looked_at(Acting(track, neutral, target, *ready, options.acting()).frames())
+        made = _looked_at(Acting(track, neutral, target, layers, rig, options.acting()).frames())
     return _looked_at(frame.rgb for frame in read_video(path, longest_side=1280)), track.meshes, made
 
 

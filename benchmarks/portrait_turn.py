@@ -38,18 +38,18 @@ def turn(pictures: Path | None) -> None:
     rendered = [render_head(scan, angle, SIZE, background, ZOOM) for angle in angles]
     true = [picture for picture, _ in rendered]
     at = [
-        angles.index(min(angles[REST_FRAMES - 1 :], key=lambda a, s=s: abs(a - s)), REST_FRAMES - 1)
-        for s in SHOWN_DEGREES
-    ]  # type: ignore[misc]
+        REST_FRAMES - 1 + int(np.abs(np.subtract(angles[REST_FRAMES - 1 :], degrees)).argmin())
+        for degrees in SHOWN_DEGREES
+    ]
     disguised = tool("disguise").disguise(true, tool("face_measures").Landmarker()(true[0]))
     made = {}
     with TemporaryDirectory() as folder:
         driver = write_clip(Path(folder) / "turn.mp4", disguised)
         for label, head_3d in (("2D", False), ("3D", True)):
             options = PortraitOptions(neutral_frame=0, head_3d=head_3d)
-            target, *ready = read_target(Path(folder), true[0], options)
+            target, layers, rig = read_target(Path(folder), true[0], options)
             track, neutral = read_driver(driver, target, 0)
-            acting = Acting(track, neutral, target, *ready, options.acting())
+            acting = Acting(track, neutral, target, layers, rig, options.acting())
             made[label] = list(acting.frames())
         lines = grid_deviation(acting, rendered[0][1])
     rows = []
@@ -95,7 +95,7 @@ def grid_deviation(acting: Acting, covered: NDArray[np.float32]) -> tuple[float,
         clear = (white.astype(float) - black).mean(axis=2) > 252
         for turned in (False, True):
             pixels = frame.transpose(1, 0, 2) if turned else frame
-            seen, rest = (m.T if turned else m for m in (clear, covered))
+            seen, rest = (clear.T, covered.T) if turned else (clear, covered)
             outside += _line_errors(pixels, seen & (rest < 0.01)).tolist()
             hidden += _line_errors(pixels, seen & (rest > 0.5)).tolist()
     there = [e for e in hidden if np.isfinite(e)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -20,7 +21,7 @@ BODY_METRES = 1.8
 
 def read_scan(path: Path, facing: float) -> Person:
     """An OBJ or GLB of one person; `facing`: 1 where they look along +z, -1 where along -z. They become 1.8 m high."""
-    scene = trimesh.load(path, process=False, force="scene")
+    scene: Any = trimesh.load_scene(path, process=False)
     vertices, triangles, uv, textures, ends = [], [], [], [], []
     count = 0
     for node in scene.graph.nodes_geometry:

@@ -118,12 +118,12 @@ def compare(made: Sampled, truth: Sampled) -> Distances:
 
 def _to_surface(samples: Sampled, surface: Sampled) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """From each point the distance to the nearest of the surface's triangles, and the angle of the normals there."""
-    _, near = cKDTree(surface.points).query(samples.points, k=CANDIDATES)
+    near = np.asarray(cKDTree(surface.points).query(samples.points, k=CANDIDATES)[1])
     away = np.stack([
         np.linalg.norm(closest_point(surface.triangles[near[:, k]], samples.points) - samples.points, axis=1)
         for k in range(CANDIDATES)
     ])  # fmt: skip
-    best = away.argmin(0)
+    best: NDArray[np.intp] = np.argmin(away, axis=0)
     each = np.arange(len(best))
     cosine = (samples.normals * surface.normals[near[each, best]]).sum(1)
     return away[best, each], np.degrees(np.arccos(np.clip(cosine, -1, 1)))

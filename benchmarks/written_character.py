@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.skeleton import Skeleton
 
-TYPES = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
+TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
 WIDTHS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
 SUPERSAMPLING, FRACTION_BITS = 8, 4
 """How many times larger an outline is drawn, and the bits of OpenCV's fractions of a pixel."""
@@ -40,7 +40,7 @@ class Written:
 
 def read_written(path: Path) -> Written:
     """Read a character."""
-    scene = trimesh.load(path, force="scene", process=False)
+    scene: Any = trimesh.load_scene(path, process=False)
     (surface,) = scene.geometry.values()
     file = _Glb(path)
     skin = file.json["skins"][0]
@@ -93,7 +93,7 @@ class _Glb:
         view = self.json["bufferViews"][accessor["bufferView"]]
         kind, width = TYPES[accessor["componentType"]], WIDTHS[accessor["type"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        found = np.frombuffer(self._binary, kind, accessor["count"] * width, start).reshape(-1, width)
+        found: NDArray[Any] = np.frombuffer(self._binary, kind, accessor["count"] * width, start).reshape(-1, width)
         return found / np.iinfo(kind).max if accessor.get("normalized") else found
 
 
