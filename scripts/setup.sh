@@ -100,13 +100,15 @@ build_player() {
   node web/compress.mjs web/dist
 }
 
-# What only the tests need: a browser that is driven without a window, PostgreSQL, what makes networks, and what the
-# guide's commands use.
+# What only the tests need: a browser that is driven without a window, PostgreSQL, what makes networks, OpenGL
+# without a screen, and what the guide's commands use.
 install_test_tools() {
   compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || install_debian postgresql
   command -v ip >/dev/null || install_debian iproute2
   command -v nsenter >/dev/null && command -v setpriv >/dev/null || install_debian util-linux
   command -v curl >/dev/null && command -v jq >/dev/null || install_debian curl jq
+  .venv/bin/python -c 'import ctypes; ctypes.CDLL("libEGL_mesa.so.0")' 2>/dev/null ||
+    install_debian libegl1 libgl1 libgl1-mesa-dri
   [ -n "${GALATEA_CHROMIUM:-}" ] || command -v chromium >/dev/null || install_debian chromium fonts-dejavu-core
 }
 

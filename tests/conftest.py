@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from missing import missing
 from receiver import OK, Answer, Receiver
 from servers import PostgresServer, S3Server, postgres_folder
 from swift import s3_server
@@ -36,9 +37,7 @@ def media() -> Callable[[str], Path]:
         path = folder / name
         if not path.exists():
             message = f"test media not found: {path} (set GALATEA_TEST_DATA to the folder that holds them)"
-            if os.environ.get("CI") == "true":
-                pytest.fail(message)
-            pytest.skip(message)
+            missing(message)
         return path
 
     return find
@@ -49,9 +48,7 @@ def postgres_installed() -> None:
     """Skips where PostgreSQL is not installed, fails where it must be (`CI=true`)."""
     if postgres_folder() is None:
         message = "PostgreSQL is not installed (make test installs it: scripts/setup.sh --for-tests)"
-        if os.environ.get("CI") == "true":
-            pytest.fail(message)
-        pytest.skip(message)
+        missing(message)
 
 
 @pytest.fixture(scope="session")
@@ -60,6 +57,22 @@ def postgres(postgres_installed: None) -> Iterator[PostgresServer]:
     server = PostgresServer()
     yield server
     server.remove()
+
+
+@pytest.fixture(scope="session")
+def opengl() -> None:
+    """Skips where there is no OpenGL without a screen, fails where there must be (`CI=true`)."""
+    from template_character import template_character  # slow to import, and few tests need it
+
+    from engine.errors import InputError
+    from engine.export.lit_preview import LitPreview
+
+    try:
+        with LitPreview(template_character(texture_size=8), (8, 8)):
+            pass
+    except InputError as error:
+        assert error.code == "gl_unavailable"
+        missing(f"{error.detail} (make test installs Mesa's EGL: scripts/setup.sh --for-tests)")
 
 
 @pytest.fixture(scope="session")

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
+from missing import missing
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
@@ -23,9 +22,7 @@ def validate(path: Path) -> dict[str, Any]:
     """The issues that Khronos' validator finds. Skips where it is not installed, fails where it must be."""
     if shutil.which("node") is None or not (ROOT / "web/node_modules/gltf-validator").exists():
         message = "gltf-validator is not installed (make setup installs it)"
-        if os.environ.get("CI") == "true":
-            pytest.fail(message)
-        pytest.skip(message)
+        missing(message)
     script = Path(__file__).with_name("validate_glb.mjs")
     run = subprocess.run(["node", script, path], capture_output=True, check=True, text=True, timeout=60)
     return json.loads(run.stdout)["issues"]

@@ -14,7 +14,9 @@ import av
 import numpy as np
 import pytest
 
+from engine.character.sample import sample_picture
 from engine.media.image import write_image
+from engine.media.video import read_video
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import mouth_opening
 from engine.performances import video
@@ -124,16 +126,28 @@ def test_bad_input_ends_with_one_clear_line(
     assert line.startswith(f"Error: {said}")
 
 
-def test_ctrl_c_leaves_nothing_half_made(tmp_path: Path, environment: dict[str, str]) -> None:
-    (tmp_path / "a.png").write_bytes(PICTURE)
-    out = tmp_path / "out"
-    command = [sys.executable, "-m", "shell.main", "tiny", tmp_path / "a.png", "-o", out, "--options", '{"seconds":60}']
-    process = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE)
-    while not list(out.glob(".galatea-*/preview.jpg")):
+@pytest.mark.parametrize("kind", ["tiny", "portrait", "character"])
+def test_ctrl_c_leaves_nothing_half_made(tmp_path: Path, environment: dict[str, str], kind: str) -> None:
+    """Whoever stops a command while it works is told so, and finds no folder; the code says that it was the user."""
+    picture, out = tmp_path / "picture.png", tmp_path / "out"
+    if kind == "tiny":
+        picture.write_bytes(PICTURE)
+        order = [picture, "--seconds", "60"]
+    elif kind == "portrait":
+        write_image(picture, next(iter(read_video(video("happy")))).rgb)
+        order = [picture, "--driver", "happy"]
+    else:
+        write_image(picture, sample_picture())
+        order = [picture]
+    kinds = {} if kind == "tiny" else {"GALATEA_KINDS": "engine.kinds:KINDS"}
+    command = [sys.executable, "-m", "shell.main", kind, *order, "-o", out]
+    process = subprocess.Popen(command, env=environment | kinds, stderr=subprocess.PIPE, text=True)
+    while not list(out.glob(".galatea-*/preview.jpg")):  # the first thing that is made, long before the last
         assert process.poll() is None
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    assert process.wait(20) != 0
+    _, said = process.communicate(timeout=300)
+    assert (process.returncode, said.strip()) == (130, "Stopped.")
     assert not out.exists()
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import httpx
 import pytest
+from missing import missing
 from running import ROOT, Running, eventually
 
 COMMANDS = {"python": ([sys.executable], "receiver.py"), "javascript": (["node"], "receiver.mjs")}
@@ -28,7 +29,7 @@ def test_the_receiver_of_the_guide_verifies_what_comes(
     packages = ROOT / "web" / "node_modules"
     if language == "javascript" and not (packages / "standardwebhooks").is_dir():
         message = "the page's packages are not installed (make setup)"
-        pytest.fail(message) if os.environ.get("CI") == "true" else pytest.skip(message)
+        missing(message)
     (tmp_path / "node_modules").symlink_to(packages)
     blocks = re.findall(rf"```{language}\n(.*?)```", (ROOT / "docs" / "webhooks.md").read_text(), re.DOTALL)
     assert len(blocks) == 1
