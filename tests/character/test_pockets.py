@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import cv2
@@ -178,15 +179,21 @@ def test_of_a_hand_beside_the_person_nothing_is_said() -> None:
     assert parted(rgb, np.where(template, -1, labels), template, hand) is None
 
 
+@pytest.fixture(scope="module")
+def woken(media: Callable[[str], Path]) -> Callable[[str], Woken]:
+    """`woken(name)` is who stands in that picture, as found; each once."""
+    return cache(lambda name: wake(media(f"fullbody/{name}"), {}))
+
+
 @pytest.mark.parametrize(
     ("name", "side", "arm"), [("man_green_coat.png", "Right", 3), ("woman_green_dress_hip.jpg", "Left", 2)]
 )
 def test_a_hidden_hand_comes_out_and_the_cloth_stays(
-    name: str, side: str, arm: int, media: Callable[[str], Path]
+    name: str, side: str, arm: int, woken: Callable[[str], Woken]
 ) -> None:
-    woken = wake(media(f"fullbody/{name}"), {})
-    assert set(np.unique(woken.labels.hidden)) == {-1, arm}
-    comes_out(woken, side)
+    found = woken(name)
+    assert set(np.unique(found.labels.hidden)) == {-1, arm}
+    comes_out(found, side)
 
 
 IN_TROUSERS: Turns = {
@@ -265,13 +272,15 @@ def test_the_report_tells_of_a_hand_that_is_made_up(name: str, hidden: bool, med
     assert ("hand_in_pocket" in [notice.code for notice in run.notices]) == hidden
 
 
-def test_a_label_painted_over_a_hidden_hand_overrules_it(media: Callable[[str], Path]) -> None:
-    photo = media("fullbody/woman_green_dress_hip.jpg")
-    woken = wake(photo, {})
-    y, x = np.argwhere(woken.labels.hidden >= 0).mean(axis=0)
-    to_grid = woken.silhouette.to_grid
-    place = np.linalg.solve(to_grid[:, :2], np.array([x, y]) - to_grid[:, 2]) / woken.figure.scale
-    stroke = {"path": [place.tolist()], "radius": 0.05 * woken.figure.rgb.shape[0], "part": "left_arm"}
-    painted = wake(photo, {"label_strokes": [stroke]})
+def test_a_label_painted_over_a_hidden_hand_overrules_it(
+    media: Callable[[str], Path], woken: Callable[[str], Woken]
+) -> None:
+    name = "woman_green_dress_hip.jpg"
+    found = woken(name)
+    y, x = np.argwhere(found.labels.hidden >= 0).mean(axis=0)
+    to_grid = found.silhouette.to_grid
+    place = np.linalg.solve(to_grid[:, :2], np.array([x, y]) - to_grid[:, 2]) / found.figure.scale
+    stroke = {"path": [place.tolist()], "radius": 0.05 * found.figure.rgb.shape[0], "part": "left_arm"}
+    painted = wake(media(f"fullbody/{name}"), {"label_strokes": [stroke]})
     assert painted.labels.labels[round(y), round(x)] == LEFT
-    assert (painted.labels.hidden >= 0).sum() < 0.1 * (woken.labels.hidden >= 0).sum()
+    assert (painted.labels.hidden >= 0).sum() < 0.1 * (found.labels.hidden >= 0).sum()
