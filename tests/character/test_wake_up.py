@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -43,8 +44,14 @@ def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def woken(picture: Path) -> Path:
-    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True, vrm_author="Ada").folder
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What was found in a picture: each is looked at and fitted once, whatever becomes of it then."""
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture(scope="module")
+def woken(picture: Path, cache: Path) -> Path:
+    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True, vrm_author="Ada", cache=cache).folder
 
 
 def test_everything_is_left(woken: Path) -> None:
@@ -94,9 +101,10 @@ def test_nobody_is_left_in_the_background(woken: Path, picture: Path) -> None:
     assert np.abs(wall - [128, 138, 148]).max() < 12
 
 
-def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path, tmp_path: Path) -> None:
+def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path, cache: Path, tmp_path: Path) -> None:
     turned = {"LeftArm": (0, 0, 90)}
-    out = wake_up(picture, tmp_path / "out", seconds=1, motion="wave", pose=turned, keep=("legs",), lit=True).folder
+    asked: dict[str, Any] = {"motion": "wave", "pose": turned, "keep": ("legs",), "lit": True}
+    out = wake_up(picture, tmp_path / "out", seconds=1, cache=cache, **asked).folder
     raised = np.abs(read_image(out / "posed.png").rgb.astype(int) - read_image(woken / "posed.png").rgb).sum(-1) > 60
     columns = np.nonzero(raised)[1]
     middle = raised.shape[1] / 2
@@ -108,8 +116,8 @@ def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path,
         missing("there is no OpenGL without a screen: nobody has seen a lit picture (scripts/setup.sh --for-tests)")
 
 
-def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
-    out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1).folder
+def test_a_motion_of_ones_own(picture: Path, cache: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
+    out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1, cache=cache).folder
     names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
     assert names[:4] == ["pictured", "step_out", "motion", "motion_in_place"]
     assert names[4:] == ["idle", "walk_in_place", "run_in_place", "jump", "sit", "wave", "dance", "bow"]
@@ -117,12 +125,12 @@ def test_a_motion_of_ones_own(picture: Path, media: Callable[[str], Path], tmp_p
 
 
 def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
-    picture: Path, media: Callable[[str], Path], tmp_path: Path
+    picture: Path, cache: Path, media: Callable[[str], Path], tmp_path: Path
 ) -> None:
     """As far as the picture has room; the character keeps the loop, and out of its file it leads there again."""
     motion = media("mocap/makehuman_walk_cycle.bvh")
     for folder, clip in (("first", None), ("again", "motion_in_place")):
-        out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip).folder
+        out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip, cache=cache).folder
         motion = out / "character.glb"
         film = read_gltf_motion(motion, "step_out")
         hips = film.names.index("Hips")
@@ -135,9 +143,10 @@ def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
             assert read_gltf_motion(motion, name).loops
 
 
-def test_one_animation_of_several_is_played(picture: Path, woken: Path, tmp_path: Path) -> None:
+def test_one_animation_of_several_is_played(picture: Path, woken: Path, cache: Path, tmp_path: Path) -> None:
     """A character's own clip, taken from its file, moves it as before: turned joint for turned joint."""
-    out = wake_up(picture, tmp_path / "out", woken / "character.glb", seconds=1, motion_clip="walk").folder
+    own = woken / "character.glb"
+    out = wake_up(picture, tmp_path / "out", own, seconds=1, motion_clip="walk", cache=cache).folder
     before, after = read_gltf_motion(woken / "character.glb", "walk"), read_gltf_motion(out / "character.glb", "motion")
     arm = before.names.index("LeftArm")  # legs are bent a little anew, so that feet stand
     assert len(after.rotations) == len(before.rotations)
@@ -211,9 +220,11 @@ def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path) -> None
     (b"HIERARCHY\nROOT Hips\n{\n", "motion_truncated"),
     (b"glTF", "motion_unreadable"),
 ])  # fmt: skip
-def test_motions_that_are_none_are_refused(tmp_path: Path, picture: Path, content: bytes, code: str) -> None:
+def test_motions_that_are_none_are_refused(
+    tmp_path: Path, picture: Path, cache: Path, content: bytes, code: str
+) -> None:
     (tmp_path / "motion").write_bytes(content)
-    error = refused(tmp_path, picture, tmp_path / "motion")
+    error = refused(tmp_path, picture, tmp_path / "motion", cache=cache)
     assert (error.code, error.correctable) == (code, ("motion",))
 
 
