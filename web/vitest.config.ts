@@ -17,11 +17,11 @@ export default defineConfig({
           name: 'browser',
           root,
           include: ['browser/**/*.test.ts'],
-          globalSetup: ['browser/service.ts'],
+          globalSetup: ['browser/finished_jobs.ts'],
           testTimeout: 600_000,
           expect: { poll: { timeout: 60_000 } },
           hookTimeout: 180_000,
-          fileParallelism: false,
+          maxWorkers: 2, // each file has a browser and a service of its own: see browser/own_service.ts
         },
       },
     ],

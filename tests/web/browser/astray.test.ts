@@ -1,7 +1,9 @@
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
-import { launch, open } from './page';
+import { launch } from './browser';
+import { address } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -24,7 +26,7 @@ describe('an address that means nothing', () => {
   });
 
   it('is told of where the service is asked for it, too', async () => {
-    expect((await fetch(`${inject('address')}/gallery`)).status).toBe(404);
+    expect((await fetch(`${address}/gallery`)).status).toBe(404);
     const page = await open(browser, 'gallery');
     await found(page).waitFor();
     expectComplaint(answered(404));
@@ -64,11 +66,11 @@ describe('help', () => {
     for (let path = left.pop(); path; path = left.pop()) {
       if (seen.has(path)) continue;
       seen.add(path);
-      const answer = await fetch(inject('address') + path);
+      const answer = await fetch(address + path);
       expect(answer.status, path).toBe(200);
       if (!path.endsWith('.html')) continue;
       for (const [, to = ''] of (await answer.text()).matchAll(/(?:href|src)="([^"#]+)/g)) {
-        if (!/^[a-z]+:/.test(to)) left.push(new URL(to, inject('address') + path).pathname);
+        if (!/^[a-z]+:/.test(to)) left.push(new URL(to, address + path).pathname);
       }
     }
     expect(seen.size).toBeGreaterThan(15);

@@ -6,24 +6,18 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { isMade, launchIn3D } from './character_kit';
 import { readable } from './axe';
-import { faceless, LONG, open, order, orderCharacter, portrait, samplePerson } from './page';
+import { LONG } from './jobs';
+import { portrait, samplePerson } from './media';
+import { finished } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
-let done: string;
-let failed: string;
-let character: string;
-let nobody: string;
+const { portrait: done, noFace: failed, character, noPerson: nobody } = finished;
 const folder = mkdtempSync(join(tmpdir(), 'galatea-axe-'));
 const person = join(folder, 'person.png');
 beforeAll(async () => {
   browser = await launchIn3D();
   samplePerson(person);
-  [done, failed, character, nobody] = await Promise.all([
-    order(portrait, 'happy'),
-    order(faceless, 'happy'),
-    orderCharacter(person, { seconds: 1 }),
-    orderCharacter(faceless),
-  ]);
 });
 afterAll(async () => {
   await browser.close();

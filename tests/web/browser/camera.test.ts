@@ -4,7 +4,9 @@ import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, afterEach, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
-import { ask, inPython, jobOf, launch, media, open, played } from './page';
+import { launch } from './browser';
+import { inPython, media } from './media';
+import { ask, jobOf, open, played } from './page';
 
 let browser: Browser | undefined;
 const folder = mkdtempSync(join(tmpdir(), 'galatea-camera-'));

@@ -2,10 +2,13 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint, unanswered } from './complaints';
 import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { ask, faceless, inPython, jobOf, LONG, open, orderCharacter, samplePerson } from './page';
+import { LONG } from './jobs';
+import { inPython, samplePeople, samplePerson } from './media';
+import { address, finished } from './own_service';
+import { ask, jobOf, open, orderCharacter } from './page';
 
 interface Made {
   inputs: Record<string, string>;
@@ -13,18 +16,6 @@ interface Made {
   revision_of: string | null;
 }
 type Joints = Record<string, { place: [number, number] }>;
-
-/** Somebody, and somebody smaller to the right of them. */
-const TWO = `
-import sys
-from PIL import Image
-from engine.character.sample import sample_picture
-one = Image.fromarray(sample_picture())
-both = Image.new("RGB", (one.width + one.width * 4 // 5, one.height), (128, 138, 148))
-both.paste(one, (0, 0))
-both.paste(one.resize((one.width * 4 // 5, one.height * 4 // 5)), (one.width, one.height // 5))
-both.save(sys.argv[1])
-`;
 
 /** What the engine lets be placed, what it needs where nobody is found, and the colours of its labels. */
 const NAMES = `
@@ -45,15 +36,13 @@ open(sys.argv[1], "wb").write(bvh())
 const folder = mkdtempSync(join(tmpdir(), 'galatea-person-'));
 const person = join(folder, 'somebody.png');
 let browser: Browser;
-let done: string;
+const done = finished.character;
 let engine: [joints: string[], needed: string[], colours: number[][]];
 beforeAll(async () => {
   browser = await launchIn3D();
-  // all that blocks this process comes first: lines to the service would break meanwhile
   samplePerson(person);
-  inPython(TWO, join(folder, 'two.png'));
+  samplePeople(join(folder, 'two.png'));
   engine = JSON.parse(inPython(NAMES)) as typeof engine;
-  done = await orderCharacter(person, { seconds: 1 });
 });
 afterAll(async () => {
   await browser.close();
@@ -179,7 +168,7 @@ describe('ordering a character', () => {
     const form = new FormData();
     form.set('name', 'arm-swing');
     form.set('file', new Blob([readFileSync(file)]), 'swing.bvh');
-    expect((await fetch(`${inject('address')}/v1/motions`, { method: 'POST', body: form })).status).toBe(201);
+    expect((await fetch(`${address}/v1/motions`, { method: 'POST', body: form })).status).toBe(201);
     const checked = async (): Promise<string> =>
       (await ask<{ check_status: string }>('/v1/motions/arm-swing')).check_status;
     await expect.poll(checked, { timeout: LONG }).toBe('ready');
@@ -191,7 +180,6 @@ describe('ordering a character', () => {
     expect([sent.inputs.motion, sent.metadata.motion]).toEqual(['arm-swing', 'Arm swing']);
     await page.getByText('Motion: Arm swing', { exact: true }).waitFor();
     await cancel(page);
-    await fetch(`${inject('address')}/v1/motions/arm-swing`, { method: 'DELETE' });
   });
 
   it('refuses what is no motion, and finds the place of one that is dropped anywhere', async () => {
@@ -219,7 +207,7 @@ describe('ordering a character', () => {
     await page.getByLabel(/Drop a BVH/).setInputFiles(motion);
     await start(page).click();
     await page.getByText(/Uploading the motion: [1-9]\d?%/).waitFor();
-    await page.goto(`${inject('address')}/#/`);
+    await page.goto(`${address}/#/`);
     await page.reload();
     await page.getByText(/The upload of “Somebody” \(Long walk\) was interrupted/).waitFor();
     await slow(-1);
@@ -274,7 +262,7 @@ describe('a finished character', () => {
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     await page.getByText('Options').click();
     expect(await overflow()).toBeLessThanOrEqual(0);
-    await page.goto(`${inject('address')}/#/jobs/${done}`);
+    await page.goto(`${address}/#/jobs/${done}`);
     await page.getByText('Edit and make again').click();
     await page.getByRole('button', { name: 'Paint the mask' }).waitFor();
     expect(await overflow()).toBeLessThanOrEqual(0);
@@ -404,7 +392,7 @@ describe('corrections of a character', () => {
   });
 
   it('choose somebody else by a click, or everybody; who was chosen before a box is again after it', async () => {
-    const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, joints: { LeftElbow: [300, 270] } });
+    const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, size: [240, 320], joints: { LeftElbow: [300, 270] } });
     const page = await corrections(id);
     await page.getByText('2 people were found.').waitFor();
     const other = page.getByRole('button', { name: 'Person 2 of 2' });
@@ -452,7 +440,7 @@ describe('corrections of a character', () => {
   });
 
   it('are asked for where nobody was found, with a skeleton to begin with', async () => {
-    const id = await orderCharacter(faceless, { seconds: 1 });
+    const id = finished.noPerson;
     const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('Correct and try again').click();

@@ -4,10 +4,13 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, again, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { ask, inPython, jobOf, LONG, orderCharacter, samplePerson } from './page';
+import { LONG } from './jobs';
+import { inPython, samplePerson } from './media';
+import { address, finished } from './own_service';
+import { ask, jobOf } from './page';
 
 /** A mask of a picture's size, and one that is too small. */
 const MASKS = `
@@ -23,12 +26,11 @@ mask.resize((200, 300)).save(sys.argv[3])
 const folder = mkdtempSync(join(tmpdir(), 'galatea-files-'));
 const [person, mask, small] = ['somebody.png', 'mask.png', 'small.png'].map((name) => join(folder, name)) as [string, string, string];
 let browser: Browser;
-let done: string;
+const done = finished.character;
 beforeAll(async () => {
   browser = await launchIn3D();
   samplePerson(person);
   inPython(MASKS, person, mask, small);
-  done = await orderCharacter(person, { seconds: 1 });
 });
 afterAll(async () => {
   await browser.close();
@@ -89,7 +91,7 @@ describe('a mask from a file', () => {
     const body = new FormData();
     const { readFileSync } = await import('node:fs');
     body.append('mask', new File([readFileSync(small)], 'small.png'));
-    const response = await fetch(`${inject('address')}/v1/jobs/${done}/revisions`, { method: 'POST', body });
+    const response = await fetch(`${address}/v1/jobs/${done}/revisions`, { method: 'POST', body });
     const { id } = (await response.json()) as { id: string };
     const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('The mask is not as large as the picture', { exact: true }).waitFor({ timeout: LONG });

@@ -1,8 +1,11 @@
 /** What the tests of characters share: the page of a finished one with its corrections open, and what it sends. */
 
 import type { Browser, Page, Request } from 'playwright-core';
-import { expect, inject } from 'vitest';
-import { launch, LONG, open } from './page';
+import { expect } from 'vitest';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { address } from './own_service';
+import { open } from './page';
 
 export const again = (page: Page) => page.getByRole('button', { name: 'Make it again' });
 export const isOrder = (request: Request): boolean => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
@@ -36,5 +39,5 @@ export async function accepted(request: Request): Promise<void> {
   const response = await request.response();
   expect(response?.status(), await response?.text()).toBe(202);
   const { id } = (await response!.json()) as { id: string };
-  await fetch(`${inject('address')}/v1/jobs/${id}/cancel`, { method: 'POST' });
+  await fetch(`${address}/v1/jobs/${id}/cancel`, { method: 'POST' });
 }

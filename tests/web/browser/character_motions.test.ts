@@ -4,10 +4,13 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { ask, inPython, LONG, media, samplePerson } from './page';
+import { LONG } from './jobs';
+import { inPython, media, samplePerson } from './media';
+import { address } from './own_service';
+import { ask } from './page';
 
 /** A motion of the tests' own, one that is nobody's, and the names that the engine has. */
 const MADE = `
@@ -70,8 +73,8 @@ async function moving(motion: string): Promise<string> {
   body.append('kind', 'character');
   body.append('photo', new File([readFileSync(person)], 'somebody.png'));
   body.append('motion', new File([readFileSync(motion)], 'motion.bvh'));
-  body.append('options', JSON.stringify({ seconds: 1 }));
-  const response = await fetch(`${inject('address')}/v1/jobs`, { method: 'POST', body });
+  body.append('options', JSON.stringify({ seconds: 1, size: [240, 320] }));
+  const response = await fetch(`${address}/v1/jobs`, { method: 'POST', body });
   return ((await response.json()) as { id: string }).id;
 }
 

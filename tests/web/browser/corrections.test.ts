@@ -6,7 +6,10 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, revised } from './character_kit';
-import { ask, faceless, inPython, jobOf, launch, LONG, open, order, played, portrait } from './page';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { faceless, inPython, portrait } from './media';
+import { ask, jobOf, open, order, played } from './page';
 
 type Points = [number, number][];
 interface Landmarks {

@@ -1,7 +1,10 @@
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
-import { launch, open, played, portrait } from './page';
+import { launch } from './browser';
+import { portrait } from './media';
+import { address } from './own_service';
+import { open, played } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -158,11 +161,11 @@ describe('what was chosen', () => {
 });
 
 it('hands out the samples to programs, too', async () => {
-  const answer = await fetch(`${inject('address')}/samples/grace-hopper.jpg`);
+  const answer = await fetch(`${address}/samples/grace-hopper.jpg`);
   expect(answer.headers.get('content-type')).toBe('image/jpeg');
   const body = new FormData();
   body.append('file', new File([await answer.blob()], 'grace-hopper.jpg'));
-  expect((await fetch(`${inject('address')}/v1/files`, { method: 'POST', body })).status).toBe(201);
+  expect((await fetch(`${address}/v1/files`, { method: 'POST', body })).status).toBe(201);
 });
 
 const inSight = (what: ReturnType<Page['locator']>): Promise<boolean> =>

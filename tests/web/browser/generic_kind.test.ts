@@ -6,8 +6,10 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { launch } from './browser';
 import { complaints, watch } from './complaints';
-import { launch, LONG, portrait } from './page';
+import { LONG } from './jobs';
+import { portrait } from './media';
 import { serve } from './service';
 
 const root = resolve(import.meta.dirname, '../../..');

@@ -1,9 +1,12 @@
 import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { readable } from './axe';
-import { faceless, launch, open } from './page';
+import { launch } from './browser';
+import { faceless } from './media';
+import { address } from './own_service';
+import { open } from './page';
 
 interface Job {
   id: string;
@@ -16,12 +19,9 @@ beforeAll(async () => {
   browser = await launch();
   // A key sees what belongs to it alone, so that the history begins empty here.
   const body = JSON.stringify({ name: 'history', scopes: ['read', 'submit'], expires_in_days: 1 });
-  key = (await (await fetch(`${inject('address')}/v1/keys`, { method: 'POST', headers: json, body })).json()) as typeof key;
+  key = (await (await fetch(`${address}/v1/keys`, { method: 'POST', headers: json, body })).json()) as typeof key;
 });
-afterAll(async () => {
-  await browser.close();
-  await fetch(`${inject('address')}/v1/keys/${key.id}`, { method: 'DELETE' });
-});
+afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
   expect(complaints.splice(0)).toEqual([]);
@@ -32,7 +32,7 @@ const bearer = (): Record<string, string> => ({ Authorization: `Bearer ${key.tok
 
 async function send<T>(method: string, path: string, body?: object | FormData): Promise<T> {
   const form = body instanceof FormData;
-  const response = await fetch(`${inject('address')}${path}`, {
+  const response = await fetch(`${address}${path}`, {
     method,
     headers: { ...bearer(), ...(form ? {} : json) },
     ...(body && { body: form ? body : JSON.stringify(body) }),

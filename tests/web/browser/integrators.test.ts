@@ -2,9 +2,12 @@ import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import type { Browser } from 'playwright-core';
 import { Webhook } from 'standardwebhooks';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
-import { launch, LONG, open, order, portrait } from './page';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { address, finished } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
 let receiver: Server;
@@ -34,7 +37,7 @@ afterEach(async () => {
 });
 
 const service = (path: string, token?: string): Promise<Response> =>
-  fetch(inject('address') + path, token ? { headers: { Authorization: `Bearer ${token}` } } : {});
+  fetch(address + path, token ? { headers: { Authorization: `Bearer ${token}` } } : {});
 
 describe('keys', () => {
   it('are made, shown once, used by a program, and revoked after a question', async () => {
@@ -63,7 +66,7 @@ describe('webhooks', () => {
     await page.getByLabel('URL', { exact: true }).fill(url);
     await page.getByRole('button', { name: 'Add endpoint' }).click();
     const secret = await page.getByLabel(`Signing secret for ${url}`).inputValue();
-    const added = page.locator('li.endpoint').filter({ hasText: url }); // others may be there from before
+    const added = page.locator('li.endpoint').filter({ hasText: url });
     await added.getByRole('button', { name: 'Send a test' }).click();
     const isTest = page.getByText('Test', { exact: true }); // jobs of other tests are told here, too
     const row = page.locator('.rows details').filter({ hasText: url }).filter({ has: isTest }).first();
@@ -97,8 +100,7 @@ describe('webhooks', () => {
 
 describe('a link', () => {
   it('shows the video to others until it is taken back', async () => {
-    const id = await order(portrait, 'happy');
-    const page = await open(browser, `#/jobs/${id}`);
+    const page = await open(browser, `#/jobs/${finished.portrait}`);
     await page.getByText('Share', { exact: true }).click({ timeout: LONG });
     await page.getByLabel('Expires after').selectOption('1 day');
     await page.getByRole('button', { name: 'Create link' }).click();

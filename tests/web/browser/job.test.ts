@@ -1,13 +1,16 @@
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint, unanswered } from './complaints';
-import { ask, faceless, launch, LONG, open, openRunning, order, portrait } from './page';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { faceless } from './media';
+import { address, finished } from './own_service';
+import { ask, open, openRunning, order } from './page';
 
 let browser: Browser;
-let done: string;
+const done = finished.portrait;
 beforeAll(async () => {
   browser = await launch();
-  done = await order(portrait, 'happy');
 });
 afterAll(() => browser.close());
 afterEach(async () => {
@@ -53,7 +56,7 @@ describe('a job that succeeds', () => {
     ]);
     expect(archive.suggestedFilename()).toBe(`portrait-${done}.zip`);
     const report = await page.getByRole('link', { name: 'report.json' }).getAttribute('href');
-    expect(await (await fetch(inject('address') + report)).json()).toMatchObject({ kind: 'portrait' });
+    expect(await (await fetch(address + report)).json()).toMatchObject({ kind: 'portrait' });
   });
 
   it('is found among the recent ones, with its poster', async () => {
@@ -109,10 +112,10 @@ describe('a job that succeeds', () => {
     await page.waitForURL((url) => !url.hash.endsWith(done));
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     const revised = page.url().split('/').at(-1) ?? '';
-    const job = await (await fetch(`${inject('address')}/v1/jobs/${revised}`)).json();
+    const job = await (await fetch(`${address}/v1/jobs/${revised}`)).json();
     expect(job.revision_of).toBe(done);
     expect(job.options).toEqual({ strength: 0.5, follow: ['eyes', 'brows', 'mouth'], neutral_frame: 3 });
-    const report = await (await fetch(inject('address') + job.artifacts['report.json'].url)).json();
+    const report = await (await fetch(address + job.artifacts['report.json'].url)).json();
     expect(report.stages.find_face + report.stages.track_driver).toBeLessThan(0.5); // taken from the tree
     expect(report.inputs.neutral_frame).toBe(3);
 
@@ -126,11 +129,11 @@ describe('a job that succeeds', () => {
 
 describe('a job that does not', () => {
   it('says why it failed and what to do', async () => {
-    const id = await order(faceless, 'happy');
+    const id = finished.noFace;
     const page = await open(browser, `#/jobs/${id}`);
     const alert = page.getByRole('alert');
     await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: LONG });
-    const job = (await (await fetch(`${inject('address')}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
+    const job = (await (await fetch(`${address}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
     expect(await alert.innerText()).toContain(job.error.detail);
     await alert.getByRole('link', { name: 'Choose another picture' }).waitFor();
     expect(await page.getByRole('button', { name: 'Make it again' }).count()).toBe(0); // until it is asked for
@@ -151,7 +154,7 @@ describe('a job that does not', () => {
     await page.getByRole('button', { name: 'Delete' }).click();
     await page.getByRole('button', { name: 'Delete permanently' }).click();
     await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
-    expect((await fetch(`${inject('address')}/v1/jobs/${id}`)).status).toBe(404);
+    expect((await fetch(`${address}/v1/jobs/${id}`)).status).toBe(404);
   });
 
   it('is missed in plain words', async () => {
@@ -167,7 +170,7 @@ describe('a job on its way', () => {
     await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
     const { items } = await ask<{ items: { id: string; status: string }[] }>('/v1/jobs');
     for (const { id, status } of items) {
-      if (id !== done && /queued|running/.test(status)) await fetch(`${inject('address')}/v1/jobs/${id}/cancel`, { method: 'POST' });
+      if (id !== done && /queued|running/.test(status)) await fetch(`${address}/v1/jobs/${id}/cancel`, { method: 'POST' });
     }
     await page.getByText('Canceled', { exact: true }).first().waitFor({ timeout: LONG });
   });

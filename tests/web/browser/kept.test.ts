@@ -1,14 +1,16 @@
 import { readFileSync } from 'node:fs';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { readable } from './axe';
-import { inPython, launch, open } from './page';
+import { launch } from './browser';
+import { inPython } from './media';
+import { address } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
   browser = await launch();
-  await keepNothing(); // of what other tests kept
 });
 afterAll(() => browser.close());
 afterEach(async () => {
@@ -36,14 +38,14 @@ Frame Time: 0.04
 `;
 
 async function own(shelf: string): Promise<{ name: string }[]> {
-  const { items } = (await (await fetch(`${inject('address')}/v1/${shelf}`)).json()) as { items: { name: string; source: string }[] };
+  const { items } = (await (await fetch(`${address}/v1/${shelf}`)).json()) as { items: { name: string; source: string }[] };
   return items.filter(({ source }) => source === 'own');
 }
 const ownNames = async (shelf: string): Promise<string[]> => (await own(shelf)).map(({ name }) => name).sort();
 
 async function keepNothing(): Promise<void> {
   for (const shelf of ['drivers', 'motions']) {
-    for (const { name } of await own(shelf)) await fetch(`${inject('address')}/v1/${shelf}/${name}`, { method: 'DELETE' });
+    for (const { name } of await own(shelf)) await fetch(`${address}/v1/${shelf}/${name}`, { method: 'DELETE' });
   }
 }
 
@@ -51,7 +53,7 @@ async function keep(shelf: string, name: string, file: File): Promise<void> {
   const form = new FormData();
   form.append('name', name);
   form.append('file', file);
-  const response = await fetch(`${inject('address')}/v1/${shelf}`, { method: 'POST', body: form });
+  const response = await fetch(`${address}/v1/${shelf}`, { method: 'POST', body: form });
   expect(response.ok, await response.text()).toBe(true);
 }
 

@@ -3,7 +3,10 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';
-import { launch, LONG, open, order, portrait } from './page';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { portrait } from './media';
+import { open, order } from './page';
 
 let browser: Browser;
 let job: string;

@@ -1,7 +1,11 @@
 import type { Browser } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';
-import { ask, inPython, launch, LONG, open, portrait } from './page';
+import { launch } from './browser';
+import { LONG } from './jobs';
+import { inPython, portrait } from './media';
+import { address } from './own_service';
+import { ask, open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -41,8 +45,7 @@ it('keeps a video, finds the emotions in it, and has one of them acted out', { t
   expect([job.inputs.driver, job.options.trim]).toEqual([`surprise-2/${found?.name}`, [found?.start, found?.end]]);
 
   // The search is no entry among what was made.
-  await page.goto(`${inject('address')}/#/history`);
+  await page.goto(`${address}/#/history`);
   await page.getByText('Grace hopper').first().waitFor();
   expect(await page.getByText('Moments').count()).toBe(0);
-  await fetch(`${inject('address')}/v1/drivers/surprise-2`, { method: 'DELETE' });
 });

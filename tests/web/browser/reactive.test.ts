@@ -9,7 +9,8 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import type { Profile } from '../../../web/reactive/src/profile';
 import { answered, complaints, expectComplaint, watch } from './complaints';
-import { launch, portrait } from './page';
+import { launch } from './browser';
+import { portrait } from './media';
 
 const root = resolve(import.meta.dirname, '../../..');
 const python = join(root, '.venv/bin/python');

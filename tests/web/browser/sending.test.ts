@@ -1,7 +1,9 @@
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
-import { ask, jobOf, launch, media, open, portrait } from './page';
+import { launch } from './browser';
+import { media, portrait } from './media';
+import { ask, jobOf, open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -18,23 +20,22 @@ const bar = (page: Page) => page.getByRole('progressbar');
 const share = async (page: Page): Promise<number> => Number(await bar(page).getAttribute('value'));
 
 /** The start page with a portrait and a video chosen, on a line that takes some seconds for the video. */
-async function chosen(video: string): Promise<Page> {
+async function chosen(video: string): Promise<{ page: Page; speed: (bytesPerSecond: number) => Promise<unknown> }> {
   const page = await open(browser);
-  await slow(page, 150_000);
+  // One session for both: what another said of the line would go on to hold beside it.
+  const line = await page.context().newCDPSession(page);
+  const speed = (uploadThroughput: number) =>
+    line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
+  await speed(150_000);
   await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
   await page.getByLabel(/Drop a video/).setInputFiles(video);
-  return page;
-}
-
-async function slow(page: Page, uploadThroughput: number): Promise<void> {
-  const line = await page.context().newCDPSession(page);
-  await line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
+  return { page, speed };
 }
 
 describe('sending a video', () => {
   it('halts and goes on, survives a reload, and orders what was wanted', async ({ skip }) => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
-    const page = await chosen(video);
+    const { page, speed } = await chosen(video);
     await start(page).click();
     await page.getByText(/Uploading the video: [2-9]\d%/).waitFor();
     await page.getByRole('button', { name: 'Pause', exact: true }).click();
@@ -51,7 +52,7 @@ describe('sending a video', () => {
     await page.getByText(/The upload of “Grace hopper” \(Man grimace d0\) was interrupted/).waitFor();
     await page.getByRole('button', { name: 'Resume upload' }).click();
     await page.getByText(/Uploading the video: [3-9]\d%/).waitFor();
-    await slow(page, -1);
+    await speed(-1);
     await page.getByRole('heading', { name: 'Grace hopper' }).waitFor({ timeout: 60_000 });
     expect(asked).toContain('HEAD uploads');
     expect(asked.includes('POST uploads')).toBe(false); // neither file was begun again
@@ -67,7 +68,7 @@ describe('sending a video', () => {
 
   it('to be kept as a driver halts and goes on, too', async ({ skip }) => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
-    const page = await chosen(video);
+    const { page, speed } = await chosen(video);
     await page.getByRole('button', { name: 'Save it and find the emotions in it' }).click();
     await page.getByText(/Uploading the video: [1-9]\d?%/).waitFor();
     expect(await start(page).isDisabled()).toBe(true); // two at once would take the upload from one another
@@ -75,17 +76,16 @@ describe('sending a video', () => {
     const halted = await share(page);
     await page.waitForTimeout(1500);
     expect(await share(page)).toBe(halted);
-    await slow(page, -1);
+    await speed(-1);
     await page.getByRole('button', { name: 'Resume', exact: true }).click();
     const kept = page.getByRole('radio', { name: /^Man grimace d0/ });
     await kept.waitFor();
     expect(await kept.isChecked()).toBe(true);
-    await fetch(new URL('/v1/drivers/man-grimace-d0', page.url()), { method: 'DELETE' });
   });
 
   it('stops when told to, and leaves nothing to go on with', async ({ skip }) => {
     const video = media('driving/man_grimace_d0.mp4') ?? skip('the shared test media are not here');
-    const page = await chosen(video);
+    const { page } = await chosen(video);
     await start(page).click();
     await page.getByText(/Uploading the video: [1-9]\d?%/).waitFor();
     const gone = page.waitForRequest((request) => request.method() === 'DELETE' && request.url().includes('/v1/uploads/'));

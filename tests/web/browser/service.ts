@@ -1,82 +1,68 @@
-/** Starts a real `galatea serve` on a free port with an empty data folder, for all browser tests of a run. */
+/** Starts a real `galatea serve` on a free port, with a data folder of its own. */
 
-import { type ChildProcess, spawn } from 'node:child_process';
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, openSync, readFileSync, rmSync } from 'node:fs';
-import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import type { TestProject } from 'vitest/node';
-
-declare module 'vitest' {
-  export interface ProvidedContext {
-    address: string;
-  }
-}
 
 const root = resolve(import.meta.dirname, '../../..');
 
-export default async function setup(project: TestProject): Promise<() => Promise<void>> {
-  const { address, end } = await serve();
-  project.provide('address', address);
-  return end;
+export interface Service {
+  address: string;
+  /** Its data folder. */
+  data: string;
+  /** Ends it; its folder stays. */
+  stop: () => Promise<void>;
+  /** Ends it, and its folder with it. */
+  end: () => Promise<void>;
 }
 
-/** A service of its own, with these settings besides; and what ends it. */
-export async function serve(settings: Record<string, string> = {}): Promise<{ address: string; end: () => Promise<void> }> {
-  const data = mkdtempSync(join(tmpdir(), 'galatea-web-'));
-  const log = join(data, 'serve.log');
-  const address = `http://127.0.0.1:${await freePort()}`;
+/** A service of its own, with these settings besides; its data folder is empty, or a copy of one that a service has left. */
+export async function serve(settings: Record<string, string> = {}, left?: string): Promise<Service> {
+  const folder = mkdtempSync(join(tmpdir(), 'galatea-web-'));
+  const [data, log] = [join(folder, 'data'), join(folder, 'serve.log')];
+  // with the owners of the files, who are others where root tests
+  if (left !== undefined) execFileSync('cp', ['--archive', left, data]);
   const output = openSync(log, 'w');
   const service = spawn(
-    join(root, '.venv/bin/python'),
-    ['-m', 'shell.main', 'serve', '--host', '127.0.0.1', '--port', new URL(address).port],
+    'setpriv', // it ends with this process, however that ends
+    ['--pdeathsig', 'TERM', join(root, '.venv/bin/python'), '-m', 'shell.main', 'serve', '--port', '0'],
     {
       cwd: root,
-      env: { ...process.env, GALATEA_DATA_DIR: join(data, 'data'), GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...settings },
+      env: { ...process.env, GALATEA_DATA_DIR: data, GALATEA_ALLOWED_NETWORKS: '127.0.0.0/8', ...settings },
       stdio: ['ignore', output, output],
     },
   );
+  const stop = (): Promise<void> => stopped(service);
+  const end = async (): Promise<void> => {
+    await stop();
+    rmSync(folder, { recursive: true, force: true });
+  };
+  let address: string;
   try {
-    await untilReady(service, address, log);
+    address = await untilReady(service, log);
   } catch (error) {
-    await stop(service);
+    await end();
     throw error;
   }
-  const end = async (): Promise<void> => {
-    await stop(service);
-    rmSync(data, { recursive: true, force: true });
-  };
-  return { address, end };
+  return { address, data, stop, end };
 }
 
-async function untilReady(service: ChildProcess, address: string, log: string): Promise<void> {
+/** Where it serves, once all that it needs is there. */
+async function untilReady(service: ChildProcess, log: string): Promise<string> {
   const deadline = Date.now() + 120_000;
   while (Date.now() < deadline && service.exitCode === null) {
-    try {
-      if ((await fetch(`${address}/readyz`)).ok) return;
-    } catch {
-      // not listening yet
-    }
-    await new Promise((wake) => setTimeout(wake, 200));
+    const address = /^Galatea serves at (http:.*)\/$/m.exec(readFileSync(log, 'utf8'))?.[1];
+    if (address && (await fetch(`${address}/readyz`).then(({ ok }) => ok, () => false))) return address;
+    await new Promise((wake) => setTimeout(wake, 50));
   }
   throw new Error(`galatea serve did not become ready:\n${readFileSync(log, 'utf8')}`);
 }
 
-function stop(service: ChildProcess): Promise<void> {
-  if (service.exitCode !== null) return Promise.resolve();
+function stopped(service: ChildProcess): Promise<void> {
+  if (service.exitCode !== null || service.signalCode !== null) return Promise.resolve();
   return new Promise((done) => {
     service.once('exit', () => done());
     service.kill('SIGTERM');
-  });
-}
-
-function freePort(): Promise<number> {
-  return new Promise((found, failed) => {
-    const probe = createServer();
-    probe.once('error', failed);
-    probe.listen(0, '127.0.0.1', () => {
-      const address = probe.address();
-      probe.close(() => (address && typeof address === 'object' ? found(address.port) : failed(new Error('no port'))));
-    });
   });
 }

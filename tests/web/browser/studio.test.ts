@@ -1,7 +1,10 @@
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';
-import { launch, open, portrait } from './page';
+import { launch } from './browser';
+import { portrait } from './media';
+import { address } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -19,7 +22,7 @@ const performance = (page: Page, name: string) => page.locator('form').getByText
 
 describe('choosing', () => {
   it('offers the built-in performances of the service', async () => {
-    const { items } = (await (await fetch(`${inject('address')}/v1/drivers`)).json()) as { items: { name: string }[] };
+    const { items } = (await (await fetch(`${address}/v1/drivers`)).json()) as { items: { name: string }[] };
     expect(items.map((driver) => driver.name)).toEqual(expect.arrayContaining(['idle', 'happy', 'surprise']));
     const page = await open(browser);
     for (const name of ['Best match', 'Idle', 'Happy', 'Normal']) {

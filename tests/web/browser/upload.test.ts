@@ -3,9 +3,11 @@
 import { connect, createServer, type Server, type Socket } from 'node:net';
 import { join, resolve } from 'node:path';
 import type { Browser, CDPSession, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it, vi } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 import type { Upload } from '../../../web/node_modules/tus-js-client';
-import { launch, open } from './page';
+import { launch } from './browser';
+import { address } from './own_service';
+import { open } from './page';
 
 const client = join(resolve(import.meta.dirname, '../../..'), 'web/node_modules/tus-js-client/dist/tus.min.js');
 const BYTES = 24_000_000;
@@ -28,7 +30,7 @@ class Line {
   private readonly sockets = new Set<Socket>();
 
   constructor() {
-    const { hostname, port } = new URL(inject('address'));
+    const { hostname, port } = new URL(address);
     this.server = createServer((near) => {
       const far = connect(Number(port), hostname);
       for (const [from, to] of [
@@ -145,7 +147,7 @@ async function arrived(page: Page): Promise<void> {
     const hex = Array.from(digest, (byte) => byte.toString(16).padStart(2, '0')).join('');
     return [window.upload.url?.split('/').at(-1), hex] as const;
   });
-  const file = (await (await fetch(`${inject('address')}/v1/files/${id}`)).json()) as Record<string, unknown>;
+  const file = (await (await fetch(`${address}/v1/files/${id}`)).json()) as Record<string, unknown>;
   expect(file).toMatchObject({ name: 'a performance.mp4', content_type: 'video/mp4', size: BYTES, sha256 });
 }
 

@@ -1,9 +1,11 @@
 /** What the page of a finished character opens on: the person stepping out of the picture, with the video at hand. */
 
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';
-import { launch, open } from './page';
+import { launch } from './browser';
+import { address } from './own_service';
+import { open } from './page';
 import { aViewer, drawings, mode, ready } from './viewer_kit';
 
 const { job, countDrawings } = aViewer();
@@ -51,7 +53,7 @@ describe('the page of a character', () => {
   });
 
   it('is shown so on the phone of whoever was sent a link, under its title', async () => {
-    await fetch(`${inject('address')}/v1/jobs/${job()}`, {
+    await fetch(`${address}/v1/jobs/${job()}`, {
       method: 'PATCH',
       headers: { 'Content-Type': 'application/json' },
       body: JSON.stringify({ title: 'Out for a walk' }),

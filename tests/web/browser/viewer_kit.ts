@@ -4,27 +4,18 @@ import { readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, expect, inject } from 'vitest';
+import { afterAll, afterEach, beforeAll, expect } from 'vitest';
+import { launch } from './browser';
 import { complaints, watch } from './complaints';
-import { ask, inPython, launch, LONG, samplePerson } from './page';
+import { ended, LONG, orderCharacter } from './jobs';
+import { samplePeople, samplePerson } from './media';
+import { address, finished } from './own_service';
 import { buildViewerPage, type Files, openViewer } from './viewer_page';
 
 export const CLIPS = [
   ...['pictured', 'step_out', 'walk', 'walk_in_place'],
   ...['idle', 'run_in_place', 'jump', 'sit', 'wave', 'dance', 'bow'],
 ];
-
-/** Somebody, and the same once more to the right of them: further away, so smaller, on the same floor of the picture. */
-const TWO = `
-import sys
-from PIL import Image
-from engine.character.sample import sample_picture
-one = Image.fromarray(sample_picture())
-both = Image.new("RGB", (one.width + one.width * 4 // 5, one.height), (128, 138, 148))
-both.paste(one, (0, 0))
-both.paste(one.resize((one.width * 4 // 5, one.height * 4 // 5)), (one.width, one.height // 5))
-both.save(sys.argv[1])
-`;
 
 /** Somebody in a deep bend of the knees: all the body is lower, and the feet are where they were. */
 const CROUCHING = Object.fromEntries(
@@ -34,21 +25,27 @@ const CROUCHING = Object.fromEntries(
     [`${side}Foot`, [-30, 0, 0]],
   ]),
 );
-const OPTIONS = { one: {}, two: { person_index: 'all' }, crouching: { pose: CROUCHING } };
+/** What is ordered beside the finished character that all files have; each in the one file that asks for it. */
+const ORDERS = {
+  two: { draw: samplePeople, options: { person_index: 'all' } },
+  crouching: { draw: samplePerson, options: { pose: CROUCHING } },
+};
 
-/** What a file of tests has: called once in it, it sets up a browser and a job, one for all files that ask for the same. */
-export function aViewer(of: keyof typeof OPTIONS = 'one') {
+/** What a file of tests has: called once in it, it sets up a browser and a character. */
+export function aViewer(of: 'one' | keyof typeof ORDERS = 'one') {
   const picture = join(tmpdir(), `galatea-viewer-${process.pid}-${of}.png`);
   let browser: Browser;
   let files: Files;
-  let job: string;
+  let job = finished.character;
 
   beforeAll(async () => {
-    if (of === 'two') inPython(TWO, picture);
-    else samplePerson(picture);
-    job = await ordered(picture, OPTIONS[of], `viewer-${of}`);
+    if (of === 'one') samplePerson(picture);
+    else {
+      ORDERS[of].draw(picture);
+      job = await orderCharacter(address, picture, { seconds: 2, size: [240, 320], ...ORDERS[of].options });
+    }
     [browser, files] = await Promise.all([launch(['--enable-unsafe-swiftshader']), buildViewerPage()]);
-    await succeeded(job);
+    await ended(address, job);
   }, LONG);
   afterAll(async () => {
     await browser?.close();
@@ -67,26 +64,6 @@ export function aViewer(of: keyof typeof OPTIONS = 'one') {
     return page;
   };
   return { open, countDrawings, job: () => job, picture: () => readFileSync(picture) };
-}
-
-/** Ordered with one key by all who ask, it is made once. */
-async function ordered(picture: string, options: object, key: string): Promise<string> {
-  const body = new FormData();
-  body.append('kind', 'character');
-  body.append('photo', new Blob([readFileSync(picture)]), 'somebody.png');
-  body.append('options', JSON.stringify({ seconds: 2, size: [240, 320], ...options }));
-  const headers = { 'Idempotency-Key': key };
-  const response = await fetch(`${inject('address')}/v1/jobs`, { method: 'POST', body, headers });
-  return ((await response.json()) as { id: string }).id;
-}
-
-async function succeeded(job: string): Promise<void> {
-  const deadline = Date.now() + LONG;
-  for (let status = ''; status !== 'succeeded'; await new Promise((wake) => setTimeout(wake, 500))) {
-    const told = await ask<{ status: string; error: object | null }>(`/v1/jobs/${job}`);
-    status = told.status;
-    if (status === 'failed' || Date.now() > deadline) throw new Error(`the character is ${status}: ${JSON.stringify(told.error)}`);
-  }
 }
 
 /** In the page: how often the graphics are asked to draw. */

@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import type { AxeResults } from 'axe-core';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import { launch } from './page';
+import { launch } from './browser';
 import { aViewer, CLIPS, differing, drawings, mode, ready, shot, still } from './viewer_kit';
 
 const { open } = aViewer();

@@ -3,7 +3,7 @@
 import { resolve } from 'node:path';
 import type { Page } from 'playwright-core';
 import { build } from 'vite';
-import { inject } from 'vitest';
+import { address } from './own_service';
 
 const web = resolve(import.meta.dirname, '../../../web');
 const MOUNT = resolve(import.meta.dirname, 'viewer.mount.tsx');
@@ -58,7 +58,7 @@ export async function buildViewerPage(): Promise<Files> {
 }
 
 /** Show a job's character on it. */
-export async function openViewer(page: Page, files: Files, job: string, address = inject('address')): Promise<void> {
+export async function openViewer(page: Page, files: Files, job: string): Promise<void> {
   await page.route(`${address}${PATH}**`, async (route) => {
     const name = new URL(route.request().url()).pathname.slice(PATH.length);
     const file = files.get(name);

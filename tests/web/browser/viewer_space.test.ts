@@ -1,6 +1,7 @@
 /** A character in one's own room, by model-viewer. */
 
-import { describe, expect, inject, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
+import { address } from './own_service';
 import { aViewer, CLIPS } from './viewer_kit';
 
 const { open } = aViewer();
@@ -37,7 +38,7 @@ describe('model-viewer', () => {
       undefined,
       { timeout: 60_000 },
     );
-    const ours = new RegExp(`^(${inject('address')}/|blob:|data:)`);
+    const ours = new RegExp(`^(${address}/|blob:|data:)`);
     expect(asked.filter((url) => !ours.test(url)), 'nobody else is asked for anything').toEqual([]);
     await page.getByRole('button', { name: 'Close' }).click();
     expect(await page.locator('model-viewer').count()).toBe(0);
