@@ -173,12 +173,13 @@ describe('a profile from a plain file server', () => {
     const across = pairs.filter(({ here, before }) => here.part !== before.part || here.state !== before.state);
     expect(across.length).toBeGreaterThanOrEqual(8);
     const { states, transitions } = JSON.parse(readFileSync(join(site, 'profile.json'), 'utf8')) as Profile;
+    const segment = ({ state, frame }: Seen): [start: number, length: number] =>
+      transitions[state]!.segments.filter(([start]) => start <= frame).at(-1)!;
     /** Frames from one to the next; more than one where a busy machine left some out. */
     const steps = (before: Seen, here: Seen): number => {
-      if (here.part === 'bridge') return 1;
-      const bridge = transitions[before.state]!.segments.filter(([start]) => start <= before.frame).at(-1)!;
-      const end = before.part === 'bridge' ? bridge[0] + bridge[1] : states[before.state]!.frames;
-      return Math.max(1, end - before.frame);
+      if (here.part === 'bridge') return here.frame - segment(here)[0] + 1;
+      const [start, length] = before.part === 'bridge' ? segment(before) : [0, states[before.state]!.frames];
+      return Math.max(1, start + length - before.frame) + here.frame;
     };
     for (const { here, before } of across) {
       const note = `from ${JSON.stringify(before)} to ${JSON.stringify(here)}`;
