@@ -21,7 +21,7 @@ beforeAll(async () => {
   service = await serve({
     GALATEA_KINDS: 'tiny_kind:KIND',
     GALATEA_DISK_RESERVE_MB: '1',
-    PYTHONPATH: [resolve(root, 'tests/service'), root].join(':'),
+    PYTHONPATH: [resolve(root, 'tests/live_service'), root].join(':'),
   });
 });
 afterAll(async () => {
