@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.known_person import Person
 from engine.body.rest_pose import t_pose
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype, load_shape_space
 from engine.body.template import load_rig, load_template
 from engine.geometry.skinning import bone_transforms, skin
@@ -108,7 +108,7 @@ LOOKS = (
 
 def dress(look: Look) -> Person:
     """Shape, pose, dress and paint the template."""
-    template, rig = load_template(), load_rig(HUMAN)
+    template, rig = load_template(), load_rig(HUMAN_RIG)
     shape = load_shape_space()
     standing = template.vertices_of("body")
     skeleton, _, rest = t_pose(rig, shape.shape(look.phenotype), standing)

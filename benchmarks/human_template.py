@@ -15,8 +15,8 @@ import numpy as np
 from benchmarks.tables import machine, table
 from engine.body import makehuman
 from engine.body.body_space import load_body_space
-from engine.body.cache import FORMAT, cache_folder
-from engine.body.rig import HUMAN
+from engine.body.cache import CACHE_FORMAT, cache_folder
+from engine.body.rig import HUMAN_RIG
 from engine.body.shape import load_shape_space
 from engine.body.template import load_rig, load_template
 from engine.geometry.skinning import pose_transforms, skin
@@ -29,7 +29,7 @@ COMPONENTS = (1, 5, 10, 20, 30, 40)
 
 def speed() -> None:
     """Print how long loading and skinning take, and how large the cache is."""
-    template, rig, space = load_template(), load_rig(HUMAN), load_body_space()
+    template, rig, space = load_template(), load_rig(HUMAN_RIG), load_body_space()
     load_shape_space()
     body = template.vertices_of("body")
     clip = built_in("dance", space.skeleton(np.zeros(1)))
@@ -38,12 +38,12 @@ def speed() -> None:
     bound = space.mean[body], rig.bones[body], rig.weights[body]
     transforms = pose_transforms(space.skeleton(np.zeros(1)), rotations, root)
     cases: dict[str, Callable[[], object]] = {
-        "load: mesh, rig, space of shapes": lambda: (load_template(), load_rig(HUMAN), load_body_space()),
-        "load: phenotypes and local shapes too": lambda: (load_rig(HUMAN), load_body_space(), load_shape_space()),
+        "load: mesh, rig, space of shapes": lambda: (load_template(), load_rig(HUMAN_RIG), load_body_space()),
+        "load: phenotypes and local shapes too": lambda: (load_rig(HUMAN_RIG), load_body_space(), load_shape_space()),
         f"skin {len(body)} vertices x {FRAMES} frames": lambda: skin(*bound, transforms),
     }
     rows = [[name, f"{_least(work):.3f} s", GOAL] for name, work in cases.items()]
-    files = (cache_folder() / "template").glob(f"*-{makehuman.version()}-{FORMAT}.npz")
+    files = (cache_folder() / "template").glob(f"*-{makehuman.version()}-{CACHE_FORMAT}.npz")
     rows.append(["cache on the disk", f"{sum(file.stat().st_size for file in files) / 1e6:.0f} MB", MEGABYTES])
     print(table("Template", ["", "measured", "goal"], rows))
 

@@ -37,13 +37,13 @@ T = TypeVar("T")
 Turn = Literal["began", "ended", "broke"]
 """What becomes of a stage; it breaks off by an error, or because the run is canceled."""
 
-PATIENCE = 0.2
+CANCEL_POLL_SECONDS = 0.2
 """Seconds after which a wait for another core looks whether the run was canceled."""
 
-NOT_YET = 0.999
+MAX_UNFINISHED_FRACTION = 0.999
 """The largest fraction before a run is over: 1 is told once, when there is nothing left to do."""
 
-FORMAT = 3
+STAGE_FORMAT = 3
 """Of what stages give: raised where it changes between releases, so that nothing older is taken for it."""
 
 
@@ -244,7 +244,7 @@ class Run:
         """The key of a stage's output for these arguments (hex)."""
         parts = [
             engine.__version__,
-            FORMAT,
+            STAGE_FORMAT,
             name,
             *(self._part(argument) for argument in arguments if not callable(argument)),
         ]
@@ -277,7 +277,7 @@ class Run:
             return
         self._last_report = (now, self._current)
         share = self._weights.get(self._current, 0.0)
-        self._furthest = max(self._furthest, min(self._done + share * fraction, NOT_YET))
+        self._furthest = max(self._furthest, min(self._done + share * fraction, MAX_UNFINISHED_FRACTION))
         self._on_progress(Progress(self._current, self._furthest, message))
 
 
@@ -293,7 +293,7 @@ class Beside(Generic[T]):
 
     def __call__(self) -> T:
         with self._run.timed(self._name):
-            while not wait_for([self.output], timeout=PATIENCE).done:
+            while not wait_for([self.output], timeout=CANCEL_POLL_SECONDS).done:
                 self._run.tick(self.fraction)
             for notice in self.notices:
                 self._run.warn(notice.code, notice.message)

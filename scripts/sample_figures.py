@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from benchmarks.dressed_template import ARMS_DOWN, Look, dress
 from benchmarks.known_person import KnownPicture, Person, draw_into
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype
 from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
@@ -131,7 +131,7 @@ def behind(figure: Figure, person: Person, camera: Camera) -> NDArray[np.uint8]:
 
 def feet(drawn: KnownPicture) -> list[NDArray[np.uint8]]:
     """Of each foot what of the picture it covers, as a shoe does that is round in front: (H, W), 0 or 255."""
-    template, rig = load_template(), load_rig(HUMAN)
+    template, rig = load_template(), load_rig(HUMAN_RIG)
     moved = np.array(rig.names)[rig.bones[:, 0]]
     shapes = []
     for side in ("Left", "Right"):

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarity
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.film_strip import FilmStripWriter
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
@@ -54,10 +54,10 @@ def opened(mesh: NDArray, gap: float) -> NDArray[np.float32]:
 
 def shut(mesh: NDArray, share: float = 0.0) -> NDArray[np.float32]:
     """The face with its upper lids lowered until `share` of the gap is left."""
-    from engine.face_animation.lids_and_lips import LIDS
+    from engine.face_animation.lids_and_lips import LID_PAIRS
 
     out = mesh.copy()
-    upper, lower = np.array(LIDS).T
+    upper, lower = np.array(LID_PAIRS).T
     out[upper] = out[lower] + share * (out[upper] - out[lower])
     return out
 
@@ -122,7 +122,7 @@ def driver(
         fit_similarity(np.array([m[[33, 133], :2].mean(axis=0), m[[263, 362], :2].mean(axis=0)]), eyes).matrix()
         for m in meshes
     ]
-    plain = np.empty((*CROP, 3), np.uint8)
+    plain = np.empty((*CROP_SHAPE, 3), np.uint8)
     plain[:] = SKIN
     with FilmStripWriter(quality=98) as crops:
         for picture in pictures if pictures is not None else [plain] * len(meshes):

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from engine.body.cache import cached_arrays
 from engine.body.rest_pose import t_pose
-from engine.body.rig import HUMAN, Rig
+from engine.body.rig import HUMAN_RIG, Rig
 from engine.body.shape import Phenotype, ShapeSpace, load_shape_space
 from engine.body.template import load_rig, load_template
 from engine.motion.skeleton import Skeleton
 
-COMPONENTS = 40
-SAMPLES = 600
-SEED = 20
+SPACE_COMPONENTS = 40
+SAMPLED_BODIES = 600
+SAMPLING_SEED = 20
 
 VARIED_REGIONS = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
 """The parts of the body of which some are changed in each sample."""
@@ -90,7 +90,7 @@ def load_body_space() -> BodySpace:
 def sample_bodies(count: int, seed: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Random bodies in T-pose: vertices (count, V, 3) and joints (count, J, 3) float32 metres."""
     random = np.random.default_rng(seed)
-    space, rig = load_shape_space(), load_rig(HUMAN)
+    space, rig = load_shape_space(), load_rig(HUMAN_RIG)
     standing = load_template().vertices_of("body")
     bodies, joints = [], []
     for _ in range(count):
@@ -117,17 +117,17 @@ def _changes(space: ShapeSpace, random: np.random.Generator) -> dict[str, float]
 
 
 def _convert() -> dict[str, np.ndarray]:
-    bodies, joints = sample_bodies(SAMPLES, SEED)
-    rows = np.concatenate([bodies, joints], 1).reshape(SAMPLES, -1).astype(np.float64)
+    bodies, joints = sample_bodies(SAMPLED_BODIES, SAMPLING_SEED)
+    rows = np.concatenate([bodies, joints], 1).reshape(SAMPLED_BODIES, -1).astype(np.float64)
     mean = rows.mean(0)
     rows -= mean
     values, vectors = np.linalg.eigh(rows @ rows.T)
-    order = np.argsort(values)[::-1][:COMPONENTS]
-    directions = vectors[:, order].T @ rows / np.sqrt(SAMPLES)  # one standard deviation each
-    basis = directions.reshape(COMPONENTS, -1, 3)
+    order = np.argsort(values)[::-1][:SPACE_COMPONENTS]
+    directions = vectors[:, order].T @ rows / np.sqrt(SAMPLED_BODIES)  # one standard deviation each
+    basis = directions.reshape(SPACE_COMPONENTS, -1, 3)
     split = bodies.shape[1]
     scale = np.abs(basis[:, :split]).max((1, 2)) / np.iinfo(np.int16).max
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     return {
         "mean": mean.reshape(-1, 3)[:split].astype(np.float32),
         "joint_mean": mean.reshape(-1, 3)[split:].astype(np.float32),

@@ -13,7 +13,7 @@ import numpy as np
 
 from engine.body import makehuman
 
-FORMAT = 2
+CACHE_FORMAT = 2
 """Raise it when what is stored changes; older files are then left aside."""
 
 
@@ -34,7 +34,7 @@ def cached_arrays(name: str, convert: Callable[[], Mapping[str, np.ndarray]]) ->
     Published by one rename: another process sees the whole file or none. A file that cannot be read is
     converted anew.
     """
-    path = cache_folder() / "template" / f"{name}-{makehuman.version()}-{FORMAT}.npz"
+    path = cache_folder() / "template" / f"{name}-{makehuman.version()}-{CACHE_FORMAT}.npz"
     try:
         with np.load(path, allow_pickle=False) as stored:
             return {key: stored[key] for key in stored.files}

@@ -22,7 +22,7 @@ from engine.geometry.surface import triangulate, vertex_normals
 
 CONTOUR_POINTS = 240
 """Points along a contour."""
-SMOOTHING = 2.0
+DIRECTION_SMOOTHING_STEPS = 2.0
 """Steps of the contour over which its direction is averaged."""
 MIN_NORMAL_COSINE = 0.6
 """The least cosine between the contour's normal and the body's in the picture, for the two to be matched."""
@@ -83,7 +83,7 @@ def trace_contour(mask: NDArray[np.bool_]) -> Contour:
     )[0]
     line = max(found, key=len)[:, 0].astype(np.float64)
     steps = np.linspace(0, len(line), CONTOUR_POINTS, endpoint=False).astype(int)
-    width_of_mean = SMOOTHING * len(line) / CONTOUR_POINTS
+    width_of_mean = DIRECTION_SMOOTHING_STEPS * len(line) / CONTOUR_POINTS
     smooth = gaussian_filter1d(line, width_of_mean, axis=0, mode="wrap")
     along = np.roll(smooth, -1, 0) - np.roll(smooth, 1, 0)
     normals = np.stack([-along[:, 1], along[:, 0]], 1)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
 from engine.body.landmarks import LandmarkModel
-from engine.body.observation import LIMBS, Observation
-from engine.body.posing import COEFFICIENTS, FITTED_JOINTS
+from engine.body.observation import DIRECTED_LIMBS, Observation
+from engine.body.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS
 from engine.body.rest_pose import T_POSE_DIRECTIONS, shortest_rotation
 
 
@@ -27,7 +27,7 @@ def first_guess(
     rotation_vectors = np.zeros((len(FITTED_JOINTS), 3))
     hips = to_world @ facing(trunk)
     rotation_vectors[0] = _vector(hips)
-    for (first, _), direction in zip(LIMBS, view.directions, strict=True):
+    for (first, _), direction in zip(DIRECTED_LIMBS, view.directions, strict=True):
         if not np.linalg.norm(direction):
             continue
         side = "Left" if first.startswith("Left") else "Right"
@@ -38,7 +38,7 @@ def first_guess(
         rotation_vectors[FITTED_JOINTS.index(first)] = _vector(
             shortest_rotation(np.array(T_POSE_DIRECTIONS[first]), frame.T @ (to_world @ direction))
         )
-    return np.concatenate([_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(COEFFICIENTS)])
+    return np.concatenate([_place(space, landmarks, view), rotation_vectors.ravel(), np.zeros(SHAPE_COEFFICIENTS)])
 
 
 def facing(trunk: Mapping[str, NDArray[np.floating]]) -> NDArray[np.float64]:

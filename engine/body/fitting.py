@@ -20,7 +20,7 @@ from engine.body.body_space import BodySpace
 from engine.body.contour import CONTOUR_POINTS, SkinPoints, match_contour
 from engine.body.landmarks import LandmarkModel
 from engine.body.least_squares import levenberg_marquardt
-from engine.body.observation import LANDMARK_SIGMA, LIMBS, Crossing, Observation
+from engine.body.observation import DIRECTED_LIMBS, LANDMARK_SIGMA, Crossing, Observation
 from engine.body.pose_prior import joint_limits, pose_prior
 from engine.body.posing import BodyPoser, PosedBodies, rotation_matrices
 from engine.geometry.camera import Camera
@@ -28,7 +28,7 @@ from engine.geometry.camera import Camera
 LANDMARK_CUTOFF = 4.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
 DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.35]] * 4 + [[0.25, 0.25, 1.2]] * 4)
-"""How far the directions of `LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
+"""How far the directions of `DIRECTED_LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
 the viewer, by half a right angle at times: only where they bend much is it to be believed."""
 TRUNK_LEAN_SIGMA, LEGS_LEAN_SIGMA = 0.12, 0.14
 """How much trunks, and both legs together, lean towards the viewer or away, usually (the z of unit vectors): cameras look
@@ -210,8 +210,8 @@ def _stance_terms(view: Observation, joints: NDArray[np.float64], names: Sequenc
 
 
 def _limbs(view: Observation, joints: NDArray[np.float64], names: Sequence[str]) -> NDArray[np.float64]:
-    """(N, M, 3) the directions of `LIMBS` in the camera's axes."""
-    starts, ends = ([names.index(limb[end]) for limb in LIMBS] for end in (0, 1))
+    """(N, M, 3) the directions of `DIRECTED_LIMBS` in the camera's axes."""
+    starts, ends = ([names.index(limb[end]) for limb in DIRECTED_LIMBS] for end in (0, 1))
     limbs = joints[:, ends] - joints[:, starts]
     limbs /= np.linalg.norm(limbs, axis=-1, keepdims=True)
     return _seen_from(view.camera, limbs)

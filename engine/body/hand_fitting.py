@@ -34,7 +34,7 @@ MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4
 
 LANDMARK_SIGMA = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
-CUTOFF = 3.0
+STRONGEST_PULL_SIGMAS = 3.0
 """Deviations at which the pull of a landmark, or of a bone's direction, is at its strongest (Geman-McClure)."""
 DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
@@ -44,7 +44,7 @@ has it elsewhere."""
 
 PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
 """From pixels, y down, to the world's axes."""
-BONES = tuple((a, b) for finger in FINGERS for a, b in zip((0, *chain(finger)[:3]), chain(finger), strict=True))
+HAND_BONES = tuple((a, b) for finger in FINGERS for a, b in zip((0, *chain(finger)[:3]), chain(finger), strict=True))
 """The bones of a hand as pairs of landmarks."""
 
 
@@ -203,7 +203,7 @@ def _residuals(
     """(N, R): what is to be small, in standard deviations."""
     places = hand(parameters)
     off = (hand.pixels(parameters, places) - seen[:, :2]) / (LANDMARK_SIGMA * length)
-    starts, ends = np.array(BONES).T
+    starts, ends = np.array(HAND_BONES).T
     bones = (
         _unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * PICTURE_TO_WORLD)
     ) / DIRECTION_SIGMA
@@ -228,7 +228,7 @@ def _residuals(
 
 def _robust(off: NDArray[np.float64]) -> NDArray[np.float64]:
     """Deviations (..., D) of which large ones pull less and less."""
-    return np.asarray(off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / CUTOFF**2))
+    return np.asarray(off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / STRONGEST_PULL_SIGMAS**2))
 
 
 def _unit(vectors: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from engine.body.body_space import BodySpace
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.perception.hands import JOINTS
+from engine.perception.hands import HAND_JOINTS
 
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 FINGERTIP_DEPTH = 0.006
@@ -40,7 +40,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Le
     body = template.vertices_of("body")
     strongest = rig.bones[body, 0]
     joints, means, bases = [], [], []
-    for name in JOINTS:
+    for name in HAND_JOINTS:
         tip = name.endswith("4")
         at = space.names.index(f"{side}Hand{name[:-1]}3" if tip else f"{side}Hand{name}")
         joints.append(at)
@@ -68,7 +68,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Le
 
 def chain(finger: str) -> list[int]:
     """The landmarks of a finger from its first joint to its tip."""
-    return [JOINTS.index(f"{finger}{k}") for k in (1, 2, 3, 4)]
+    return [HAND_JOINTS.index(f"{finger}{k}") for k in (1, 2, 3, 4)]
 
 
 def _axes(places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

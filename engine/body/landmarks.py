@@ -13,7 +13,7 @@ from engine.body.face_points import EYE_CORNERS, MOUTH_CORNERS, face_points, nos
 from engine.body.rig import Rig
 from engine.body.template import Template
 
-SIDES = (("Left", 1.0), ("Right", -1.0))
+SIDE_SIGNS = (("Left", 1.0), ("Right", -1.0))
 
 JOINT_LANDMARKS = {
     "Shoulder": "Arm",
@@ -49,7 +49,7 @@ class LandmarkModel:
 def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkModel:
     """The landmarks of `engine.perception.body.LANDMARKS` on the template. `rig` has the joints of `space`."""
     found: dict[str, tuple[str, NDArray[np.intp] | None]] = {}
-    for side, _ in SIDES:
+    for side, _ in SIDE_SIGNS:
         found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in JOINT_LANDMARKS.items()}
     found |= {name: (carrier(name), at) for name, at in surface_landmarks(template, space, rig).items()}
     means, bases = [], []
@@ -85,13 +85,13 @@ def surface_landmarks(template: Template, space: BodySpace, rig: Rig) -> Mapping
     mesh = space.mean
     strongest = rig.bones[:, 0]
     head = body[strongest[body] == rig.index("Head")]
-    eyes = {f"{side}Eye": template.vertices_of(f"{side.lower()}_eye").astype(np.intp) for side, _ in SIDES}
+    eyes = {f"{side}Eye": template.vertices_of(f"{side.lower()}_eye").astype(np.intp) for side, _ in SIDE_SIGNS}
     height = mesh[np.concatenate(list(eyes.values())), 1].mean()
     points: dict[str, NDArray[np.intp]] = dict(eyes)
     points["Nose"] = np.array([nose_tip(template, space)])
     on_face = face_points(template, space)
     points |= {name: on_face[[number]] for name, number in (EYE_CORNERS | MOUTH_CORNERS).items()}
-    for side, sign in SIDES:
+    for side, sign in SIDE_SIGNS:
         beside = head[(np.abs(mesh[head, 1] - height + 0.01) < 0.02) & (sign * mesh[head, 0] > 0)]
         points[f"{side}Ear"] = _furthest(mesh, beside, 0, sign)
         feet = [rig.index(f"{side}Foot"), rig.index(f"{side}ToeBase")]

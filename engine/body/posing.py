@@ -19,7 +19,7 @@ FITTED_JOINTS = (
 )
 """The joints whose rotations are sought; the others stay as at rest."""
 
-COEFFICIENTS = 12
+SHAPE_COEFFICIENTS = 12
 """Of the body space, that are sought."""
 
 

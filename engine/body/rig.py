@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-RIGS = ("default", "mixamo", "game_engine")
+RIG_NAMES = ("default", "mixamo", "game_engine")
 """`default` has 163 bones (fingers, toes, face), `mixamo` 52, `game_engine` those of common game engines."""
 
 MIN_WEIGHT = 1e-6
 """Weights below which a bone does not move a vertex."""
 
-HUMAN = "human"
+HUMAN_RIG = "human"
 """The rig that the project's people are made with: Mixamo's, then the joints of `FACE_JOINTS`."""
 FACE_JOINTS = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
 """Joints of the head that Mixamo's rig lacks, and the bones of `default` that they are."""

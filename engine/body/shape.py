@@ -14,7 +14,7 @@ from engine.body.cache import cached_arrays
 from engine.body.targets import Targets, compact, expand, gather
 from engine.body.template import load_template
 
-AGES = {"baby": 0.0, "child": 0.1875, "young": 0.5, "old": 1.0}
+AGE_ANCHORS = {"baby": 0.0, "child": 0.1875, "young": 0.5, "old": 1.0}
 """Anchors of the age axis: about 1, 11, 25 and 90 years."""
 
 RACES = ("african", "asian", "caucasian")
@@ -24,7 +24,7 @@ RACES = ("african", "asian", "caucasian")
 class Phenotype:
     """The large features of a person, each in [0, 1]; 0.5 is the average adult.
 
-    `age`: see `AGES`. `gender`: 0 female, 1 male. `height` and `proportions` have no effect at 0.5.
+    `age`: see `AGE_ANCHORS`. `gender`: 0 female, 1 male. `height` and `proportions` have no effect at 0.5.
     `african`, `asian`, `caucasian`: shares of MakeHuman's three head shapes, normalised to sum to one.
     """
 
@@ -87,7 +87,7 @@ def phenotype_weights(phenotype: Phenotype) -> dict[str, float]:
     Names are those of the files, such as `caucasian-female-young` or
     `universal-male-old-averagemuscle-minweight`.
     """
-    ages = _between(phenotype.age, AGES)
+    ages = _between(phenotype.age, AGE_ANCHORS)
     genders = {"female": 1 - phenotype.gender, "male": phenotype.gender}
     muscles = _between(phenotype.muscle, {"minmuscle": 0.0, "averagemuscle": 0.5, "maxmuscle": 1.0})
     weights = _between(phenotype.weight, {"minweight": 0.0, "averageweight": 0.5, "maxweight": 1.0})

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from engine.body import makehuman
 from engine.body.cache import cached_arrays
-from engine.body.rig import HUMAN, Rig, build_rig, with_face
+from engine.body.rig import HUMAN_RIG, Rig, build_rig, with_face
 from engine.body.targets import Targets, gather
 
-PARTS = {
+TEMPLATE_PARTS = {
     "body": "body",
     "left_eye": "helper-l-eye",
     "right_eye": "helper-r-eye",
@@ -51,7 +51,7 @@ class Template:
 
     `vertices` (V, 3) float32; `quads` (F, 4) int32, counter-clockwise seen from outside;
     `uv` (U, 2) float32 with its own `uv_quads` (F, 4) int32, (0, 0) the texture's top left (glTF);
-    `parts`: the span of faces [first, last) of each part in `PARTS`. Some vertices belong to no face:
+    `parts`: the span of faces [first, last) of each part in `TEMPLATE_PARTS`. Some vertices belong to no face:
     they carry the joints. `face_units` displace the same vertices.
     """
 
@@ -85,7 +85,7 @@ def load_template() -> Template:
         quads=stored["quads"],
         uv=stored["uv"],
         uv_quads=stored["uv_quads"],
-        parts={part: (int(edges[i]), int(edges[i + 1])) for i, part in enumerate(PARTS)},
+        parts={part: (int(edges[i]), int(edges[i + 1])) for i, part in enumerate(TEMPLATE_PARTS)},
         face_units=Targets(
             FACE_UNITS, stored["unit_starts"], stored["unit_moved"], stored["unit_counts"], len(stored["vertices"])
         ),
@@ -112,7 +112,7 @@ def load_rig(name: str) -> Rig:
 def _convert() -> dict[str, np.ndarray]:
     mesh = makehuman.read_base_mesh()
     groups = np.array(mesh.groups)
-    spans = [np.flatnonzero(groups == group) for group in PARTS.values()]
+    spans = [np.flatnonzero(groups == group) for group in TEMPLATE_PARTS.values()]
     kept = np.concatenate(spans)
     files = makehuman.face_unit_files()
     units = gather({name: makehuman.read_target(files[name]) for name in FACE_UNITS}, len(mesh.vertices))
@@ -129,7 +129,7 @@ def _convert() -> dict[str, np.ndarray]:
 
 
 def _convert_rig(name: str) -> dict[str, np.ndarray]:
-    if name == HUMAN:
+    if name == HUMAN_RIG:
         human = with_face(load_rig("mixamo"), load_rig("default"))
         return {**vars(human), "names": np.array(human.names)}
     bones, weights = makehuman.read_rig(name)

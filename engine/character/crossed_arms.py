@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from engine.body.observation import Crossing
 from engine.character.figure import SEEN, SIDES, Figure
 from engine.imaging.colour_segmentation import ColourMixture
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 from engine.perception.hands import Side
 from engine.perception.landmarks import FACE_OVAL
 
@@ -68,7 +68,7 @@ def _are_seen(figure: Figure) -> bool:
     """Whether elbows and a wrist are, of somebody who faces the viewer: wrists that are tucked away or cut off are made up."""
 
     def sure(name: str) -> list[bool]:
-        return [bool(figure.confidence[LANDMARKS.index(f"{side}{name}")] > SEEN) for side in SIDES]
+        return [bool(figure.confidence[BODY_LANDMARKS.index(f"{side}{name}")] > SEEN) for side in SIDES]
 
     faces = figure.point("LeftShoulder")[0] > figure.point("RightShoulder")[0]
     return bool(faces) and all(sure("Elbow")) and any(sure("Wrist"))
@@ -125,7 +125,7 @@ def _shown(figure: Figure, skin: NDArray[np.bool_], side: str) -> float:
 
 def _depth(figure: Figure, side: str) -> float:
     """Metres by which perception has a forearm nearer than the hips."""
-    return float(np.mean([figure.world[LANDMARKS.index(f"{side}{name}"), 2] for name in ("Elbow", "Wrist")]))
+    return float(np.mean([figure.world[BODY_LANDMARKS.index(f"{side}{name}"), 2] for name in ("Elbow", "Wrist")]))
 
 
 def _share(point: NDArray[np.floating], start: NDArray[np.floating], end: NDArray[np.floating]) -> float:
@@ -139,7 +139,7 @@ def without_hidden_hand(figure: Figure, arms: CrossedArms | None) -> Figure:
     if arms is None or arms.crossing.tucked_at is None:
         return figure
     confidence = figure.confidence.copy()
-    confidence[[LANDMARKS.index(f"{arms.behind}{name}") for name in FINGERS]] = 0
+    confidence[[BODY_LANDMARKS.index(f"{arms.behind}{name}") for name in FINGERS]] = 0
     left, right = figure.hands
     hands = (left, None) if arms.behind == "Right" else (None, right)
     return replace(figure, confidence=confidence, hands=hands)

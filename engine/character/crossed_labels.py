@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.crossed_arms import CrossedArms
 from engine.character.figure import SIDES, Figure
@@ -40,7 +40,7 @@ STEPS = 24
 
 @dataclass(frozen=True)
 class Behind:
-    """A `limb`, an index of `PARTS`, that goes on behind another in an `area` (h, w), of which some is its `hand` (h, w)."""
+    """A `limb`, an index of `BODY_PARTS`, that goes on behind another in an `area` (h, w), of which some is its `hand` (h, w)."""
 
     limb: int
     area: NDArray[np.bool_]
@@ -49,7 +49,7 @@ class Behind:
 
 @dataclass(frozen=True)
 class ArmLabels:
-    """On the grid, the arm that is `shown` (h, w) int8, an index of `PARTS`, -1 elsewhere; and what of one is behind the
+    """On the grid, the arm that is `shown` (h, w) int8, an index of `BODY_PARTS`, -1 elsewhere; and what of one is behind the
     other."""
 
     shown: NDArray[np.int8]
@@ -80,9 +80,9 @@ def label_crossed(
     seen = largest_piece(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]
     shown = np.full(mask.shape, -1, np.int8)
-    shown[whole & (covers[back] | skin)] = PARTS.index(f"{back.lower()}_arm")
-    shown[seen] = PARTS.index(f"{front.lower()}_arm")
-    return ArmLabels(shown, Behind(PARTS.index(f"{back.lower()}_arm"), whole, whole & ~covers[back]))
+    shown[whole & (covers[back] | skin)] = BODY_PARTS.index(f"{back.lower()}_arm")
+    shown[seen] = BODY_PARTS.index(f"{front.lower()}_arm")
+    return ArmLabels(shown, Behind(BODY_PARTS.index(f"{back.lower()}_arm"), whole, whole & ~covers[back]))
 
 
 @dataclass(frozen=True)

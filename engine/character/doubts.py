@@ -7,12 +7,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.figure import Figure
 from engine.character.placed_joints import WHOLE_SKELETON
 from engine.errors import InputError
 from engine.imaging.mask_distance import distance_to
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 SURE = 0.8
 """Confidence of joints that are seen. Of those that are guessed, behind a table or another arm, a mask need not have any."""
@@ -75,7 +75,7 @@ def require_labels(given: NDArray[np.integer], mask: NDArray[np.bool_]) -> None:
             "body in the colours of labels.png.",
             ("labels",),
         )
-    if (shown == PARTS.index("torso")).mean() < TRUNK:
+    if (shown == BODY_PARTS.index("torso")).mean() < TRUNK:
         raise InputError(
             "labels_unreadable",
             "The label map shows no trunk: paint all parts of the body in the colours of labels.png.",
@@ -111,7 +111,7 @@ def _shows(figure: Figure, labels: NDArray[np.integer], to_grid: NDArray[np.floa
     inside = (x >= 0) & (y >= 0) & (x < labels.shape[1]) & (y < labels.shape[0])
     found = labels[y[inside], x[inside]]
     found = found[found >= 0]
-    return float((found == PARTS.index(part)).mean()) if len(found) else 1.0
+    return float((found == BODY_PARTS.index(part)).mean()) if len(found) else 1.0
 
 
 def _mirrored(limb: str) -> str:
@@ -123,5 +123,5 @@ def _is_seen(figure: Figure, name: str) -> bool:
     """Whether a joint is in the picture and not hidden."""
     height, width = figure.rgb.shape[:2]
     x, y = figure.point(name)
-    sure = figure.confidence[LANDMARKS.index(name)] > SURE
+    sure = figure.confidence[BODY_LANDMARKS.index(name)] > SURE
     return bool(sure and 0 <= x <= width - 1 and 0 <= y <= height - 1)

@@ -16,10 +16,9 @@ from engine.errors import InputError
 from engine.imaging.resample import resized, size_within
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
-from engine.perception.body import LANDMARKS, Body
+from engine.perception.body import BODY_LANDMARKS, Body
 from engine.perception.faces import find_faces
-from engine.perception.hands import JOINTS as HAND_JOINTS
-from engine.perception.hands import Side, find_hands
+from engine.perception.hands import HAND_JOINTS, Side, find_hands
 from engine.perception.people import covered_by, find_body_within, find_people, person_box
 
 LONGEST_SIDE = 1920
@@ -84,7 +83,7 @@ class Figure:
 
     def point(self, name: str) -> NDArray[np.float32]:
         """The pixel (2,) of one of the landmarks."""
-        return self.points[LANDMARKS.index(name)]
+        return self.points[BODY_LANDMARKS.index(name)]
 
 
 def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn: Callable[[str, str], None]) -> Figure:
@@ -115,25 +114,27 @@ def find_figure(path: Path, choice: Choice, partial: bool, limits: Limits, warn:
             f"({in_words(WHOLE_SKELETON)}).",
             ("joints", "person_box"),
         )
-    points = np.zeros((len(LANDMARKS), 2), np.float32) if body is None else body.points.copy()
-    confidence = np.zeros(len(LANDMARKS), np.float32) if body is None else body.confidence.copy()
+    points = np.zeros((len(BODY_LANDMARKS), 2), np.float32) if body is None else body.points.copy()
+    confidence = np.zeros(len(BODY_LANDMARKS), np.float32) if body is None else body.confidence.copy()
     for name, place in joints.items():
-        points[LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
-        confidence[LANDMARKS.index(name)] = 1
+        points[BODY_LANDMARKS.index(name)] = (np.array(place) + 0.5) * scale - 0.5
+        confidence[BODY_LANDMARKS.index(name)] = 1
     if joints:
         check_skeleton(points, warn)
     hands = (None, None) if body is None else _hands(shown, replace(body, points=points))
     for side, hand in zip(SIDES, hands, strict=True):
         for mark, joint in ON_HANDS.items():
             if hand is not None and f"{side}{mark}" not in joints:
-                points[LANDMARKS.index(f"{side}{mark}")] = hand[HAND_JOINTS.index(joint), :2]
-                confidence[LANDMARKS.index(f"{side}{mark}")] = 1
+                points[BODY_LANDMARKS.index(f"{side}{mark}")] = hand[HAND_JOINTS.index(joint), :2]
+                confidence[BODY_LANDMARKS.index(f"{side}{mark}")] = 1
     figure = Figure(
         rgb=rgb,
         alpha=alpha,
         points=points,
         confidence=confidence,
-        world=np.zeros((len(LANDMARKS), 3), np.float32) if body is None else _moved_along(body, points, tuple(joints)),
+        world=np.zeros((len(BODY_LANDMARKS), 3), np.float32)
+        if body is None
+        else _moved_along(body, points, tuple(joints)),
         spatial=body is not None,
         original=(width, height),
         people=np.array([person_box(one, rgb.shape) for one in people], np.float32).reshape(-1, 4),
@@ -151,7 +152,7 @@ def _moved_along(body: Body, points: NDArray[np.float32], joints: Sequence[str])
     """A body's places in space (33, 3), those of joints that were moved by hand to points (33, 2) moved as far: otherwise what
     was believed before would hold against them. Their depth stays."""
     world = body.world.copy()
-    moved = [LANDMARKS.index(name) for name in joints]
+    moved = [BODY_LANDMARKS.index(name) for name in joints]
     metres = np.ptp(world[:, 1]) / max(float(np.ptp(body.points[:, 1])), 1.0)
     world[moved, :2] += metres * (points[moved] - body.points[moved]) * np.array([1, -1], np.float32)
     return np.asarray(world, np.float32)
@@ -197,7 +198,7 @@ def _chosen(
 def _face(rgb: NDArray[np.uint8], points: NDArray[np.float32]) -> NDArray[np.float32] | None:
     """The face (478, 3) at the head of a body whose landmarks (33, 2) are known, looked at closely."""
     height, width = rgb.shape[:2]
-    at = {name: points[LANDMARKS.index(name)] for name in ("Nose", "LeftShoulder", "RightShoulder")}
+    at = {name: points[BODY_LANDMARKS.index(name)] for name in ("Nose", "LeftShoulder", "RightShoulder")}
     reach = max(8.0, 1.3 * float(np.linalg.norm(at["Nose"] - (at["LeftShoulder"] + at["RightShoulder"]) / 2)))
     x, y = at["Nose"]
     left, right = int(max(0, x - reach)), int(min(width, x + reach))
@@ -240,7 +241,7 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
     height, width = figure.rgb.shape[:2]
     limit = np.array([width, height])
     off = np.abs(figure.points / limit - 0.5).max(axis=1)
-    seen = {name for i, name in enumerate(LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
+    seen = {name for i, name in enumerate(BODY_LANDMARKS) if off[i] < 0.55 and figure.confidence[i] > SEEN}
     if missing := [name for name in SHOULDERS if name not in seen]:
         raise InputError(
             "not_full_body",
@@ -256,7 +257,7 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
                 ("partial", "joints"),
             )
         warn("not_full_body", f"The person is cut off or hidden below ({in_words(missing)}).")
-    shown = figure.points[[LANDMARKS.index(name) for name in seen], 1]
+    shown = figure.points[[BODY_LANDMARKS.index(name) for name in seen], 1]
     if np.ptp(shown) < LEAST_HEIGHT:
         raise InputError(
             "person_too_small",

@@ -18,7 +18,7 @@ from engine.character.placed_joints import PLACED
 from engine.character.strokes import LABEL_COLOURS
 from engine.media.image import write_image
 from engine.motion.kinematics import joint_places
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 
 def write_findings(out: Path, people: Sequence[Person]) -> None:
@@ -88,8 +88,8 @@ def _skeleton(person: Person) -> dict[str, Any]:
     return {
         "joints": {
             name: {
-                "place": seen[LANDMARKS.index(name)],
-                "confidence": round(float(figure.confidence[LANDMARKS.index(name)]), 3),
+                "place": seen[BODY_LANDMARKS.index(name)],
+                "confidence": round(float(figure.confidence[BODY_LANDMARKS.index(name)]), 3),
             }
             for name in PLACED
         },

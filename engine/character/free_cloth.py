@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.imaging.mask_pieces import rows_apart
 
 CLOSE, FREE = 1.12, 1.5
@@ -65,7 +65,7 @@ class FreeCloth:
     """What is `worn` (h, w), and its `rings`, row by row from the waist down, the first `above` of them above the crotch. It
     `hangs` if it is loose and ends in a hem or at the ground; otherwise it is close, a jumper's or trousers', and may
     `go_on` in legs. `lower` (h, w): what hangs beneath the last ring between and beside the legs. `even`: pixels over which
-    cloth changes along the body. `legs` (h, w): the leg, an index of `PARTS`, that comes out from under it there, -1 elsewhere;
+    cloth changes along the body. `legs` (h, w): the leg, an index of `BODY_PARTS`, that comes out from under it there, -1 elsewhere;
     None where none is apart from it. `before`: of these the one that passes before the other, None where neither does."""
 
     worn: NDArray[np.bool_]
@@ -112,7 +112,7 @@ def free_cloth(
     `nearest` and `furthest` (h, w): its depths there; `parting` (h, w): where one leg meets the other. There close cloth is
     trousers, unless it gets loose further down and ends in a hem. `overlap` (h, w): where one of the template's legs hides the other.
     """
-    trunk, left, right = (shown == PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
+    trunk, left, right = (shown == BODY_PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
     if not (cloth.any() and trunk.any() and left.any() and right.any()):
         return None
     overlap = np.zeros_like(cloth) if overlap is None else overlap

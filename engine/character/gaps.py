@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.colour_segmentation import (
-    FREE,
     MIN_SAMPLES,
+    UNSEEDED,
     ColourMixture,
     ContrastGraph,
     log_likelihood_ratio,
@@ -192,7 +192,7 @@ def _cut(
     likelier = body.negative_log_likelihood(pixels) - behind.negative_log_likelihood(pixels)
     likelier = np.clip(likelier - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)
     costs = np.stack([np.maximum(likelier, 0), np.maximum(-likelier, 0)], 1)
-    seeds = np.where(core, 1, np.where(asked | gap, FREE, 0))[zone]
+    seeds = np.where(core, 1, np.where(asked | gap, UNSEEDED, 0))[zone]
     out = np.zeros_like(gap)
     out[zone] = ContrastGraph.of(lab, zone).cut(costs, gap[zone].astype(np.intp), seeds) > 0
     return out

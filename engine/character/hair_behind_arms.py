@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.labels import ARMS, SPECK
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
 from engine.imaging.mask_distance import grown
@@ -30,7 +30,7 @@ def hair_behind_arms(
     (H, W) to be the arm, have the colours of hair rather than of the arm, and would hang together with the head if the arm
     were not before it. `template` (H, W): the projected template's labels."""
     found = labels.astype(np.intp).copy()
-    head = PARTS.index("head")
+    head = BODY_PARTS.index("head")
     hair = (labels == head) & (template != head)
     if hair.sum() < MIN_SAMPLES or not (template == head).any():
         return found

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.free_cloth import FreeCloth, free_cloth
 from engine.character.label_map import Labels
@@ -21,7 +21,7 @@ from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
-from engine.imaging.colour_segmentation import FREE, MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
 from engine.imaging.mask_distance import grown
 from engine.imaging.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
@@ -72,12 +72,12 @@ def around_legs(body: Region, labels: Labels, template: PosedTemplate, rig: Rig)
 def legs_below(
     rgb: NDArray[np.uint8], labels: NDArray[np.integer], cloth: FreeCloth, before: int | None = None
 ) -> NDArray[np.int8]:
-    """The leg (h, w), an index of `PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
+    """The leg (h, w), an index of `BODY_PARTS`, that shows from under a hem; -1 elsewhere. The hem is near the last ring, where
     the picture `rgb` (h, w, 3) goes over from the cloth's colours to the legs'. Each is in one piece, unless the one that is `before` it
     parts it."""
     end, wide = cloth.rings[-1].row, max(2, round(BAND * rows_apart(labels >= 0)))
     rows = np.broadcast_to(np.arange(len(labels))[:, None], labels.shape)
-    person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != PARTS.index("head"))
+    person = (labels >= 0) & ~np.isin(labels, ARMS) & (labels != BODY_PARTS.index("head"))
     below = person & (rows > end) & np.isin(labels, LEGS) & ~cloth.lower
     band = person & (abs(rows - end) <= wide) & (cloth.worn | below)
     shown = _parted(rgb, person & (cloth.worn | below) & (abs(rows - end) <= 3 * wide), band, below, end, wide)
@@ -119,7 +119,7 @@ def _parted(
     off = LEAN * (rows - end) / wide
     costs += np.stack([np.maximum(off, 0), np.maximum(-off, 0)], 1)
     labels = before.astype(np.intp)
-    cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, FREE, labels))
+    cut = ContrastGraph.of(colours, near).cut(costs, labels, np.where(inner, UNSEEDED, labels))
     found = np.zeros_like(near)
     found[near] = cut > 0
     return found

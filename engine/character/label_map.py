@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.crossed_labels import ArmLabels, Behind
 from engine.character.free_cloth import FreeCloth
@@ -59,7 +59,7 @@ class Labels:
         if self.cloth is None or self.cloth.legs is None or not self.cloth.parted:
             return self
         legs = self.cloth.legs
-        clothed = np.where(np.isin(self.labels, LEGS), PARTS.index("torso"), self.labels)
+        clothed = np.where(np.isin(self.labels, LEGS), BODY_PARTS.index("torso"), self.labels)
         return replace(
             self,
             labels=np.where(legs >= 0, legs, clothed).astype(np.int8),
@@ -144,7 +144,7 @@ def _with_occlusion(
 ) -> Labels:
     """Labels with what they say of limbs before others, and where hands are `hidden` (h, w); `before`: the leg that passes
     before the other."""
-    places = [rest_places(labels, part, projected, rest) for part in range(len(PARTS))]
+    places = [rest_places(labels, part, projected, rest) for part in range(len(BODY_PARTS))]
     pixels = {arm: occlusion_pixels(labels, arm, places) for arm in ARMS}
     parting = np.zeros(labels.shape, np.bool_)
     for leg in LEGS:

@@ -6,11 +6,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 from engine.imaging.colour_segmentation import (
-    FREE,
     MIN_SAMPLES,
+    UNSEEDED,
     ColourMixture,
     ContrastGraph,
     colour_costs,
@@ -19,8 +19,8 @@ from engine.imaging.colour_segmentation import (
 from engine.imaging.mask_distance import distance_to, grown
 from engine.imaging.mask_pieces import pieces_touching
 
-ARMS = (PARTS.index("left_arm"), PARTS.index("right_arm"))
-LEGS = (PARTS.index("left_leg"), PARTS.index("right_leg"))
+ARMS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
+LEGS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))
 OTHER_SIDE = {one: other for pair in (ARMS, LEGS) for one, other in (pair, pair[::-1])}
 """The limb of the other side."""
 LEAST = 50
@@ -61,7 +61,7 @@ def rough_labels(mask: NDArray[np.bool_], template: NDArray[np.integer]) -> NDAr
     size = (max(1, round(width * factor)), max(1, round(height * factor)))
     small = cv2.resize(mask.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST_EXACT) > 0
     seen = cv2.resize(template.astype(np.int16), size, interpolation=cv2.INTER_NEAREST_EXACT)
-    unary = np.stack([_distance_to(seen == label)[small] for label in range(len(PARTS))], 1)  # equation 13
+    unary = np.stack([_distance_to(seen == label)[small] for label in range(len(BODY_PARTS))], 1)  # equation 13
     for arm in ARMS:  # sleeves are wider than arms, but not as wide as the skirt beside one
         unary[:, arm] += BEYOND * np.maximum(unary[:, arm] - SLEEVE * size[1], 0)
     edges, _ = grid_edges(small)
@@ -76,7 +76,7 @@ def _enlarged(labels: NDArray[np.intp], mask: NDArray[np.bool_]) -> NDArray[np.i
     size = (mask.shape[1], mask.shape[0])
     around = STEPS * mask.shape[0] / labels.shape[0]
     likely = []
-    for label in range(len(PARTS)):
+    for label in range(len(BODY_PARTS)):
         large = cv2.resize((labels == label).astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
         likely.append(cv2.GaussianBlur(large, (0, 0), around))
     return np.where(mask, np.stack(likely).argmax(0), -1)
@@ -97,7 +97,7 @@ def hair_beside_arms(
     `template` (H, W) and not `sure` (H, W), has the colours of hair rather than those of the arm, and hangs together with
     the head."""
     found = labels.astype(np.intp).copy()
-    head = PARTS.index("head")
+    head = BODY_PARTS.index("head")
     colours = rgb.astype(np.float64)
     hair = (labels == head) & (template != head)
     for arm in ARMS:
@@ -119,7 +119,7 @@ def without_specks(
     other pieces, either, unless the other arm passes before it, or they are at a shoulder where labels are `plain` (H, W):
     nothing smaller than the one with its hand, which is `sure` (H, W; -1 where nothing is), or than a share of the largest."""
     kept = labels.astype(np.intp).copy()
-    for part in range(len(PARTS)):
+    for part in range(len(BODY_PARTS)):
         count, pieces, stats, _ = cv2.connectedComponentsWithStats((labels == part).astype(np.uint8), connectivity=4)
         if count < 3:
             continue
@@ -174,7 +174,7 @@ def _refine(
     astray = ASTRAY * np.stack([_distance_to(template == label)[near] for label in meeting], 1)
     astray[template[near] < 0] = 0
     index = {label: k for k, label in enumerate(meeting)}
-    seeds = np.where(inner, FREE, [index.get(int(label), len(meeting)) for label in first])
+    seeds = np.where(inner, UNSEEDED, [index.get(int(label), len(meeting)) for label in first])
     current = first
     for _ in range(ROUNDS):
         shown = [pixels[current == label] for label in meeting]
@@ -197,5 +197,5 @@ def _distance_to(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def _nearest_label(labels: NDArray[np.intp]) -> NDArray[np.intp]:
-    distances = np.stack([_distance_to(labels == label) for label in range(len(PARTS))])
+    distances = np.stack([_distance_to(labels == label) for label in range(len(BODY_PARTS))])
     return np.asarray(distances.argmin(0), np.intp)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
@@ -28,7 +28,7 @@ def cut_along(labels: NDArray[np.integer], parting: NDArray[np.bool_]) -> NDArra
     near = grown(parting, 1)
     cut = np.zeros(labels.shape, np.int8)
     for side, name in ((1, "left_leg"), (2, "right_leg")):
-        cut[near & (labels == PARTS.index(name))] = side
+        cut[near & (labels == BODY_PARTS.index(name))] = side
     return cut
 
 
@@ -44,7 +44,7 @@ def each_by_its_own(body: Layer, labels: NDArray[np.integer], parting: NDArray[n
     for surface in (body.front, body.back):
         weights = surface.weights.copy()
         for own, other in (("left_leg", "Right"), ("right_leg", "Left")):
-            region = body.mask & below & (labels == PARTS.index(own))
+            region = body.mask & below & (labels == BODY_PARTS.index(own))
             others = [k for k, name in enumerate(rig.names) if name.startswith(other)]
             kept = weights[region]
             kept[:, others] = 0

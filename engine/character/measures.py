@@ -18,7 +18,7 @@ from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
 from engine.imaging.mask_pieces import rows_apart
 from engine.motion.clip import Clip
-from engine.render.rasteriser import SUBPIXELS, rasterise
+from engine.render.rasteriser import SUBPIXEL_STEPS, rasterise
 
 
 def pose(character: Character, clip: Clip, frame: int = 0) -> NDArray[np.float32]:
@@ -97,5 +97,5 @@ def _unseen(
     a, b, c = (posed[triangles[:, k]].astype(np.float64) for k in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     pixels = np.abs(projected_areas(projected, triangles)[seen])
-    covered = np.maximum(pixels, 1 / SUBPIXELS)  # finer than corners are placed
+    covered = np.maximum(pixels, 1 / SUBPIXEL_STEPS)  # finer than corners are placed
     return max(float(1 - (area[seen] / covered).sum() / max(float(area.sum()), 1e-12)), 0.0)

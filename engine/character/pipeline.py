@@ -31,7 +31,7 @@ from engine.character.stages import (
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
-from engine.export.glb import QUALITY, write_glb
+from engine.export.glb import JPEG_QUALITY, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
@@ -280,7 +280,7 @@ def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: R
             "glb_too_large",
             f"{path.name} has {written.size / 1e6:.1f} MB, however its texture is written; fewer triangles help, or a shorter motion.",
         )
-    elif (written.smaller, written.quality) != (1, QUALITY):
+    elif (written.smaller, written.quality) != (1, JPEG_QUALITY):
         size = f"1/{written.smaller} of its width and height" if written.smaller > 1 else "its full size"
         run.warn(
             "texture_reduced",

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
-PLACED = tuple(name for name in LANDMARKS if not name.endswith(("Inner", "Outer")))
+PLACED = tuple(name for name in BODY_LANDMARKS if not name.endswith(("Inner", "Outer")))
 """The joints that can be placed by hand."""
 WHOLE_SKELETON = tuple(
     f"{side}{joint}" for side in ("Left", "Right") for joint in ("Shoulder", "Elbow", "Wrist", "Hip", "Knee", "Ankle")
@@ -82,7 +82,7 @@ def check_skeleton(points: NDArray[np.floating], warn: Callable[[str, str], None
     ------
     InputError : `joints_invalid`. Warns of `joints_out_of_proportion`.
     """
-    at = {name: points[LANDMARKS.index(name)].astype(np.float64) for name in WHOLE_SKELETON}
+    at = {name: points[BODY_LANDMARKS.index(name)].astype(np.float64) for name in WHOLE_SKELETON}
     places = np.stack(list(at.values()))
     along, across = np.linalg.svd(places - places.mean(0), compute_uv=False)
     if across <= STRAIGHT * along:

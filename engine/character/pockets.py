@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.figure import SIDES
 from engine.character.labels import ARMS, complete_labels
@@ -86,7 +86,7 @@ def parted(
     length = float(beyond[template].max())
     distance = np.linalg.norm(away, axis=-1)
     aside = distance_to(template)
-    arm, worn = labels == hand.arm, np.isin(labels, [PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
+    arm, worn = labels == hand.arm, np.isin(labels, [BODY_PARTS.index(f) for f in ("torso", "left_leg", "right_leg")])
     around = (distance < AROUND * length) & (arm | worn)
     sleeve, cloth = arm & (distance > AROUND * length), worn & (distance < NEAR * length) & (aside > BY * length)
     if min(int(one.sum()) for one in (sleeve, cloth, around)) < MIN_SAMPLES:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 UPRIGHT = 55.0
 """Degrees by which the trunk may lean in the picture."""
@@ -31,7 +31,7 @@ def check_posture(
     """
 
     def at(name: str) -> NDArray[np.float32]:
-        return points[LANDMARKS.index(name)]
+        return points[BODY_LANDMARKS.index(name)]
 
     shoulders, hips = ((at(f"Left{joint}") + at(f"Right{joint}")) / 2 for joint in ("Shoulder", "Hip"))
     lean = np.degrees(np.arctan2(abs(hips[0] - shoulders[0]), hips[1] - shoulders[1]))
@@ -59,5 +59,5 @@ def check_posture(
 
 def _from_vertical(world: NDArray[np.float32], side: str) -> float:
     """Degrees between a thigh and the vertical."""
-    thigh = world[LANDMARKS.index(f"{side}Knee")] - world[LANDMARKS.index(f"{side}Hip")]
+    thigh = world[BODY_LANDMARKS.index(f"{side}Knee")] - world[BODY_LANDMARKS.index(f"{side}Hip")]
     return float(np.degrees(np.arccos(np.clip(-thigh[1] / max(float(np.linalg.norm(thigh)), 1e-6), -1, 1))))

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.label_map import Labels
 from engine.character.labels import ARMS, LEGS
@@ -46,7 +46,7 @@ class Region:
 
 @dataclass(frozen=True)
 class LimbRegion(Region):
-    """That of a `limb`, an index of `PARTS`. Around its shoulder or hip it overlaps with the body: the template's triangles
+    """That of a `limb`, an index of `BODY_PARTS`. Around its shoulder or hip it overlaps with the body: the template's triangles
     `overlap` (T,) and the pixels `joint` (h, w). One that passes `behind` the body hides nothing of it."""
 
     limb: int
@@ -58,7 +58,7 @@ class LimbRegion(Region):
 def find_regions(
     labels: Labels, apart: Sequence[int], template: PosedTemplate, rig: Rig, unseen: Sequence[int] = ()
 ) -> tuple[Region, list[LimbRegion]]:
-    """The body's region and those of the limbs that are `apart` (indices of `PARTS`), in their order; the body ends where
+    """The body's region and those of the limbs that are `apart` (indices of `BODY_PARTS`), in their order; the body ends where
     legs come out from under its cloth, and has nothing of limbs that are `unseen`."""
     part = vertex_parts(rig)[template.triangles]
     limbs = [_limb_region(labels, limb, apart, template, rig, part) for limb in apart]
@@ -169,7 +169,7 @@ def _around_joint(
     limb: int, template: PosedTemplate, rig: Rig, shape: Sequence[int]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """The template's triangles (T,), and the grid's pixels (h, w), around an arm's shoulder or a leg's hip."""
-    side = "Left" if PARTS[limb].startswith("left") else "Right"
+    side = "Left" if BODY_PARTS[limb].startswith("left") else "Right"
     bone, reach = ("Arm", SHOULDER) if limb in ARMS else ("UpLeg", HIP)
     joint = rig.index(f"{side}{bone}")
     close = np.linalg.norm(template.rest - template.rest_joints[joint], axis=1) < reach

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.labels import ARMS
 from engine.character.posed_template import PosedTemplate
@@ -34,7 +34,7 @@ def labelled_shoulders(
     y, x = np.mgrid[: labels.shape[0], : labels.shape[1]]
     colours = rgb.astype(np.float64)
     out, plain = labels.astype(np.intp).copy(), np.zeros(labels.shape, np.bool_)
-    torso = labels == PARTS.index("torso")
+    torso = labels == BODY_PARTS.index("torso")
     joints = [template.joints[rig.index(f"{side}Arm")] for side in ("Left", "Right")]
     away = [np.hypot(x - joint[0], y - joint[1]) / template.pixels_per_metre for joint in joints]
     near = np.minimum(*away) < REACH
@@ -45,14 +45,14 @@ def labelled_shoulders(
         if not here.any() or min(len(some) for some in learned) < MIN_SAMPLES:
             continue
         known = [ColourMixture.fit(some) for some in learned]
-        known += _hair(colours[labels == PARTS.index("head")], known[1])
+        known += _hair(colours[labels == BODY_PARTS.index("head")], known[1])
         costs = colour_costs(known, colours[here])
         likelier = costs[:, 0] - costs[:, 1]
         of_the_trunk = (likelier < 0) & own[here]
         if (abs(likelier) > SURE).mean() > MOSTLY and of_the_trunk.sum() <= STRAY * own[here].sum():
             found = ContrastGraph.of(colours, here).cut(costs, costs.argmin(1))
             whole = out.copy()
-            whole[here] = np.array([PARTS.index("torso"), arm, PARTS.index("head")])[found]
+            whole[here] = np.array([BODY_PARTS.index("torso"), arm, BODY_PARTS.index("head")])[found]
             # a neck is as bare as a shoulder
             astray = (whole == arm) & ~pieces_touching(whole == arm, (own & ~here) | grown(labels < 0, 1))
             out[here & ~astray] = whole[here & ~astray]

@@ -21,7 +21,7 @@ from engine.imaging.mask_distance import grown
 from engine.imaging.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 from engine.perception.models import MattingModel
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
 from engine.perception.segmentation import people_in
@@ -168,7 +168,7 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
     for side, hand in zip(("Left", "Right"), figure.hands, strict=True):
         names = [f"{side}{joint}" for joint in ("Elbow", "Wrist", "Index", "Pinky")]
         elbow, wrist, *fingers = (figure.point(name) for name in names)
-        sure = figure.confidence[[LANDMARKS.index(name) for name in names]]
+        sure = figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]
         if min(sure[:2]) > JOINT:
             line(np.stack([elbow, wrist]), FOREARM)
             if hand is None:
@@ -184,7 +184,7 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
     near = cv2.dilate(np.maximum(seed, beyond), np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
     for side in ("Left", "Right"):
         names = [f"{side}Shoulder", f"{side}Elbow"]
-        if min(figure.confidence[[LANDMARKS.index(name) for name in names]]) > JOINT:
+        if min(figure.confidence[[BODY_LANDMARKS.index(name) for name in names]]) > JOINT:
             line(np.stack([figure.point(name) for name in names]), FOREARM)
     return np.asarray(np.maximum(LIKELY_BELIEF * seed, DOUBTFUL_BELIEF * near), np.float32)
 
@@ -192,7 +192,7 @@ def _seen(figure: Figure) -> NDArray[np.float32]:
 def _limbs(figure: Figure) -> NDArray[np.float32]:
     """Where the person must be if the skeleton was placed by hand: along its limbs and in its trunk."""
     seed = np.zeros(figure.rgb.shape[:2], np.uint8)
-    place = {name: np.rint(figure.point(name)).astype(int) for name in LANDMARKS}
+    place = {name: np.rint(figure.point(name)).astype(int) for name in BODY_LANDMARKS}
     width = max(1, round(LIMB * float(np.ptp(figure.points[figure.confidence > 0, 1]))))
     for side in ("Left", "Right"):
         for chain in (("Shoulder", "Elbow", "Wrist"), ("Shoulder", "Hip", "Knee", "Ankle")):

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.cast_shadow import CastShadow, find_cast_shadow
 from engine.character.crossed_arms import without_hidden_hand
 from engine.character.crossed_labels import label_crossed
@@ -114,7 +114,7 @@ def hand_labels(
         if hand is not None:
             hull = cv2.convexHull(hand[:, :2] @ to_grid[:, :2].T.astype(np.float32) + to_grid[:, 2].astype(np.float32))
             painted = cv2.fillConvexPoly(np.zeros(labels.shape, np.uint8), np.rint(hull).astype(np.int32), (1,))
-            labels[painted > 0] = PARTS.index(arm)
+            labels[painted > 0] = BODY_PARTS.index(arm)
     return labels
 
 
@@ -134,7 +134,7 @@ def build_mesh(figure: Figure, silhouette: Silhouette, fitted: FittedBody, label
         seen = fiducials(figure.face[:, :2])[JAW:].astype(np.float64)
         on_grid = seen @ silhouette.to_grid[:, :2].T + silhouette.to_grid[:, 2]
         laid = posed.vertices[human.face[JAW:], :2]
-        face = Face(on_grid, laid, labels.labels == PARTS.index("head"))
+        face = Face(on_grid, laid, labels.labels == BODY_PARTS.index("head"))
     return close(
         build_layers(labels, posed, human.rig, face), silhouette.soft, limb_borders(figure, silhouette, labels)
     )
@@ -163,7 +163,7 @@ def make_character(
 ) -> Character:
     """The mesh textured, bound in T-pose and brought down to a number of triangles (section 5)."""
     labels = labels.layered
-    head = labels.labels == PARTS.index("head")
+    head = labels.labels == BODY_PARTS.index("head")
     face = face_ellipse(figure, silhouette.to_grid, head)
     reach = mesh.pixels(np.flatnonzero(mesh.layer > 0), labels.labels.shape)
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0

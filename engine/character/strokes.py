@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.options import LabelStroke, MaskStroke
 from engine.errors import InputError
 from engine.media.image import read_image
@@ -40,7 +40,7 @@ def read_mask(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> N
 
 
 def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) -> NDArray[np.int8]:
-    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `PARTS`; -1 nobody, and where the colour is
+    """A label map (H, W) from a picture in the colours of `LABEL_COLOURS`: indices of `BODY_PARTS`; -1 nobody, and where the colour is
     none of these, as between two of them where edges are soft.
 
     Raises
@@ -50,7 +50,7 @@ def read_labels(path: Path, sizes: Sequence[tuple[int, int]], limits: Limits) ->
     picture = read_image(path, limits)
     _require_size("labels", picture.rgb, sizes)
     labels = np.full(picture.rgb.shape[:2], -1, np.int8)
-    for index, colour in enumerate(LABEL_COLOURS[: len(PARTS)].astype(np.int32)):
+    for index, colour in enumerate(LABEL_COLOURS[: len(BODY_PARTS)].astype(np.int32)):
         labels[np.square(picture.rgb - colour).sum(-1) <= ALIKE**2] = index
     return labels
 
@@ -106,5 +106,5 @@ def relabel(
     size = (labels.shape[1], labels.shape[0])
     for stroke, cover in zip(strokes, painted(strokes, shape, scale), strict=True):
         on_grid = np.asarray(cv2.warpAffine(cover, to_grid, size, flags=cv2.INTER_LINEAR)) > 0.5
-        out[on_grid & (labels >= 0)] = PARTS.index(stroke.part)
+        out[on_grid & (labels >= 0)] = BODY_PARTS.index(stroke.part)
     return out

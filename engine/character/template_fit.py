@@ -17,7 +17,7 @@ from engine.body.first_guess import facing, first_guess
 from engine.body.fitting import Fit, fit_body
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
-from engine.body.observation import LIMBS, Observation
+from engine.body.observation import DIRECTED_LIMBS, Observation
 from engine.body.rig import Rig
 from engine.body.template import load_rig
 from engine.character.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand
@@ -27,7 +27,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 RIG = "mixamo"
 """The rig of a character, who is one surface: the joints of `engine.body.rig.FACE_JOINTS` would move nothing that opens or turns."""
@@ -102,22 +102,22 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
     """Fit pose, shape and place to landmarks and mask (H, W)."""
     human = load_human()
     landmarks = human.landmarks
-    at = [LANDMARKS.index(name) for name in landmarks.names]
+    at = [BODY_LANDMARKS.index(name) for name in landmarks.names]
     trust = np.array([RELIABLE.get(_part(name), 1.0) for name in landmarks.names], np.float32)
     height, width = figure.rgb.shape[:2]
     centre = (width - 1) / 2, (height - 1) / 2
     camera = Camera((0.0, 0.0, 0.0), FOCAL * max(height, width), centre, (height, width))
     places = {
-        f"{side}{joint}": LANDMARKS.index(f"{side}{mark}")
+        f"{side}{joint}": BODY_LANDMARKS.index(f"{side}{mark}")
         for joint, mark in JOINTS.items()
         for side in ("Left", "Right")
     }
     world = _arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
-    limbs = np.stack([world[places[b]] - world[places[a]] for a, b in LIMBS])
+    limbs = np.stack([world[places[b]] - world[places[a]] for a, b in DIRECTED_LIMBS])
     trunk = {joint: world[place] for joint, place in places.items()}
     limbs = limbs / np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
     limbs = legs_apart(limbs, facing(trunk)[:, 2])
-    sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in LIMBS])
+    sure = np.array([min(figure.confidence[places[a]], figure.confidence[places[b]]) for a, b in DIRECTED_LIMBS])
     crossed = crossed_arms(figure, mask)
     confidence = without_hidden_hand(figure, crossed).confidence
     seen = Observation(
@@ -155,10 +155,10 @@ def _arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
     trunk = np.stack([figure.point(name) for name in corners])
     middle = trunk.mean(0)
     trunk = np.asarray(middle + NARROWER * (trunk - middle), np.float32)
-    depths = world[[LANDMARKS.index(name) for name in corners], 2]
+    depths = world[[BODY_LANDMARKS.index(name) for name in corners], 2]
     for side in ("Left", "Right"):
         for joint in ("Elbow", "Wrist"):
-            at = LANDMARKS.index(f"{side}{joint}")
+            at = BODY_LANDMARKS.index(f"{side}{joint}")
             x, y = (float(value) for value in figure.points[at])
             if figure.confidence[at] > SEEN and cv2.pointPolygonTest(trunk, (x, y), False) > 0:
                 world[at, 2] = max(world[at, 2], float(depths.mean()) + BEFORE)
@@ -166,7 +166,7 @@ def _arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
 
 
 def legs_apart(limbs: NDArray[np.floating], front: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Directions (8, 3) of `LIMBS` with one leg as far before the other, along the trunk's `front` (3,), as it is where
+    """Directions (8, 3) of `DIRECTED_LIMBS` with one leg as far before the other, along the trunk's `front` (3,), as it is where
     perception sees it so: it has strides too short. What both legs have in common stays, and how far they are spread."""
     legs = limbs[4:].reshape(2, 2, 3)  # sides, thigh and shin
     before = (legs[0] - legs[1]) @ front

@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.face_region import within_oval
 from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
@@ -59,7 +59,7 @@ TILES = 3
 class Tiles:
     """Pictures of one size (h, w, 3) uint8 that cover the grid on which the mesh was made: the `limbs` that are apart, the
     `body` without them before it, and its `back`. `behind`: a limb that goes on
-    behind another, and which that is, an index of `PARTS`. `head` (h, w): where its head is. `scale`: their pixels for each of the
+    behind another, and which that is, an index of `BODY_PARTS`. `head` (h, w): where its head is. `scale`: their pixels for each of the
     grid's. `shift`: by how many of them x and y are further, so that pixels fall on pixels of the picture."""
 
     limbs: NDArray[np.uint8]
@@ -121,7 +121,7 @@ def paint_tiles(
     if along is not None:
         body = np.where((enlarged_mask(along & limbs, size) & own)[..., None], seen, body)
     behind = body if back == "mirror" else _from_the_sides(body, labels, size, own)
-    head = enlarged_mask(labels.labels == PARTS.index("head"), size) & own
+    head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
         behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
@@ -164,7 +164,7 @@ def _behind_the_limbs(
     size = (own.shape[1], own.shape[0])
     bare = np.where(np.isin(labels.labels, labels.apart), -1, labels.labels)
     beneath = complete_labels(labels.labels >= 0, bare)
-    head = enlarged_mask(beneath == PARTS.index("head"), size)
+    head = enlarged_mask(beneath == BODY_PARTS.index("head"), size)
     away = distance_to(limbs) / size[1]
     body = continued_colours(seen, own & ~limbs)
     shown = own & ~limbs & (away < NEARBY)
@@ -202,7 +202,7 @@ def _from_the_sides(
     """The middle of each part of the body filled with patches of its sides (the paper's second way to a back): what is
     printed, buttoned or worn in front is not on the back, and at the outline front and back are one."""
     out = rgb
-    for part, name in enumerate(PARTS):
+    for part, name in enumerate(BODY_PARTS):
         if name == "head":
             continue  # its middle is the face
         region = enlarged_mask(labels.labels == part, size) & own

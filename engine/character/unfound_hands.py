@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.character.figure import SIDES, Figure
 from engine.character.labels import ARMS
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 LOW, BESIDE, REACH = 0.7, 1.5, 0.5
 """Where a wrist is at the hip: how far down the trunk, at least; how much further from the middle than the hip's joint; and
@@ -60,7 +60,7 @@ def unfound_hands(figure: Figure, rgb: NDArray[np.uint8], to_grid: NDArray[np.fl
         half = float(np.linalg.norm(hip - hips))
         aside = float((wrist - hips) @ unit(hip - hips)) > BESIDE * max(half, NARROWEST * trunk)
         low = float((wrist - shoulders) @ down) / trunk**2
-        sure = float(min(figure.confidence[LANDMARKS.index(f"{side}{finger}")] for finger in ("Index", "Pinky")))
+        sure = float(min(figure.confidence[BODY_LANDMARKS.index(f"{side}{finger}")] for finger in ("Index", "Pinky")))
         beside, before = aside and low > LOW, apart and low > BEFORE and sure < SURE
         if hand is None and (beside or before) and np.linalg.norm(wrist - hip) < REACH * trunk:
             knuckles = (at(f"{side}Index") + at(f"{side}Pinky")) / 2

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import Rig
 from engine.character.head import joint_axes
 from engine.character.label_map import Labels
@@ -36,7 +36,7 @@ BONES = dict(zip((*ARMS, *LEGS), ("LeftArm LeftForeArm", "RightArm RightForeArm"
 
 @dataclass(frozen=True)
 class UnseenLimb:
-    """A `limb`, an index of `PARTS`, that is hidden all over: its template's `triangles` (T,), and where it is, `mask` (h, w)."""
+    """A `limb`, an index of `BODY_PARTS`, that is hidden all over: its template's `triangles` (T,), and where it is, `mask` (h, w)."""
 
     limb: int
     triangles: NDArray[np.bool_]
@@ -67,14 +67,14 @@ def with_limbs_hidden(
             template = pose_template(turned, camera, human)
             if _is_within(template, (part[template.triangles] == limb).any(1), inner):
                 fitted = turned
-                name = PARTS[limb].replace("_", " ")
+                name = BODY_PARTS[limb].replace("_", " ")
                 warn("limb_unseen", f"Nothing is seen of the {name}: it is made up, like the other one.")
                 break
     return fitted
 
 
 def not_seen(labels: Labels) -> list[int]:
-    """The limbs, indices of `PARTS`, of which the picture shows hardly anything, but the one of the other side. Legs under a skirt are
+    """The limbs, indices of `BODY_PARTS`, of which the picture shows hardly anything, but the one of the other side. Legs under a skirt are
     not looked for."""
     skirt = labels.cloth is not None and labels.cloth.hangs
     return [

@@ -30,9 +30,9 @@ PALETTE_FRAMES = 25
 """Frames of which the palette is made, at most."""
 MAX_HELD_BYTES = 200_000_000
 """Bytes of frames that wait for it: of large ones there are fewer."""
-_TICKS = 100
+_TICKS_PER_SECOND = 100
 """Of the format's clock, a second."""
-_SHORTEST = 2
+_MIN_FRAME_TICKS = 2
 """Ticks; browsers show frames that claim less for a tenth of a second."""
 _DITHER = "dither=bayer:bayer_scale=3:diff_mode=rectangle:alpha_threshold=128"
 
@@ -45,18 +45,18 @@ class GifEncoder:
         self._waiting: list[VideoFrame] = []
         self._graph: Graph | None = None
         self._sample = min(PALETTE_FRAMES, max(1, MAX_HELD_BYTES // (4 * target.size[0] * target.size[1])))
-        self._count, self._ended = 0, -_SHORTEST
+        self._count, self._ended = 0, -_MIN_FRAME_TICKS
         last = (
             target.begins(len(target.times) - 1) - target.begins(len(target.times) - 2)
             if target.times
             else 1 / target.fps
         )
-        options = {"loop": "0", "final_delay": str(max(_SHORTEST, min(round(last * _TICKS), 65535)))}
+        options = {"loop": "0", "final_delay": str(max(_MIN_FRAME_TICKS, min(round(last * _TICKS_PER_SECOND), 65535)))}
         self._container = av.open(str(target.path), "w", format="gif", options=options)
-        self._stream = self._container.add_stream("gif", rate=_TICKS)
+        self._stream = self._container.add_stream("gif", rate=_TICKS_PER_SECOND)
         self._stream.width, self._stream.height = target.size
         self._stream.pix_fmt = "pal8"
-        self._stream.codec_context.time_base = Fraction(1, _TICKS)
+        self._stream.codec_context.time_base = Fraction(1, _TICKS_PER_SECOND)
 
     @property
     def frames_held(self) -> int:
@@ -71,12 +71,12 @@ class GifEncoder:
 
     def add(self, prepared: VideoFrame) -> None:
         """Code a frame, or keep it until there are enough for a palette. Frames too short to be shown are left out."""
-        at = round(self._target.begins(self._count) * _TICKS)
+        at = round(self._target.begins(self._count) * _TICKS_PER_SECOND)
         self._count += 1
-        if at < self._ended + _SHORTEST:
+        if at < self._ended + _MIN_FRAME_TICKS:
             return
         self._ended = at
-        prepared.pts, prepared.time_base = at, Fraction(1, _TICKS)
+        prepared.pts, prepared.time_base = at, Fraction(1, _TICKS_PER_SECOND)
         self._waiting.append(prepared)
         if self._graph is not None or len(self._waiting) >= self._sample:
             self._code()
@@ -113,7 +113,7 @@ class GifEncoder:
 
     def _dithering(self, palette: VideoFrame) -> Graph:
         graph = Graph()
-        clock = Fraction(1, _TICKS)
+        clock = Fraction(1, _TICKS_PER_SECOND)
         width, height = self._target.size
         pictures = graph.add_buffer(width=width, height=height, format=VideoFormat("rgba"), time_base=clock)
         colours = graph.add_buffer(width=16, height=16, format=palette.format, time_base=clock)
@@ -134,7 +134,7 @@ def _palette(frames: list[VideoFrame], transparent: bool) -> VideoFrame:
     graph = Graph()
     first = frames[0]
     source = graph.add_buffer(
-        width=first.width, height=first.height, format=VideoFormat("rgba"), time_base=Fraction(1, _TICKS)
+        width=first.width, height=first.height, format=VideoFormat("rgba"), time_base=Fraction(1, _TICKS_PER_SECOND)
     )
     generate, sink = graph.add("palettegen", f"reserve_transparent={int(transparent)}"), graph.add("buffersink")
     source.link_to(generate)

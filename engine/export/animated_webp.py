@@ -33,14 +33,14 @@ from PIL import Image
 from engine.export import synthetic
 from engine.export.encoders import Target
 
-QUALITY, METHOD = 85, 2
+WEBP_QUALITY, WEBP_METHOD = 85, 2
 """Of libwebp: how fine, and how long it may look for what is small."""
 
-_XMP, _ANIMATION, _ALPHA = 0x04, 0x02, 0x10
+_XMP_FLAG, _ANIMATION_FLAG, _ALPHA_FLAG = 0x04, 0x02, 0x10
 """Flags of the extended header."""
-_INSTEAD = b"\x02"
+_NO_BLENDING_FLAG = b"\x02"
 """Flag of a frame that stands in place of what was shown before, transparent parts included."""
-_LONGEST = 2**32 - 2
+_MAX_RIFF_BYTES = 2**32 - 2
 """Bytes that a RIFF file can say that it has, at most."""
 
 
@@ -52,7 +52,7 @@ class WebpEncoder:
         self._size, self._transparent, self._synthetic = target.size, transparent, target.synthetic
         self._count = 0
         self._file = target.path.open("wb")
-        flags = _ANIMATION | (_ALPHA if transparent else 0) | (_XMP if target.synthetic else 0)
+        flags = _ANIMATION_FLAG | (_ALPHA_FLAG if transparent else 0) | (_XMP_FLAG if target.synthetic else 0)
         repeats = 0 if target.loop else 1  # 0 is without end
         self._file.write(b"RIFF" + bytes(4) + b"WEBP")
         self._file.write(_chunk(b"VP8X", bytes([flags, 0, 0, 0]) + _sides(target.size)))
@@ -67,17 +67,17 @@ class WebpEncoder:
     def add(self, prepared: np.ndarray) -> None:
         """Code a frame and write it."""
         coded = io.BytesIO()
-        Image.fromarray(prepared).save(coded, "WEBP", quality=QUALITY, method=METHOD)
+        Image.fromarray(prepared).save(coded, "WEBP", quality=WEBP_QUALITY, method=WEBP_METHOD)
         picture = b"".join(_picture_chunks(coded.getvalue()))
         begins, ends = (round(1000 * self._target.begins(k)) for k in (self._count, self._count + 1))
-        head = bytes(6) + _sides(self._size) + (ends - begins).to_bytes(3, "little") + _INSTEAD
+        head = bytes(6) + _sides(self._size) + (ends - begins).to_bytes(3, "little") + _NO_BLENDING_FLAG
         self._write(_chunk(b"ANMF", head + picture))
         self._count += 1
 
     def finish(self) -> None:
         """Complete the file and close it."""
         if self._synthetic:
-            self._write(_chunk(b"XMP ", synthetic.XMP))
+            self._write(_chunk(b"XMP ", synthetic.XMP_PACKET))
         size = self._file.tell()
         self._file.seek(4)
         self._file.write((size - 8).to_bytes(4, "little"))
@@ -89,7 +89,7 @@ class WebpEncoder:
             self._file.close()
 
     def _write(self, chunk: bytes) -> None:
-        if self._file.tell() + len(chunk) > _LONGEST:
+        if self._file.tell() + len(chunk) > _MAX_RIFF_BYTES:
             raise OSError(EFBIG, "A WebP has at most 4 GB")
         self._file.write(chunk)
 

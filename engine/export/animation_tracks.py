@@ -13,10 +13,10 @@ from engine.motion.clip import Clip
 from engine.motion.resampling import loop_step
 from engine.motion.skeleton import Skeleton
 
-STILL = 1e-5
+STILL_TOLERANCE = 1e-5
 """Radians, or metres: what moves less than this stands still."""
 
-HELD = 1.0
+SINGLE_FRAME_SECONDS = 1.0
 """Seconds for which a clip of one frame is held: players stumble over animations that take no time."""
 
 
@@ -44,7 +44,7 @@ def tracks(clip: Clip, skeleton: Skeleton) -> Tracks:
     rotations, root = clip.rotations.astype(np.float64), clip.root.astype(np.float64)
     if frames == 1:
         rotations, root = rotations.repeat(2, 0), root.repeat(2, 0)
-        times = np.array([0, HELD])
+        times = np.array([0, SINGLE_FRAME_SECONDS])
     else:
         if clip.loops:
             rotations = np.concatenate([rotations, rotations[:1]])
@@ -55,8 +55,8 @@ def tracks(clip: Clip, skeleton: Skeleton) -> Tracks:
         times=times.astype(np.float32),
         rotations=rotations.astype(np.float32),
         root=root.astype(np.float32),
-        turning=rotation.angle(rotations).max(0) > STILL,
-        moving=rotation.angle(rotation.multiply(rotation.inverse(rotations[0]), rotations)).max(0) > STILL,
+        turning=rotation.angle(rotations).max(0) > STILL_TOLERANCE,
+        moving=rotation.angle(rotation.multiply(rotation.inverse(rotations[0]), rotations)).max(0) > STILL_TOLERANCE,
     )
 
 

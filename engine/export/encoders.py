@@ -24,9 +24,9 @@ from av.video.stream import VideoStream
 from engine.export import synthetic
 from engine.export.sound import SoundTrack, open_sound
 from engine.media.timing import exact_rate
-from engine.media.ycbcr import BT709, LIMITED, frame_from_rgb
+from engine.media.ycbcr import BT709, LIMITED_RANGE, frame_from_rgb
 
-_CLOCK = 90_000
+_TICKS_PER_SECOND = 90_000
 """Ticks a second of frames that are not shown equally long, as is usual for video."""
 
 Format = Literal["mp4", "webm", "webp", "gif", "png"]
@@ -96,7 +96,7 @@ _CODINGS = {
 }
 
 
-ENTERED = {
+ENTRIES_OPTIONS = {
     "crf": "20",
     "preset": "veryfast",
     "forced-idr": "1",
@@ -123,7 +123,7 @@ the last frame and the first: 0.01 grey levels; largest step 1.85, median 0.39),
 | coding | seam | largest step | median | kB | ms a frame |
 | --- | --- | --- | --- | --- | --- |
 | mp4 as usual | 1.07 | 1.68 | 0.41 | 237 | 2 |
-| mp4, crf 12, all frames alike (as `ENTERED`) | 0.70 | 1.91 | 0.45 | 1014 | 2 |
+| mp4, crf 12, all frames alike (as `ENTRIES_OPTIONS`) | 0.70 | 1.91 | 0.45 | 1014 | 2 |
 | mp4, quantiser down to 10 over the last 10 frames | 0.54 | 1.66 | 0.40 | 309 | 2 |
 | mp4, down to 6 over the last 12, which is used | 0.37 | 1.69 | 0.40 | 356 | 2 |
 | mp4, down to 4 over the last 18 | 0.27 | 1.68 | 0.40 | 427 | 2 |
@@ -162,19 +162,19 @@ class StreamEncoder:
         self._lengths: dict[int, int] = {}
         self._container = av.open(str(target.path), "w", format=target.format, options=coding.container)
         if target.synthetic:
-            self._container.metadata.update(synthetic.TAGS)
+            self._container.metadata.update(synthetic.VIDEO_TAGS)
         self._stream = cast(VideoStream, self._container.add_stream(coding.codec, rate=self._rate))
         self._stream.width, self._stream.height = target.size
         if target.times is not None:
-            self._stream.codec_context.time_base = Fraction(1, _CLOCK)
+            self._stream.codec_context.time_base = Fraction(1, _TICKS_PER_SECOND)
         crf = {} if target.crf is None else {"crf": str(target.crf)}
-        special = ENTERED if target.entries else _looped(target, coding.options) if target.loop else {}
+        special = ENTRIES_OPTIONS if target.entries else _looped(target, coding.options) if target.loop else {}
         self._stream.options = {**coding.options, **special, **crf}
         self._stream.codec_context.thread_count = coding.threads
         self._stream.pix_fmt = "yuva420p" if transparent else "yuv420p"
         context = self._stream.codec_context
         context.colorspace = context.color_primaries = context.color_trc = BT709
-        context.color_range = LIMITED
+        context.color_range = LIMITED_RANGE
         self.sound: SoundTrack | None = None
         if target.sound is not None:
             self.sound = open_sound(target.sound, self._container, target.format, target.sound_trim)
@@ -190,8 +190,8 @@ class StreamEncoder:
         if self._target.times is None:
             prepared.pts, prepared.time_base = self._count, 1 / self._rate
         else:
-            begins, ends = (round(self._target.begins(k) * _CLOCK) for k in (self._count, self._count + 1))
-            prepared.pts, prepared.time_base = begins, Fraction(1, _CLOCK)
+            begins, ends = (round(self._target.begins(k) * _TICKS_PER_SECOND) for k in (self._count, self._count + 1))
+            prepared.pts, prepared.time_base = begins, Fraction(1, _TICKS_PER_SECOND)
             self._lengths[begins] = ends - begins
         if self._count in self._entries:
             prepared.pict_type = PictureType.I

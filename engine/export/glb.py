@@ -28,16 +28,16 @@ from engine.geometry.welding import seamless_normals
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 
-COVERAGE = 0.5
+DETAIL_COVERAGE_RATIO = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""
 
-QUALITY = 95
+JPEG_QUALITY = 95
 """Of a texture's JPEG, 1 to 100: a finely patterned dress loses 0.5 dB by it, 1.2 dB at 90, and files are a tenth smaller there."""
-TIGHTER = ((1, 90), (1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
+TEXTURE_REDUCTIONS = ((1, 90), (1, 80), (1, 70), (2, 90), (2, 75), (4, 80))
 """How a texture is written where it makes a file too large, the mildest first: by how much smaller, and the JPEG's quality."""
-SKIN = (Material("skin"),)
+SKIN_MATERIALS = (Material("skin"),)
 """What a mesh is made of where nothing else is said: of its own texture."""
-PADDING = 3
+MAX_PADDING_BYTES = 3
 """Bytes after a file within a GLB, at most: what follows begins at a multiple of four."""
 
 
@@ -56,11 +56,11 @@ def write_glb(
     clips: Sequence[Clip] = (),
     *,
     name: str = "character",
-    quality: int = QUALITY,
+    quality: int = JPEG_QUALITY,
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN,
+    materials: Sequence[Material] = SKIN_MATERIALS,
     material_of: NDArray[np.integer] | None = None,
     synthetic: bool = True,
     most: int | None = None,
@@ -81,7 +81,7 @@ def write_glb(
         normals of their own unless the character is `unlit`.
     materials, material_of : what the mesh is made of, and (T,) which of them each triangle has, where there are several.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
-    most : bytes that the file should have at most, levels included: its texture is written as mildly `TIGHTER` as that
+    most : bytes that the file should have at most, levels included: its texture is written as mildly `TEXTURE_REDUCTIONS` as that
         takes. Where no texture is small enough it stays as it is, and the file is larger.
     check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
@@ -106,9 +106,9 @@ def write_glb(
 
     how, texture = (1, quality), jpeg(mesh.texture, quality, synthetic)
     data = with_texture(texture)
-    rest = len(data) - len(texture) + PADDING  # no more with a smaller one: numbers have no more digits
+    rest = len(data) - len(texture) + MAX_PADDING_BYTES  # no more with a smaller one: numbers have no more digits
     if most is not None and rest < most < len(data):
-        for smaller, lower in TIGHTER:
+        for smaller, lower in TEXTURE_REDUCTIONS:
             check()
             texture = jpeg(_reduced(mesh.texture, smaller), lower, synthetic)
             if rest + len(texture) <= most:
@@ -145,7 +145,7 @@ def build_glb(
     unlit: bool = True,
     levels: Sequence[SkinnedMesh] = (),
     morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN,
+    materials: Sequence[Material] = SKIN_MATERIALS,
     material_of: NDArray[np.integer] | None = None,
     synthetic: bool = True,
 ) -> gl.GLTF2:
@@ -161,7 +161,7 @@ def build_glb(
         gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
     _add_skeleton(gltf, buffer, skeleton)
-    add_materials(gltf, buffer, texture, unlit, materials, lambda other: jpeg(other, QUALITY, synthetic))
+    add_materials(gltf, buffer, texture, unlit, materials, lambda other: jpeg(other, JPEG_QUALITY, synthetic))
     parts = _parts(mesh, len(materials), material_of)
     if levels and len(materials) > 1:
         raise ValueError("levels of detail have one material")
@@ -272,7 +272,9 @@ def joint_names(gltf: gl.GLTF2) -> tuple[str, ...]:
 
 def _add_levels(gltf: gl.GLTF2, shown: Sequence[int]) -> None:
     gltf.nodes[shown[0]].extensions = {"MSFT_lod": {"ids": list(shown[1:])}}
-    gltf.nodes[shown[0]].extras = {"MSFT_screencoverage": [COVERAGE ** (k + 1) for k in range(len(shown) - 1)] + [0.0]}
+    gltf.nodes[shown[0]].extras = {
+        "MSFT_screencoverage": [DETAIL_COVERAGE_RATIO ** (k + 1) for k in range(len(shown) - 1)] + [0.0]
+    }
     gltf.extensionsUsed = [*(gltf.extensionsUsed or []), "MSFT_lod"]
 
 

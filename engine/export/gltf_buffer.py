@@ -6,8 +6,8 @@ import numpy as np
 import pygltflib as gl
 from numpy.typing import NDArray
 
-_COMPONENTS = {"u1": gl.UNSIGNED_BYTE, "u2": gl.UNSIGNED_SHORT, "u4": gl.UNSIGNED_INT, "f4": gl.FLOAT}
-_SHAPES = {(): gl.SCALAR, (2,): gl.VEC2, (3,): gl.VEC3, (4,): gl.VEC4, (4, 4): gl.MAT4}
+_COMPONENT_TYPES = {"u1": gl.UNSIGNED_BYTE, "u2": gl.UNSIGNED_SHORT, "u4": gl.UNSIGNED_INT, "f4": gl.FLOAT}
+_ACCESSOR_TYPES = {(): gl.SCALAR, (2,): gl.VEC2, (3,): gl.VEC3, (4,): gl.VEC4, (4, 4): gl.MAT4}
 
 
 class Buffer:
@@ -42,9 +42,9 @@ class Buffer:
             gl.Accessor(
                 bufferView=view,
                 byteOffset=offset,
-                componentType=_COMPONENTS[kind.str[1:]],
+                componentType=_COMPONENT_TYPES[kind.str[1:]],
                 count=len(array),
-                type=_SHAPES[array.shape[1:]],
+                type=_ACCESSOR_TYPES[array.shape[1:]],
                 normalized=normalised,
                 min=flat.min(0).tolist() if bounds else None,
                 max=flat.max(0).tolist() if bounds else None,
@@ -72,7 +72,7 @@ class Buffer:
                 count=len(moved),
                 indices=gl.AccessorSparseIndices(
                     bufferView=self._place(np.asarray(moved).astype(kind).tobytes(), None, None)[0],
-                    componentType=_COMPONENTS[kind.str[1:]],
+                    componentType=_COMPONENT_TYPES[kind.str[1:]],
                 ),
                 values=gl.AccessorSparseValues(
                     bufferView=self._place(np.ascontiguousarray(offsets, "<f4").tobytes(), None, None)[0]

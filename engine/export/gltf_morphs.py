@@ -13,7 +13,7 @@ from engine.geometry.morph_target import MorphTarget
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals, weld
 
-STILL = 1e-4
+NORMAL_TOLERANCE = 1e-4
 """A change of a unit normal that nobody sees."""
 
 
@@ -40,7 +40,7 @@ def add_morphs(buffer: Buffer, mesh: SkinnedMesh, morphs: Sequence[MorphTarget],
         if rest is not None:
             shape = replace(mesh, vertices=(mesh.vertices + morph.dense(count)).astype(np.float32))
             change = seamless_normals(shape, points) - rest
-            turned = np.flatnonzero(np.abs(change).max(1) > STILL)
+            turned = np.flatnonzero(np.abs(change).max(1) > NORMAL_TOLERANCE)
             attributes.NORMAL = buffer.add_displacements(turned, change[turned], count)
         targets.append(attributes)
     return targets

@@ -22,11 +22,11 @@ from engine.render.character import Drawn
 NEAR_PLANE, FAR_PLANE = 0.05, 100.0
 """Metres from the camera between which things are seen."""
 
-PLATFORMS = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6")}
+PLATFORM_LIBRARIES = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "libOSMesa.so.6")}
 """PyOpenGL's ways to draw without a screen, and a library of which each takes one. They are loaded by name: what looks for
 libraries starts programs, and a job may start none."""
 
-KEY, FILL = 4.0, 1.5
+KEY_LIGHT_STRENGTH, FILL_LIGHT_STRENGTH = 4.0, 1.5
 """Strength of the light from above the camera's left, which casts shadows, and of the one opposite."""
 
 
@@ -94,8 +94,8 @@ class LitPreview:
         )
         scene.add(lens, pose=view)
         middle = posed.mean(0)
-        scene.add(gl.DirectionalLight(intensity=KEY), pose=_aimed(axes, (-0.6, 0.9, 0.8), middle))
-        scene.add(gl.DirectionalLight(intensity=FILL), pose=_aimed(axes, (0.9, 0.2, 0.5), middle))
+        scene.add(gl.DirectionalLight(intensity=KEY_LIGHT_STRENGTH), pose=_aimed(axes, (-0.6, 0.9, 0.8), middle))
+        scene.add(gl.DirectionalLight(intensity=FILL_LIGHT_STRENGTH), pose=_aimed(axes, (0.9, 0.2, 0.5), middle))
         flags = gl.RenderFlags.RGBA | gl.RenderFlags.SHADOWS_DIRECTIONAL
         try:
             rgba, _ = self._renderer.render(scene, flags=flags)
@@ -131,7 +131,7 @@ def _load() -> ModuleType:
     """`pyrender`, told where its OpenGL is; which has to happen before its first import."""
     os.environ.setdefault("PYGLET_HEADLESS", "1")
     if "PYOPENGL_PLATFORM" not in os.environ:
-        platform = next((name for name, libraries in PLATFORMS.items() if any(map(_loads, libraries))), None)
+        platform = next((name for name, libraries in PLATFORM_LIBRARIES.items() if any(map(_loads, libraries))), None)
         if platform is None:
             raise _unavailable()
         os.environ["PYOPENGL_PLATFORM"] = platform

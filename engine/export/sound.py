@@ -19,20 +19,20 @@ from engine.errors import InputError
 from engine.media.demux import open_container, video_stream
 from engine.media.sniff import VIDEO_TYPES, sniff
 
-_RATE = 48_000
+_SAMPLES_PER_SECOND = 48_000
 """Samples a second of sound that is coded anew; always in stereo."""
 
-_FITTING = {"mp4": "aac", "webm": "opus"}
+_FITTING_CODECS = {"mp4": "aac", "webm": "opus"}
 _ENCODERS = {"mp4": ("aac", "160k"), "webm": ("libopus", "128k")}
-_APART = ("mov", "matroska")
+_GLOBAL_HEADER_FORMATS = ("mov", "matroska")
 """FFmpeg's names of the formats that keep the codec's set-up apart from the packets, where the output wants it."""
-_GAP = _RATE // 20
+_MAX_GAP_SAMPLES = _SAMPLES_PER_SECOND // 20
 """Samples by which sound may stray from its timestamps before silence is put in, or what overlaps is left out."""
-_RESTART = _RATE
+_RESTART_SAMPLES = _SAMPLES_PER_SECOND
 """Samples: timestamps that fall back further were begun anew, as in clips that were joined: the sound goes on."""
-_TRIED = 100
+_MAX_TRIED_PACKETS = 100
 """Packets of which one must decode for a track to count as sound."""
-_FAULTS = (av.FFmpegError, ValueError)
+_SOUND_ERRORS = (av.FFmpegError, ValueError)
 """What reading, decoding and laying in of sound may raise; none of it ends a video."""
 
 
@@ -57,11 +57,11 @@ def open_sound(
 
 def _decodes(path: Path, media_type: str) -> bool:
     """Whether the first sound of a file can be made anything of."""
-    with suppress(InputError, *_FAULTS), open_container(path, media_type) as source:
+    with suppress(InputError, *_SOUND_ERRORS), open_container(path, media_type) as source:
         if not source.streams.audio or source.streams.audio[0].codec_context is None:
             return False
-        for packet in islice(source.demux(source.streams.audio[0]), _TRIED):
-            with suppress(*_FAULTS):
+        for packet in islice(source.demux(source.streams.audio[0]), _MAX_TRIED_PACKETS):
+            with suppress(*_SOUND_ERRORS):
                 if packet.decode():
                     return True
     return False
@@ -70,9 +70,13 @@ def _decodes(path: Path, media_type: str) -> bool:
 def _can_be_copied(path: Path, media_type: str) -> bool:
     """Whether the packets of a file's sound can be laid into another file as they are: each has a time of its own, later
     than the one before, and one set-up of the codec is that of all."""
-    with suppress(*_FAULTS), open_container(path, media_type) as source:
+    with suppress(*_SOUND_ERRORS), open_container(path, media_type) as source:
         stream = source.streams.audio[0]
-        if not (source.format.name.startswith(_APART) and stream.time_base and stream.codec_context.extradata):
+        if not (
+            source.format.name.startswith(_GLOBAL_HEADER_FORMATS)
+            and stream.time_base
+            and stream.codec_context.extradata
+        ):
             return False
         before: int | None = None
         for packet in source.demux(stream):
@@ -108,12 +112,14 @@ class SoundTrack:
         origin = float((picture.start_time or 0) * picture.time_base) if picture and picture.time_base else 0.0
         self._zero = origin + trim[0]
         self.damaged = False
-        if whole and stream.codec_context.name.removeprefix("lib") == _FITTING[format]:
+        if whole and stream.codec_context.name.removeprefix("lib") == _FITTING_CODECS[format]:
             self._out = container.add_stream_from_template(stream)
             self._packets = self._copied(keep_lead=format == "mp4")
         else:
             codec, bit_rate = _ENCODERS[format]
-            self._out = cast(AudioStream, container.add_stream(codec, rate=_RATE, options={"b": bit_rate}))
+            self._out = cast(
+                AudioStream, container.add_stream(codec, rate=_SAMPLES_PER_SECOND, options={"b": bit_rate})
+            )
             self._out.codec_context.layout = "stereo"
             self._packets = self._coded()
         self._waiting: tuple[float, av.Packet] | None = None
@@ -124,7 +130,7 @@ class SoundTrack:
             if self._waiting is None:
                 try:
                     self._waiting = next(self._packets, None)
-                except _FAULTS:
+                except _SOUND_ERRORS:
                     self.damaged = True  # and the generator is at its end
             if self._waiting is None or self._waiting[0] >= seconds:
                 return
@@ -166,12 +172,16 @@ class SoundTrack:
         written = 0
         for samples in self._blocks():
             frame = av.AudioFrame.from_ndarray(samples, "fltp", "stereo")
-            frame.sample_rate, frame.pts, frame.time_base = _RATE, written, Fraction(1, _RATE)
+            frame.sample_rate, frame.pts, frame.time_base = (
+                _SAMPLES_PER_SECOND,
+                written,
+                Fraction(1, _SAMPLES_PER_SECOND),
+            )
             for packet in self._out.encode(frame):
-                yield written / _RATE, packet
+                yield written / _SAMPLES_PER_SECOND, packet
             written += samples.shape[1]
         for packet in self._out.encode(None):
-            yield written / _RATE, packet
+            yield written / _SAMPLES_PER_SECOND, packet
 
     def _blocks(self) -> Iterator[np.ndarray]:
         """Samples float32 (2, n) from the cut to the end, without a gap, in the encoder's blocks."""
@@ -190,20 +200,20 @@ class SoundTrack:
         """Samples float32 (2, n) one after another; the first is at the cut. What is missing is silence."""
         at: int | None = None  # where the next samples belong, counted from the cut
         moved = 0  # by how much timestamps that begin anew are too early
-        resampler, kind = av.AudioResampler("fltp", "stereo", _RATE), None
+        resampler, kind = av.AudioResampler("fltp", "stereo", _SAMPLES_PER_SECOND), None
         for frame in self._frames():
             spare = 0
             if frame.pts is not None and frame.time_base:
-                place = round((float(frame.pts * frame.time_base) - self._zero) * _RATE) + moved
-                if at is not None and place < at - _RESTART:
+                place = round((float(frame.pts * frame.time_base) - self._zero) * _SAMPLES_PER_SECOND) + moved
+                if at is not None and place < at - _RESTART_SAMPLES:
                     moved, place = moved + at - place, at
-                if at is None or place > at + _GAP:
+                if at is None or place > at + _MAX_GAP_SAMPLES:
                     yield from _silence(place - max(at or 0, 0))
                     at = place
-                elif place < at - _GAP:
+                elif place < at - _MAX_GAP_SAMPLES:
                     spare = at - place
             if kind != (kind := (frame.format.name, frame.layout.name, frame.sample_rate)):
-                resampler = av.AudioResampler("fltp", "stereo", _RATE)  # it takes one kind alone
+                resampler = av.AudioResampler("fltp", "stereo", _SAMPLES_PER_SECOND)  # it takes one kind alone
             frame.pts = None
             for piece in resampler.resample(frame):
                 samples = cast(np.ndarray, piece.to_ndarray())[:, spare:]
@@ -211,7 +221,7 @@ class SoundTrack:
                 at = (at or 0) + samples.shape[1]
                 if at > 0 and samples.shape[1]:
                     yield samples[:, -min(at, samples.shape[1]) :]
-            if (at or 0) >= self._seconds * _RATE:
+            if (at or 0) >= self._seconds * _SAMPLES_PER_SECOND:
                 return
 
     def _frames(self) -> Iterator[av.AudioFrame]:
@@ -226,5 +236,5 @@ class SoundTrack:
 def _silence(samples: int) -> Iterator[np.ndarray]:
     """So many samples, a second at a time: a file may claim a gap of years."""
     while samples > 0:
-        yield np.zeros((2, min(samples, _RATE)), np.float32)
-        samples -= _RATE
+        yield np.zeros((2, min(samples, _SAMPLES_PER_SECOND)), np.float32)
+        samples -= _SAMPLES_PER_SECOND

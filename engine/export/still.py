@@ -15,7 +15,7 @@ THUMBNAIL_SIDE = 320
 """Pixels of a thumbnail's longer side, at most."""
 THUMBNAIL_BYTES = 11_000
 """Of a thumbnail's file, at most: five in a list are less than 60 kB."""
-_COARSER = tuple((share, quality) for share in (1.0, 0.7, 0.5) for quality in (80, 65, 50, 35))
+_REDUCTIONS = tuple((share, quality) for share in (1.0, 0.7, 0.5) for quality in (80, 65, 50, 35))
 
 
 def write_still(path: Path, rgb: NDArray[np.uint8], synthetic: bool) -> None:
@@ -40,7 +40,7 @@ def write_first_impression(
 def write_thumbnail(path: Path, rgb: NDArray[np.uint8], synthetic: bool) -> None:
     """Write `rgb` (H, W, 3) as a JPEG within `THUMBNAIL_SIDE` and `THUMBNAIL_BYTES`: the coarser, the more there is to
     see in it."""
-    for share, quality in _COARSER:
+    for share, quality in _REDUCTIONS:
         small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, round(THUMBNAIL_SIDE * share)))
         write_image(path, small, quality=quality)
         if synthetic:

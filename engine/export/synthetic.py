@@ -17,10 +17,10 @@ from pathlib import Path
 
 SOURCE_TYPE = "http://cv.iptc.org/newscodes/digitalsourcetype/compositeSynthetic"
 STATEMENT = "Synthetic: made from a still picture by Galatea."
-TAGS = {"comment": STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
+VIDEO_TAGS = {"comment": STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
 """The same as tags of a video file."""
 
-XMP = (
+XMP_PACKET = (
     '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'
     '<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">'
     '<rdf:Description rdf:about="" xmlns:Iptc4xmpExt="http://iptc.org/std/Iptc4xmpExt/2008-02-29/" '
@@ -31,13 +31,13 @@ XMP = (
     '</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end="r"?>'
 ).encode()
 
-UUID = bytes.fromhex("BE7ACFCB97A942E89C71999491E3AFAC")
+XMP_BOX_UUID = bytes.fromhex("BE7ACFCB97A942E89C71999491E3AFAC")
 """Names the box of an MP4 file that holds XMP."""
 
 _JPEG_NAME = b"http://ns.adobe.com/xap/1.0/\0"
 _PNG_KEYWORD = b"XML:com.adobe.xmp"
 _PNG_SIGNATURE = 8
-_IHDR = 25
+_IHDR_CHUNK_BYTES = 25
 
 
 def mark_image(path: Path) -> None:
@@ -53,20 +53,20 @@ def append_to_gif(path: Path) -> None:
     )  # wherever a reader's skipping of blocks lands in it, it comes to the end
     with path.open("r+b") as file:
         file.seek(-1, 2)
-        file.write(b"\x21\xff\x0bXMP DataXMP" + XMP + end + b"\x3b")
+        file.write(b"\x21\xff\x0bXMP DataXMP" + XMP_PACKET + end + b"\x3b")
 
 
 def append_to_mp4(path: Path) -> None:
     """Add the mark as the last box, so that nothing before it moves (`faststart` included)."""
-    box = UUID + XMP
+    box = XMP_BOX_UUID + XMP_PACKET
     with path.open("ab") as file:
         file.write((8 + len(box)).to_bytes(4, "big") + b"uuid" + box)
 
 
 def marked_png(png: bytes) -> bytes:
     """A PNG with the mark behind its header."""
-    end = _PNG_SIGNATURE + _IHDR
-    body = b"iTXt" + _PNG_KEYWORD + bytes(5) + XMP
+    end = _PNG_SIGNATURE + _IHDR_CHUNK_BYTES
+    body = b"iTXt" + _PNG_KEYWORD + bytes(5) + XMP_PACKET
     chunk = (len(body) - 4).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
     return png[:end] + chunk + png[end:]
 
@@ -76,5 +76,5 @@ def marked_jpeg(jpeg: bytes) -> bytes:
     at = 2
     while jpeg[at : at + 2] in (b"\xff\xe0", b"\xff\xe1"):
         at += 2 + int.from_bytes(jpeg[at + 2 : at + 4], "big")
-    body = _JPEG_NAME + XMP
+    body = _JPEG_NAME + XMP_PACKET
     return jpeg[:at] + b"\xff\xe1" + (2 + len(body)).to_bytes(2, "big") + body + jpeg[at:]

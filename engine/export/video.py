@@ -18,7 +18,7 @@ from engine.export.encoders import Encoder, Format, PngEncoder, StreamEncoder, T
 
 Warn = Callable[[str, str], None]
 
-_WAITING = 4
+_MAX_WAITING_FRAMES = 4
 """Frames that may wait for the encoder: enough to even out its pace, few enough that memory stays flat."""
 
 
@@ -79,7 +79,7 @@ class VideoWriter:
         self._draft = path.with_name(f".{path.name}.draft")
         self._warn = warn or (lambda code, message: None)
         self._encoder: Encoder | None = None
-        self._waiting: queue.Queue[Any] = queue.Queue(_WAITING)
+        self._waiting: queue.Queue[Any] = queue.Queue(_MAX_WAITING_FRAMES)
         self._thread = threading.Thread(target=self._encode, name="video-encoder", daemon=True)
         self._failure: BaseException | None = None
 

@@ -13,18 +13,25 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.export.glb import QUALITY, SKIN, build_glb, joint_names, jpeg, save_glb
+from engine.export.glb import JPEG_QUALITY, SKIN_MATERIALS, build_glb, joint_names, jpeg, save_glb
 from engine.export.gltf_materials import Material
-from engine.export.vrm_expressions import LOOKS, Expression, expressions_document
+from engine.export.vrm_expressions import LOOK_EXPRESSIONS, Expression, expressions_document
 from engine.geometry.morph_target import MorphTarget
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 
-LICENCE = "https://vrm.dev/licenses/1.0/"
+LICENCE_URL = "https://vrm.dev/licenses/1.0/"
 
-TRUNK = {"hips": "Hips", "spine": "Spine", "chest": "Spine1", "upperChest": "Spine2", "neck": "Neck", "head": "Head"}
+TRUNK_BONES = {
+    "hips": "Hips",
+    "spine": "Spine",
+    "chest": "Spine1",
+    "upperChest": "Spine2",
+    "neck": "Neck",
+    "head": "Head",
+}
 
-LIMBS = {
+LIMB_BONES = {
     **{"Shoulder": "Shoulder", "UpperArm": "Arm", "LowerArm": "ForeArm", "Hand": "Hand"},
     **{"UpperLeg": "UpLeg", "LowerLeg": "Leg", "Foot": "Foot", "Toes": "ToeBase"},
     **{"ThumbMetacarpal": "HandThumb1", "ThumbProximal": "HandThumb2", "ThumbDistal": "HandThumb3"},
@@ -36,10 +43,10 @@ LIMBS = {
 }
 """VRM's bones of one side, without `left` or `right`, and Mixamo's, without `Left` or `Right`."""
 
-EYES = {"leftEye": "LeftEye", "rightEye": "RightEye", "jaw": "Jaw"}
+OPTIONAL_BONES = {"leftEye": "LeftEye", "rightEye": "RightEye", "jaw": "Jaw"}
 """Bones that not every skeleton has."""
 
-REQUIRED = (
+REQUIRED_BONES = (
     *("hips", "spine", "head"),
     *(
         f"{side}{bone}"
@@ -62,7 +69,7 @@ class VrmMeta:
     version: str = "1.0"
     copyright: str | None = None
     contact: str | None = None
-    licence_url: str = LICENCE
+    licence_url: str = LICENCE_URL
     other_licence_url: str | None = None
     who: Literal["onlyAuthor", "onlySeparatelyLicensedPerson", "everyone"] = "onlyAuthor"
     commercial: Literal["personalNonProfit", "personalProfit", "corporation"] = "personalNonProfit"
@@ -78,10 +85,10 @@ def write_vrm(
     meta: VrmMeta,
     clips: Sequence[Clip] = (),
     *,
-    quality: int = QUALITY,
+    quality: int = JPEG_QUALITY,
     unlit: bool = True,
     morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN,
+    materials: Sequence[Material] = SKIN_MATERIALS,
     material_of: NDArray[np.integer] | None = None,
     expressions: Mapping[str, Expression] | None = None,
     look_at: Literal["bone", "expression"] = "bone",
@@ -98,15 +105,15 @@ def write_vrm(
 
     The other parameters are those of `engine.export.glb.write_glb`.
 
-    Raises ValueError where the skeleton lacks one of `REQUIRED`, `meta` names no author, or expressions do not fit the
+    Raises ValueError where the skeleton lacks one of `REQUIRED_BONES`, `meta` names no author, or expressions do not fit the
     morph targets, or lack those by which the eyes should look about.
     """
     if not meta.name or not meta.authors:
         raise ValueError("a VRM needs a name and an author")
     texture = jpeg(mesh.texture, quality, synthetic)
     said = expressions or {}
-    if look_at == "expression" and not set(LOOKS) <= set(said):
-        raise ValueError(f"to look about by expressions takes {', '.join(LOOKS)}")
+    if look_at == "expression" and not set(LOOK_EXPRESSIONS) <= set(said):
+        raise ValueError(f"to look about by expressions takes {', '.join(LOOK_EXPRESSIONS)}")
     gltf = build_glb(
         mesh,
         texture,
@@ -137,15 +144,15 @@ def write_vrm(
 def human_bones(names: Sequence[str]) -> dict[str, dict[str, int]]:
     """VRM's map of human bones to nodes, for joints by their Mixamo names: `{"hips": {"node": 0}, ...}`.
 
-    Raises ValueError where one of `REQUIRED` is missing.
+    Raises ValueError where one of `REQUIRED_BONES` is missing.
     """
-    table = {**TRUNK, **EYES}
+    table = {**TRUNK_BONES, **OPTIONAL_BONES}
     for side, ours in (("left", "Left"), ("right", "Right")):
-        table |= {f"{side}{bone}": f"{ours}{joint}" for bone, joint in LIMBS.items()}
+        table |= {f"{side}{bone}": f"{ours}{joint}" for bone, joint in LIMB_BONES.items()}
     if "Spine1" not in names and "Spine2" in names:  # the upper chest wants a chest below it
         table |= {"chest": "Spine2", "upperChest": ""}
     found = {bone: {"node": names.index(joint)} for bone, joint in table.items() if joint in names}
-    missing = [bone for bone in REQUIRED if bone not in found]
+    missing = [bone for bone in REQUIRED_BONES if bone not in found]
     if missing:
         raise ValueError(f"the skeleton has no {', '.join(missing)}")
     return found

@@ -9,13 +9,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-PRESETS = (
+PRESET_NAMES = (
     *("happy", "angry", "sad", "relaxed", "surprised", "aa", "ih", "ou", "ee", "oh"),
     *("blink", "blinkLeft", "blinkRight", "lookUp", "lookDown", "lookLeft", "lookRight", "neutral"),
 )
 """VRM's own names; every other is one of the character's."""
 
-LOOKS = ("lookUp", "lookDown", "lookLeft", "lookRight")
+LOOK_EXPRESSIONS = ("lookUp", "lookDown", "lookLeft", "lookRight")
 """Those by which a character looks about that has no joints of its eyes."""
 
 Override = Literal["none", "block", "blend"]
@@ -74,7 +74,7 @@ def arkit_expressions(names: Sequence[str]) -> dict[str, Expression]:
     """VRM's own expressions as far as the morph targets `names` have ARKit's face units for them, and each target as an
     expression of its own by its own name."""
     there = set(names)
-    own = {name: Expression({name: 1.0}) for name in names if name not in PRESETS}
+    own = {name: Expression({name: 1.0}) for name in names if name not in PRESET_NAMES}
     return {name: mixed for name, mixed in ARKIT_MIXTURES.items() if set(mixed.targets) <= there} | own
 
 
@@ -97,5 +97,5 @@ def expressions_document(
         said: dict[str, Any] = {"morphTargetBinds": binds} if binds else {}
         said |= {"isBinary": expression.binary, "overrideBlink": expression.blinking}
         said |= {"overrideLookAt": expression.looking, "overrideMouth": expression.speaking}
-        found["preset" if name in PRESETS else "custom"][name] = said
+        found["preset" if name in PRESET_NAMES else "custom"][name] = said
     return {kind: named for kind, named in found.items() if named}

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 Part = Literal["eyes", "mouth", "brows", "head"]
-PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
+ACTING_PARTS: tuple[Part, ...] = ("eyes", "mouth", "brows", "head")
 
 
 @dataclass(frozen=True)
@@ -17,5 +17,5 @@ class ActingOptions:
     """
 
     strength: float = 1.0
-    follow: tuple[Part, ...] = PARTS
+    follow: tuple[Part, ...] = ACTING_PARTS
     head_3d: bool = True

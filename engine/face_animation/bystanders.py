@@ -15,11 +15,11 @@ from engine.imaging.resample import resized, size_within
 
 WORKING_SIZE = 640
 """Pixels of the longer side at which people are told apart."""
-HEAD = (0.8, 1.0)
-"""Half axes of a head, hair included, in widths and heights of its face; its middle is `CROWN` face heights above that of
+HEAD_HALF_AXES = (0.8, 1.0)
+"""Half axes of a head, hair included, in widths and heights of its face; its middle is `HEAD_CENTRE_RISE` face heights above that of
 the face."""
-CROWN = 0.12
-TRUNK = ((0.45, 0.45), (1.3, 1.1), (1.7, 2.2), (1.8, 9.0))
+HEAD_CENTRE_RISE = 0.12
+TRUNK_HALF_WIDTHS = ((0.45, 0.45), (1.3, 1.1), (1.7, 2.2), (1.8, 9.0))
 """Half widths of a trunk, in widths of the face, and how far below the face's middle, in its heights: neck, shoulders, arms."""
 TRUNK_BEHIND_HEAD = 0.2
 """Face heights by which a trunk counts as further away than a head: heads of those who stand in front hide trunks."""
@@ -54,9 +54,9 @@ def _away(face: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float
     x, y, width, height = (float(value) for value in face)
     middle = np.array([x + width / 2, y + height / 2])
     head, trunk = (np.zeros(size[::-1], np.uint8) for _ in range(2))
-    crown = middle - [0, CROWN * height]
-    cv2.ellipse(head, (crown.tolist(), (2 * HEAD[0] * width, 2 * HEAD[1] * height), 0), (1,), -1)
-    side = np.array(TRUNK) * [width, height]
+    crown = middle - [0, HEAD_CENTRE_RISE * height]
+    cv2.ellipse(head, (crown.tolist(), (2 * HEAD_HALF_AXES[0] * width, 2 * HEAD_HALF_AXES[1] * height), 0), (1,), -1)
+    side = np.array(TRUNK_HALF_WIDTHS) * [width, height]
     outline = np.concatenate([middle + side, (middle + side * [-1, 1])[::-1]])
     cv2.fillPoly(trunk, [np.rint(outline).astype(np.int32)], (1,))
     far = [cv2.distanceTransform(1 - part, cv2.DIST_L2, 5) / height for part in (head, trunk)]

@@ -16,24 +16,24 @@ from numpy.typing import NDArray
 
 from engine.perception.landmarks import FACE_OVAL, eye_distance
 
-CHEEKS = (*range(8, 14), *range(22, 28))
+CHEEK_EDGES = (*range(8, 14), *range(22, 28))
 """Edges of `FACE_OVAL` from the ears to the chin, by where they begin; forehead and chin stay in sight."""
-BESIDE = 0.08
+CONTOUR_MARGIN_EYE_DISTANCES = 0.08
 """Within this distance, in eye distances, a point lies beside the contour."""
 
 CONTOUR_WEIGHTS = np.interp(np.arange(len(FACE_OVAL)), (6, 8, 13, 15, 21, 23, 28, 30), (0, 1, 1, 0, 0, 1, 1, 0))
 """How far each vertex of `FACE_OVAL` takes part in keeping points inside: fully from the ears to the jaw."""
-WITHIN, FURTHER = 0.4, 0.6
+KEPT_INSIDE_EYE_DISTANCES, FADE_OUT_EYE_DISTANCES = 0.4, 0.6
 """Points up to the first distance from the contour, in eye distances, are kept inside it; those from there to the second
 say how far their side of the face is stretched."""
 MIN_KEPT_SHARE, MAX_GAIN = 0.1, 1.5
 """Of its distance from the contour such a point keeps at least this share, and gains at most this over its side."""
 CONTOUR_FALLOFF = 0.3
 """Eye distances along the contour over which a point takes it along."""
-EVEN = 2
+SMOOTHING_ROUNDS = 2
 """How often the way that the contour goes out is evened out along it."""
 
-EARS = (234, 454)
+EAR_VERTICES = (234, 454)
 """The contour beside the ears, right one first."""
 
 
@@ -71,8 +71,8 @@ def rim_distance(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> ND
 def beside_contour(mesh: NDArray[np.floating], seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(478,) whether each vertex of a mesh (478, 2 or 3) lies beside the cheeks' contour and is none of its own; only where
     the contour's vertices are `seen` (478,): elsewhere others are the picture's outline."""
-    cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEKS)
-    beside = _nearest(mesh, seen, cheeks)[2] < BESIDE * eye_distance(mesh[:, :2])
+    cheeks = np.isin(np.arange(len(FACE_OVAL)), CHEEK_EDGES)
+    beside = _nearest(mesh, seen, cheeks)[2] < CONTOUR_MARGIN_EYE_DISTANCES * eye_distance(mesh[:, :2])
     beside[list(FACE_OVAL)] = False
     return np.asarray(beside)
 
@@ -87,8 +87,12 @@ def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: N
     edge, share, apart = _nearest(rest, seen, (CONTOUR_WEIGHTS + np.roll(CONTOUR_WEIGHTS, -1)) > 0)
     band = _Band(np.arange(len(rest)), edge, share)
     own = band.depth(at_rest, band.inward(at_rest))[0]
-    inside = np.flatnonzero((own > 0) & (apart < FURTHER * unit))
-    band, own, near = _Band(inside, edge[inside], share[inside]), own[inside], apart[inside] < WITHIN * unit
+    inside = np.flatnonzero((own > 0) & (apart < FADE_OUT_EYE_DISTANCES * unit))
+    band, own, near = (
+        _Band(inside, edge[inside], share[inside]),
+        own[inside],
+        apart[inside] < KEPT_INSIDE_EYE_DISTANCES * unit,
+    )
 
     inward = band.inward(faces)
     past = np.maximum(MIN_KEPT_SHARE * own - band.depth(faces, inward), 0) * near
@@ -96,12 +100,12 @@ def keep_inside(faces: NDArray[np.floating], rest: NDArray[np.floating], seen: N
         CONTOUR_FALLOFF * unit
     )
     out = (past[:, None] * np.exp(-(along**2))).max(axis=2, initial=0)
-    for _ in range(EVEN):
+    for _ in range(SMOOTHING_ROUNDS):
         out = (np.roll(out, 1, axis=1) + 2 * out + np.roll(out, -1, axis=1)) / 4
     faces[:, oval] -= (out * CONTOUR_WEIGHTS * seen[oval])[..., None] * _inward(faces[:, oval])
 
     depth = band.depth(faces, inward)
-    right = np.linalg.norm(at_rest[0, inside, None] - at_rest[0, list(EARS)], axis=2).argmin(axis=1) == 0
+    right = np.linalg.norm(at_rest[0, inside, None] - at_rest[0, list(EAR_VERTICES)], axis=2).argmin(axis=1) == 0
     stretch = np.where(right, *(_stretch(depth / own, side & ~near) for side in (right, ~right)))
     way = np.clip(depth, MIN_KEPT_SHARE * own, MAX_GAIN * stretch * own) - depth
     faces[:, inside] += (way * near * band.at_spots(CONTOUR_WEIGHTS[None, :, None])[0, :, 0])[..., None] * inward

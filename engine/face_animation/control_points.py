@@ -22,7 +22,7 @@ PERIPHERY_SPACING = 0.5
 """Distance of peripheral points, in eye distances."""
 BORDER_POINTS = 12
 """Along the longer side of the image."""
-GRAZING = 0.0
+MIN_VIEW_COSINE = 0.0
 """Cosine between the line of sight and a surface that is still seen."""
 CARRY_REACH = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
@@ -87,7 +87,7 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
 
 
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
-    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `GRAZING`."""
+    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `MIN_VIEW_COSINE`."""
     triangles = delaunay(canonical_face()[:468, :2])
     corners = mesh[triangles].astype(float)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -97,7 +97,7 @@ def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
     total = np.zeros((MESH_SIZE, 3))
     np.add.at(total, triangles.ravel(), np.repeat(normal * front[:, None], 3, axis=0))
     length = np.linalg.norm(total, axis=1)
-    return np.asarray((total[:, 2] > GRAZING * length) | (length == 0))
+    return np.asarray((total[:, 2] > MIN_VIEW_COSINE * length) | (length == 0))
 
 
 def carry_fiducials(

@@ -18,20 +18,20 @@ from engine.face_animation.warp_mesh import WarpMesh
 from engine.imaging.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 
-DISKS = 10
+BLUR_KERNELS = 10
 """Section 4: "10 different blurring kernels"."""
 LARGEST_DISK = 0.05
 """Section 4: radii in [0, 0.05 of the image's diagonal]."""
-FALLOFF = 0.15
+FALLOFF_DIAGONALS = 0.15
 """Distance from the face, in diagonals, where the largest disk is reached. The paper leaves it open."""
-CELLS = 64
+VERTICES_ON_DIAGONAL = 64
 """Vertices of the mesh's regular part along the diagonal; finer ones change the field by < 0.1 px."""
 INSIDE_TOLERANCE = 1e-9
 """Pixels and weights by which a point may lie beside a triangle and still counts as inside."""
 
 
 def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: tuple[int, int]) -> NDArray[np.float64]:
-    """Radius of the smoothing disk at each point, pixels: 0 on the face, growing away from it, in `DISKS` steps.
+    """Radius of the smoothing disk at each point, pixels: 0 on the face, growing away from it, in `BLUR_KERNELS` steps.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ def disk_radii(face: NDArray[np.floating], points: NDArray[np.floating], shape: 
     diagonal = float(np.hypot(*shape))
     oval = face[list(FACE_OVAL), :2].astype(np.float32)
     outside = np.array([-cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in points])
-    level = np.clip(outside / (FALLOFF * diagonal), 0, 1)
-    return np.round(level * (DISKS - 1)) / (DISKS - 1) * LARGEST_DISK * diagonal
+    level = np.clip(outside / (FALLOFF_DIAGONALS * diagonal), 0, 1)
+    return np.round(level * (BLUR_KERNELS - 1)) / (BLUR_KERNELS - 1) * LARGEST_DISK * diagonal
 
 
 def interpolation(
@@ -83,7 +83,7 @@ def build_warp_mesh(
     """
     height, width = shape
     diagonal = float(np.hypot(height, width))
-    spacing = diagonal / CELLS
+    spacing = diagonal / VERTICES_ON_DIAGONAL
     used = np.arange(len(control)) if usable is None else np.flatnonzero(usable)
     on_face = used[used < len(face)]
     vertices = np.concatenate([face[on_face, :2].astype(float), _grid_around(face, shape, spacing)])

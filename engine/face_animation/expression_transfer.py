@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.rigid import Similarity
 
-NEIGHBOURHOOD = 0.6
+NEIGHBOURHOOD_EYE_DISTANCES = 0.6
 """Width of the neighbourhood the local map is fitted over, in eye distances."""
-RIDGE = 0.15
+SIMILARITY_RIDGE = 0.15
 """How strongly the local map is held to the similarity, against a neighbourhood's own spread."""
 
 
@@ -29,13 +29,13 @@ def local_maps(
     """
     source, destination = (mesh[:, :2] - mesh[:, :2].mean(axis=0, dtype=float) for mesh in (neutral, target))
     (x, y), (u, v) = source.T, destination.T
-    weight = np.exp(-((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2) / (2 * (NEIGHBOURHOOD * unit) ** 2))
+    weight = np.exp(-((x[:, None] - x) ** 2 + (y[:, None] - y) ** 2) / (2 * (NEIGHBOURHOOD_EYE_DISTANCES * unit) ** 2))
     weight /= weight.sum(axis=1, keepdims=True)
     mean = weight @ np.column_stack([source, destination])
     squares = weight @ np.column_stack([x * x, x * y, x * y, y * y, u * x, u * y, v * x, v * y])
     squares -= mean[:, [0, 0, 1, 1, 2, 2, 3, 3]] * mean[:, [0, 1, 0, 1, 0, 1, 0, 1]]
     spread, cross = squares[:, :4].reshape(-1, 2, 2), squares[:, 4:].reshape(-1, 2, 2)
-    ridge = RIDGE * np.trace(spread, axis1=1, axis2=2)[:, None, None] / 2 * np.eye(2)
+    ridge = SIMILARITY_RIDGE * np.trace(spread, axis1=1, axis2=2)[:, None, None] / 2 * np.eye(2)
     return (cross + phi.linear @ ridge) @ np.linalg.inv(spread + ridge)
 
 

@@ -16,16 +16,16 @@ from numpy.typing import NDArray
 
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
-SIDES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
-MARGIN = 0.5
+EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
+LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
 MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
 """Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
-CLOSING = (0.75, 0.3)
+CLOSING_GAP_SHARES = (0.75, 0.3)
 """Shares of the picture's opening at which a lid begins to take its own colours, and has."""
-LASHES = 0.05
+LASH_LINE_EYE_WIDTHS = 0.05
 """Width of the line of lashes on a lid that closes, in eye widths."""
 MIN_EYE_WIDTH = 14.0
 """Pixels; smaller eyes move with the face's warp alone."""
@@ -59,7 +59,7 @@ def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray
 def look(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) where each iris stands between the eye's corners, right eye first, from their middle, in eye widths along
     and across the line between them."""
-    return np.stack([_look(meshes, side) for side in SIDES], axis=1)
+    return np.stack([_look(meshes, side) for side in EYE_VERTICES], axis=1)
 
 
 def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
@@ -75,7 +75,7 @@ def _look(meshes: NDArray[np.floating], side: tuple) -> NDArray[np.float64]:
 
 def prepare_eyes(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[Eyeball | None, Eyeball | None]:
     """The two eyeballs of a target, right eye first; None where an eye is too small or shut in the picture."""
-    return tuple(_prepare(rgb, mesh, side) for side in SIDES)  # type: ignore[return-value]
+    return tuple(_prepare(rgb, mesh, side) for side in EYE_VERTICES)  # type: ignore[return-value]
 
 
 def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) -> Eyeball | None:
@@ -84,8 +84,8 @@ def _prepare(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: tuple) ->
     width = float(np.linalg.norm(ends[1] - ends[0]))
     opening = mesh[list(contour), :2].astype(np.float32)
     area = float(cv2.contourArea(opening))
-    low = np.floor(opening.min(axis=0) - MARGIN * width).astype(int)
-    high = np.ceil(opening.max(axis=0) + MARGIN * width).astype(int)
+    low = np.floor(opening.min(axis=0) - LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
+    high = np.ceil(opening.max(axis=0) + LAYER_MARGIN_EYE_WIDTHS * width).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, (rgb.shape[1], rgb.shape[0]))
     if width < MIN_EYE_WIDTH or area < 0.08 * width**2 or (high - low).min() < 8:
         return None
@@ -120,7 +120,9 @@ def _lashes(rgb: NDArray[np.uint8], opening: NDArray[np.float32]) -> NDArray[np.
     are wide, for a drawn eye may end beyond the mesh's."""
     middle, width = (opening[0] + opening[8]) / 2, np.linalg.norm(opening[8] - opening[0])
     away = opening[1:8] - middle
-    outside = opening[1:8] + LASHES * width * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1)
+    outside = opening[1:8] + LASH_LINE_EYE_WIDTHS * width * away / np.maximum(
+        np.linalg.norm(away, axis=1, keepdims=True), 1
+    )
     edge = np.clip(np.round([opening[1:8], outside]).astype(int), 0, (rgb.shape[1] - 1, rgb.shape[0] - 1))
     colours = rgb[edge[..., 1], edge[..., 0]].astype(np.float32)
     darker = colours.sum(axis=-1).argmin(axis=0)
@@ -174,7 +176,7 @@ def draw_eye(
     ----------
     mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `gaze`.
     """
-    contour, _, outer, inner = SIDES[side]
+    contour, _, outer, inner = EYE_VERTICES[side]
     opening = mesh[list(contour), :2].astype(np.float32)
     low = np.maximum(np.floor(opening.min(axis=0)).astype(int) - 1, 0)
     high = np.minimum(np.ceil(opening.max(axis=0)).astype(int) + 2, (frame.shape[1], frame.shape[0]))
@@ -202,20 +204,22 @@ def draw_eye(
 
 def closing(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
-    by = _open_by(eye, mesh[list(SIDES[side][0]), :2].astype(np.float32))
-    return float(np.clip((CLOSING[0] - by) / (CLOSING[0] - CLOSING[1]), 0, 1))
+    by = _open_by(eye, mesh[list(EYE_VERTICES[side][0]), :2].astype(np.float32))
+    return float(np.clip((CLOSING_GAP_SHARES[0] - by) / (CLOSING_GAP_SHARES[0] - CLOSING_GAP_SHARES[1]), 0, 1))
 
 
 def _lash_line(opening: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
     """The upper lid's edge, as wide as lashes are in its middle, (h, w) in [0, 1]."""
     line = opening[:9]
     width = float(np.linalg.norm(opening[8] - opening[0]))
-    out = np.array([[0, -0.5]]) * LASHES * width * np.sin(np.linspace(0, np.pi, 9))[:, None] ** 0.5
+    out = np.array([[0, -0.5]]) * LASH_LINE_EYE_WIDTHS * width * np.sin(np.linspace(0, np.pi, 9))[:, None] ** 0.5
     band = np.concatenate([line + out, (line - out)[::-1]])
     mask = np.zeros(shape, np.uint8)
     cv2.fillPoly(mask, [np.round(band * 16).astype(np.int32)], 255, cv2.LINE_AA, 4)
     cv2.polylines(mask, [np.round(line * 16).astype(np.int32)], False, 255, 1, cv2.LINE_AA, 4)
-    return np.asarray(cv2.GaussianBlur(mask, (0, 0), max(LASHES * width / 4, 0.4)), np.float32) / np.float32(255)
+    return np.asarray(
+        cv2.GaussianBlur(mask, (0, 0), max(LASH_LINE_EYE_WIDTHS * width / 4, 0.4)), np.float32
+    ) / np.float32(255)
 
 
 def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floating]) -> float:

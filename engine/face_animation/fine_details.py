@@ -24,39 +24,39 @@ from engine.geometry.rigid import fit_similarity
 from engine.imaging.colour_segmentation import grab_cut
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.film_strip import FilmStrip, FilmStripWriter
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 
-BRIGHTENING = 0.01
+BRIGHTENING_FACTOR = 0.01
 """Section 6: ratios above one are tuned down by this factor."""
-WINDOW = 21
+TEMPORAL_WINDOW_FRAMES = 21
 """Section 6: frames of the temporal Gaussian."""
-WIDE = 0.25
+SHADING_EYE_DISTANCES = 0.25
 """Ratios wider than this, in eye distances, are shading rather than creases."""
-SHADING = 0.25
+SHADING_SHARE = 0.25
 """Share by which such wide ratios count in a head that does not turn."""
-TURNED = 12.0
+NO_SHADING_TURN_DEGREES = 12.0
 """Degrees of turn at which they count no more."""
-TRUSTED, LOST = 8.0, 20.0
+CREASE_TURN_DEGREES, NO_CREASE_TURN_DEGREES = 8.0, 20.0
 """Degrees of turn up to which a ratio is a crease's, and from which it is the nose's shadow and no crease's."""
-DARKEST = 0.7
+MIN_RATIO = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
-STEP = (1 - DARKEST) / 192
+RATIO_STEP = (1 - MIN_RATIO) / 192
 """How finely ratios are kept: a step is a third of a grey level on bright skin, and one itself is met exactly."""
 RATIO_QUALITY = 95
 """Of JPEG: less would flicker by half a level."""
-FLOOR = 12.0
+RATIO_FLOOR_GREY_LEVELS = 12.0
 """Grey levels added to both sides of the ratio, so that noise in the dark does not become a crease."""
-BLUR = 1.2
+DRIVER_BLUR_PIXELS = 1.2
 """Pixels of the driver's crop: finer structure is noise of the video."""
-NOSE = (6, 197, 195, 5, 4, 1, 2, 98, 327, 129, 358, 209, 429, 198, 420, 236, 456)
+NOSE_VERTICES = (6, 197, 195, 5, 4, 1, 2, 98, 327, 129, 358, 209, 429, 198, 420, 236, 456)
 """The nose: it hardly creases, but its own shadow and outline move with every turn."""
 NOSE_SPARED = 0.7
-RIM = 0.4
+RIM_FADE_EYE_DISTANCES = 0.4
 """Within this distance of the face's rim, in eye distances, ratios fade out."""
-GRABBED = 40.0
+GRABCUT_EYE_DISTANCE_PIXELS = 40.0
 """Eye distance, pixels, of the copy in which GrabCut tells the face from hair: the region is feathered by more than a pixel
 of it."""
 CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
@@ -85,7 +85,7 @@ class DetailRegion:
 def luminance(rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
     """f of equation 2: the luminance (H, W) float32, lightly smoothed."""
     grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY).astype(np.float32)
-    return np.asarray(cv2.GaussianBlur(grey, (0, 0), BLUR), np.float32)
+    return np.asarray(cv2.GaussianBlur(grey, (0, 0), DRIVER_BLUR_PIXELS), np.float32)
 
 
 def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -99,7 +99,7 @@ def face_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[n
     ellipse = cv2.fitEllipse(np.concatenate([chin, mirrored[4:13]]).astype(np.float32))
     x0, y0 = np.maximum(np.floor(mesh[:, :2].min(axis=0) - unit), 0).astype(int)
     x1, y1 = np.minimum(np.ceil(mesh[:, :2].max(axis=0) + unit), rgb.shape[1::-1]).astype(int)
-    scale = min(1.0, GRABBED / unit)
+    scale = min(1.0, GRABCUT_EYE_DISTANCE_PIXELS / unit)
     patch = np.asarray(cv2.resize(rgb[y0:y1, x0:x1], None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8)
     centre = ((ellipse[0][0] - x0) * scale, (ellipse[0][1] - y0) * scale)
     axes = (ellipse[1][0] * scale, ellipse[1][1] * scale)
@@ -128,11 +128,13 @@ def detail_region(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> DetailR
     weight *= 1 - _openings(plane - corner, weight.shape, 0.06 * float(eye_distance(mesh[:, :2])))
     unit = float(eye_distance(mesh[:, :2]))
     nose = np.zeros(weight.shape, np.float32)
-    cv2.fillConvexPoly(nose, cv2.convexHull((plane[list(NOSE)] - corner).round().astype(np.int32)), 1.0)
+    cv2.fillConvexPoly(nose, cv2.convexHull((plane[list(NOSE_VERTICES)] - corner).round().astype(np.int32)), 1.0)
     weight *= 1 - NOSE_SPARED * cv2.GaussianBlur(nose, (0, 0), 0.1 * unit)
     oval = np.zeros((weight.shape[0] + 2, weight.shape[1] + 2), np.uint8)  # the driver's rim borders on its background
     cv2.fillPoly(oval, [(plane[list(FACE_OVAL)] - corner + 1).round().astype(np.int32)], 1)
-    ramp = np.clip(cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM * unit) - 0.25, 0, 1)
+    ramp = np.clip(
+        cv2.distanceTransform(oval, cv2.DIST_L2, 5)[1:-1, 1:-1] / (RIM_FADE_EYE_DISTANCES * unit) - 0.25, 0, 1
+    )
     box = (int(x0), int(y0), int(x1), int(y1))
     return DetailRegion(box, plane - corner, triangles, (weight * ramp).astype(np.float32))
 
@@ -149,7 +151,7 @@ def _openings(mesh: NDArray[np.floating], shape: tuple[int, ...], grow: float) -
 
 @dataclass(frozen=True)
 class RatioStrip:
-    """A driver's ratio images, kept: grey pictures whose level 0 stands for `DARKEST`, each further one for `STEP`."""
+    """A driver's ratio images, kept: grey pictures whose level 0 stands for `MIN_RATIO`, each further one for `RATIO_STEP`."""
 
     images: FilmStrip
 
@@ -160,7 +162,7 @@ class RatioStrip:
 
     def ratio(self, frame: int) -> NDArray[np.float32]:
         """One frame's, (*CROP,) float32."""
-        return np.float32(DARKEST) + np.float32(STEP) * self.images.picture(frame)
+        return np.float32(MIN_RATIO) + np.float32(RATIO_STEP) * self.images.picture(frame)
 
 
 def keep_ratio_images(
@@ -169,7 +171,7 @@ def keep_ratio_images(
     """The refined ratio images of a driver on its neutral frame: the same for every target."""
     with FilmStripWriter(RATIO_QUALITY) as writer:
         for frame, ratio in enumerate(RatioImages(track, neutral)):
-            level = (ratio - np.float32(DARKEST)) / np.float32(STEP) + np.float32(0.5)
+            level = (ratio - np.float32(MIN_RATIO)) / np.float32(RATIO_STEP) + np.float32(0.5)
             writer.write(np.clip(level, 0, 255).astype(np.uint8))
             tick((frame + 1) / len(track))
         return RatioStrip(writer.strip())
@@ -185,8 +187,10 @@ class RatioImages:
         self._neutral = luminance(track.crop(neutral))
         self._refined = refined
         turn = np.rad2deg(turns(track.meshes, track.meshes[neutral]))
-        self._frontal = SHADING * np.clip(1 - turn / TURNED, 0, 1).astype(np.float32)
-        self._trusted = np.clip((LOST - turn) / (LOST - TRUSTED), 0, 1).astype(np.float32)
+        self._frontal = SHADING_SHARE * np.clip(1 - turn / NO_SHADING_TURN_DEGREES, 0, 1).astype(np.float32)
+        self._trusted = np.clip(
+            (NO_CREASE_TURN_DEGREES - turn) / (NO_CREASE_TURN_DEGREES - CREASE_TURN_DEGREES), 0, 1
+        ).astype(np.float32)
         self.outliers: Outliers | None = None
         if outliers:
             reference = most_expressive(track, neutral)
@@ -195,12 +199,12 @@ class RatioImages:
 
     def __iter__(self) -> Iterator[NDArray[np.float32]]:
         """One (*CROP,) float32 for each frame: 1 changes nothing."""
-        half = WINDOW // 2
+        half = TEMPORAL_WINDOW_FRAMES // 2
         kernel = np.exp(-0.5 * (np.arange(-half, half + 1) / (half / 3)) ** 2).astype(np.float32)
-        window: deque[NDArray[np.float32]] = deque(maxlen=WINDOW)
+        window: deque[NDArray[np.float32]] = deque(maxlen=TEMPORAL_WINDOW_FRAMES)
         for ratio in self._singles(half):
             window.append(ratio)
-            if len(window) == WINDOW:
+            if len(window) == TEMPORAL_WINDOW_FRAMES:
                 yield _weighted_sum(tuple(window), kernel / kernel.sum())
 
     def _singles(self, beyond: int) -> Iterator[NDArray[np.float32]]:
@@ -232,16 +236,18 @@ class RatioImages:
     def _without_shading(self, ratio: NDArray[np.float32], frame: int) -> NDArray[np.float32]:
         """A head that turns in fixed light changes shade over wide areas: no part of the expression."""
         small = cv2.resize(ratio, None, fx=1 / 8, fy=1 / 8, interpolation=cv2.INTER_AREA)
-        wide = cv2.GaussianBlur(small, (0, 0), WIDE * CROP_EYE_DISTANCE / 8) ** (1 - self._frontal[frame])
+        wide = cv2.GaussianBlur(small, (0, 0), SHADING_EYE_DISTANCES * CROP_EYE_DISTANCE / 8) ** (
+            1 - self._frontal[frame]
+        )
         return np.asarray(ratio / cv2.resize(wide, ratio.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)
 
     def _ratio(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Equation 2 on the neutral crop, and where each of its pixels lies in the frame's crop."""
         mesh = self._track.in_crop(frame)[:468]
-        origin = inverse_map(self._rest, mesh, self._triangles, CROP)
+        origin = inverse_map(self._rest, mesh, self._triangles, CROP_SHAPE)
         light = luminance(self._track.crop(frame))
         aligned = cv2.remap(light, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        ratio = (aligned + FLOOR) / (self._neutral + FLOOR)
+        ratio = (aligned + RATIO_FLOOR_GREY_LEVELS) / (self._neutral + RATIO_FLOOR_GREY_LEVELS)
         return np.where(origin[..., 0] > -1000, ratio, 1).astype(np.float32), origin
 
 
@@ -306,7 +312,7 @@ def _multiply(rgb, change, strength, origin, x0, y0, shrink):  # type: ignore[no
 
 def _damped(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
     """Section 6, "robustness to saturation": for R > 1, 1 + 0.01 (R - 1)."""
-    return np.where(ratio > 1, 1 + BRIGHTENING * (ratio - 1), np.maximum(ratio, DARKEST)).astype(np.float32)
+    return np.where(ratio > 1, 1 + BRIGHTENING_FACTOR * (ratio - 1), np.maximum(ratio, MIN_RATIO)).astype(np.float32)
 
 
 def _weighted_sum(images: tuple[NDArray[np.float32], ...], weights: NDArray[np.float32]) -> NDArray[np.float32]:

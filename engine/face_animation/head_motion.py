@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarities
-from engine.perception.landmarks import RIGID
+from engine.perception.landmarks import RIGID_VERTICES
 
 SOFT_WEIGHT = 0.01
 """What a vertex that expressions move counts for, against 1 for one of the rigid set."""
@@ -31,7 +31,7 @@ class HeadMotion:
 
 def turns(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) angle in radians between each mesh's line of sight and the neutral's: turns out of the picture plane."""
-    chosen = list(RIGID)
+    chosen = list(RIGID_VERTICES)
     rotation = fit_similarities(neutral[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))[1]
     return np.asarray(np.arccos(np.clip(rotation[:, 2, 2], -1, 1)), float)
 
@@ -44,7 +44,7 @@ def split_motion(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) ->
     meshes : (N, 478, 3) tracked meshes, pixels. neutral : (478, 3) the mesh of the neutral frame.
     """
     weights = np.full(len(neutral), SOFT_WEIGHT)
-    weights[list(RIGID)] = 1.0
+    weights[list(RIGID_VERTICES)] = 1.0
     scale, rotation, shift = fit_similarities(neutral, meshes, weights)
     at_rest = np.einsum("nji,nvj->nvi", rotation, meshes - shift[:, None]) / scale[:, None, None]
     return HeadMotion(neutral.astype(float), scale, rotation, shift, (at_rest - neutral).astype(np.float32))

@@ -18,18 +18,18 @@ from numpy.typing import NDArray
 from engine.face_animation.head_motion import SOFT_WEIGHT, HeadMotion, turns
 from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID, eye_distance
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eye_distance
 
 LARGEST_TURN = np.deg2rad(25.0)
 """Turns beyond are held back to this."""
-NECK = (0.9, 2.0)
+NECK_FADE_CHIN_LENGTHS = (0.9, 2.0)
 """The head's rigid motion fades out between these distances below the eyes, in lengths from eyes to chin."""
-JOINED = 0.07
+CONTOUR_BLEND_EYE_DISTANCES = 0.07
 """Within this distance of the contour, in eye distances, the face's depth passes over into the contour's."""
-STEEPEST = 2.0
+MAX_DEPTH_SLOPE = 2.0
 """In a face that the picture shows turned, its depth departs from the contour's by no more than this times the
 distance: the far cheek, of which little is seen, would part into flaps where the driver turns it to the front."""
-SLANTED = (14.0, 18.0)
+SLOPE_BOUND_TURN_DEGREES = (14.0, 18.0)
 """Degrees of turn, in the picture, from which and to which that bound takes hold."""
 BACK_OF_HAIR = 0.35
 """Outside the face the surface falls back to the ears' depth within this share of the face's width."""
@@ -68,11 +68,15 @@ def _joined_rim(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     closest = apart.argmin(axis=1)
     rim = np.take_along_axis(nearest[..., 2], closest[:, None], axis=1)[:, 0]
     inside = apart.min(axis=1)
-    t = np.clip(inside / (JOINED * float(eye_distance(mesh[:, :2]))), 0, 1)
+    t = np.clip(inside / (CONTOUR_BLEND_EYE_DISTANCES * float(eye_distance(mesh[:, :2]))), 0, 1)
     rise = t * t * (3 - 2 * t) * (mesh[:, 2] - rim)
     slant = np.rad2deg(turns(mesh[None], canonical_face())[0])
-    bound = np.clip((slant - SLANTED[0]) / (SLANTED[1] - SLANTED[0]), 0, 1)
-    return np.asarray(rim + rise + bound * (np.clip(rise, -STEEPEST * inside, STEEPEST * inside) - rise), float)
+    bound = np.clip(
+        (slant - SLOPE_BOUND_TURN_DEGREES[0]) / (SLOPE_BOUND_TURN_DEGREES[1] - SLOPE_BOUND_TURN_DEGREES[0]), 0, 1
+    )
+    return np.asarray(
+        rim + rise + bound * (np.clip(rise, -MAX_DEPTH_SLOPE * inside, MAX_DEPTH_SLOPE * inside) - rise), float
+    )
 
 
 def surface_depth(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -100,7 +104,7 @@ def head_share(mesh: NDArray[np.floating], points: NDArray[np.floating]) -> NDAr
     eyes = mesh[[33, 133, 263, 362], :2].mean(axis=0)
     down = mesh[152, :2] - eyes
     below = (points - eyes) @ down / float(down @ down)
-    t = np.clip((below - NECK[0]) / (NECK[1] - NECK[0]), 0, 1)
+    t = np.clip((below - NECK_FADE_CHIN_LENGTHS[0]) / (NECK_FADE_CHIN_LENGTHS[1] - NECK_FADE_CHIN_LENGTHS[0]), 0, 1)
     return np.asarray(1 - t * t * (3 - 2 * t), float)
 
 
@@ -119,11 +123,11 @@ def move_head(
     (N, C, 3) positions, pixels; points that do not belong to the head move rigidly too, see `share`.
     """
     weights = np.full(MESH_SIZE, SOFT_WEIGHT)
-    weights[list(RIGID)] = 1.0
+    weights[list(RIGID_VERTICES)] = 1.0
     size, between, _ = fit_similarities(motion.neutral, target[None].astype(float), weights)
     rotation = limit_rotation(between[0] @ motion.rotation @ between[0].T)
-    pivot_driver = motion.neutral[list(RIGID)].mean(axis=0)
-    pivot = target[list(RIGID)].astype(float).mean(axis=0)
+    pivot_driver = motion.neutral[list(RIGID_VERTICES)].mean(axis=0)
+    pivot = target[list(RIGID_VERTICES)].astype(float).mean(axis=0)
     moved = motion.scale[:, None] * (motion.rotation @ pivot_driver) + motion.shift - pivot_driver
     shift = size[0] * moved @ between[0].T
     points = np.repeat(proxy.points[None], len(rotation), axis=0)

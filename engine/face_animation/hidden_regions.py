@@ -13,7 +13,7 @@ from engine.imaging.mesh_warp import inverse_map
 from engine.imaging.poisson import membrane
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
-EROSION = 0.1
+LIP_EROSION_SHARE = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
 AREA_FROM, AREA_FULLY = 1.0, 2.0
 """Section 5: the inside appears between once and twice the neutral mouth's own inner area."""
@@ -23,16 +23,16 @@ grows in area."""
 MIN_INNER_AREA, MIN_GAP = 0.012, 0.04
 """Floors of the neutral inner area, in squares of the mouth's width, and of its gap, in widths: a closed mouth has
 almost none."""
-MIDDLE = ((82, 87), (13, 14), (312, 317))
+MOUTH_MIDDLE_PAIRS = ((82, 87), (13, 14), (312, 317))
 """Facing vertices of the inner lips, where they part most."""
 
-PALE, RED = 0.2, 0.45
+TEETH_SATURATION, LIP_SATURATION = 0.2, 0.45
 """Saturation of teeth, and of lips."""
 
-LUMINANCE = np.array([0.299, 0.587, 0.114], np.float32)
+LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
-UPPER = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
-LOWER = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
+UPPER_INNER_LIP = (78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308)
+LOWER_INNER_LIP = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
 """Facing vertices of the inner lips from corner to corner."""
 
 
@@ -61,8 +61,10 @@ def mouth_triangles() -> NDArray[np.int32]:
         ring += [(outer[k], outer[n], inner[k]), (outer[n], inner[n], inner[k])]
     place = {v: 20 + i for i, v in enumerate(LIPS_INNER)}
     strip = []
-    for k in range(len(UPPER) - 1):
-        a, b, c, d = (place[v] for v in (UPPER[k], UPPER[k + 1], LOWER[k], LOWER[k + 1]))
+    for k in range(len(UPPER_INNER_LIP) - 1):
+        a, b, c, d = (
+            place[v] for v in (UPPER_INNER_LIP[k], UPPER_INNER_LIP[k + 1], LOWER_INNER_LIP[k], LOWER_INNER_LIP[k + 1])
+        )
         strip += [(a, b, c), (b, d, c)]
     return np.array(ring + strip, np.int32)
 
@@ -78,7 +80,7 @@ def match_palette(
     """
     a, b = _skin(target, mesh), _skin(crop, crop_mesh)
     gain = _light((a.mean(axis=0) + 4) / (b.mean(axis=0) + 4))
-    tint = a.mean(axis=0) / max(float(a.mean(axis=0) @ LUMINANCE), 1.0)
+    tint = a.mean(axis=0) / max(float(a.mean(axis=0) @ LUMINANCE_WEIGHTS), 1.0)
     own = _departure(_lips(target, mesh), tint)
     chroma = float(np.clip(own / max(_departure(_lips(crop, crop_mesh) * gain, tint), 1e-3), 0, 1))
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
@@ -98,17 +100,17 @@ def match_palette(
 
 def _gap(mesh: NDArray[np.floating]) -> float:
     """Pixels between the lips, in the middle."""
-    top, bottom = np.array(MIDDLE).T
+    top, bottom = np.array(MOUTH_MIDDLE_PAIRS).T
     return float(np.linalg.norm(mesh[top, :2] - mesh[bottom, :2], axis=1).mean())
 
 
 def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
     """What of the ratio (3,) of two skins is light: all of its brightness, half of its colour (the other half
     is that people differ), and none of it green, which skins are and light in pictures of people is not."""
-    brightness = float(ratio @ LUMINANCE)
+    brightness = float(ratio @ LUMINANCE_WEIGHTS)
     colour = np.sqrt(ratio / brightness)
     colour[1] = min(colour[1], max(colour[0], colour[2]))
-    return np.asarray(brightness * colour / float(colour @ LUMINANCE), np.float32)
+    return np.asarray(brightness * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
 
 
 def uncovered(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
@@ -148,7 +150,7 @@ def transfer_mouth(
     aligned = cv2.remap(crop, origin[..., 0], origin[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
     mouth = relight(np.asarray(aligned, np.uint8), palette)
     below = frame[y0:y1, x0:x1]
-    mask = _eroded(outer - corner, (y1 - y0, x1 - x0), EROSION * palette.height)
+    mask = _eroded(outer - corner, (y1 - y0, x1 - x0), LIP_EROSION_SHARE * palette.height)
     opening = soft_polygon(inner - corner, (y1 - y0, x1 - x0))
     healed = membrane(below - mouth, mask) if mask.sum() > 9 else np.zeros_like(mouth)
     _blend(below, mouth, healed, np.asarray(aligned, np.uint8), np.float32(blend) * opening * mask)
@@ -168,9 +170,19 @@ def _blend(below, mouth, healed, driver, alpha):  # type: ignore[no-untyped-def]
             most = max(driver[y, x, 0], driver[y, x, 1], driver[y, x, 2])
             least = min(driver[y, x, 0], driver[y, x, 1], driver[y, x, 2])
             saturation = np.float32(1) - np.float32(least) / np.float32(max(most, 16))
-            t = min(max((saturation - np.float32(PALE)) / np.float32(RED - PALE), np.float32(0)), np.float32(1))
+            t = min(
+                max(
+                    (saturation - np.float32(TEETH_SATURATION)) / np.float32(LIP_SATURATION - TEETH_SATURATION),
+                    np.float32(0),
+                ),
+                np.float32(1),
+            )
             red = t * t * (np.float32(3) - 2 * t)
-            light = healed[y, x, 0] * LUMINANCE[0] + healed[y, x, 1] * LUMINANCE[1] + healed[y, x, 2] * LUMINANCE[2]
+            light = (
+                healed[y, x, 0] * LUMINANCE_WEIGHTS[0]
+                + healed[y, x, 1] * LUMINANCE_WEIGHTS[1]
+                + healed[y, x, 2] * LUMINANCE_WEIGHTS[2]
+            )
             for k in range(3):
                 b = np.float32(below[y, x, k])
                 value = mouth[y, x, k] + light + red * (healed[y, x, k] - light)
@@ -182,9 +194,9 @@ def _blend(below, mouth, healed, driver, alpha):  # type: ignore[no-untyped-def]
 def relight(rgb: NDArray[np.uint8], palette: MouthPalette) -> NDArray[np.float32]:
     """The driver's colours in the target's light and palette, float32."""
     lit = rgb.astype(np.float32) * palette.gain
-    tinted = (lit @ LUMINANCE)[..., None] * palette.tint
+    tinted = (lit @ LUMINANCE_WEIGHTS)[..., None] * palette.tint
     mouth = tinted + palette.chroma * (lit - tinted)
-    light = np.maximum(mouth @ LUMINANCE, 1.0)
+    light = np.maximum(mouth @ LUMINANCE_WEIGHTS, 1.0)
     knee = 1.1 * palette.brightest
     over = np.maximum(light - knee, 0)
     room = 0.3 * palette.brightest
@@ -204,7 +216,7 @@ def _brightest(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> float:
     """The 99th percentile of the luminance within the face's contour."""
     mask = np.zeros(rgb.shape[:2], np.uint8)
     cv2.fillPoly(mask, [mesh[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
-    light = rgb[mask > 0].astype(np.float32) @ LUMINANCE
+    light = rgb[mask > 0].astype(np.float32) @ LUMINANCE_WEIGHTS
     return float(np.quantile(light, 0.99)) if len(light) else 255.0
 
 
@@ -217,7 +229,7 @@ def _lips(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> NDArray[np.floa
 
 def _departure(colours: NDArray[np.float32], tint: NDArray[np.float32]) -> float:
     """Mean distance of the colours (P, 3), at luminance 1, from a tint."""
-    light = np.maximum(colours @ LUMINANCE, 8.0)[:, None]
+    light = np.maximum(colours @ LUMINANCE_WEIGHTS, 8.0)[:, None]
     return float(np.linalg.norm((colours / light).mean(axis=0) - tint))
 
 

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.lids_and_lips import LID_SKIN, LIDS, LIPS
+from engine.face_animation.lids_and_lips import INNER_LIP_PAIRS, LID_PAIRS, LID_SKIN
 from engine.perception.face_track.face_crop import CROP_EYES
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, MESH_SIZE, RIGHT_EYE, RIGHT_IRIS
@@ -22,7 +22,7 @@ CORRECTED_SHARE_AT_LIPS, LIPS_FALLOFF = 0.35, 0.15
 """The same at the lips, whose looks change most, and over how many eye distances beside them it rises to the other."""
 KERNEL_WIDTH = 0.05
 """Root mean square distance of two faces' points, in eye distances, at which the frames are alike."""
-RIDGE = 0.2
+REGRESSION_RIDGE = 0.2
 """Ridge of the regression: the tracker's scatter."""
 MAX_RESIDUAL = 0.08
 """Eye distances; what is more, is the tracker's error."""
@@ -58,7 +58,7 @@ def fit_residuals(faces: NDArray[np.floating], measured: NDArray[np.floating]) -
     known = flat(faces)
     size = np.linalg.norm(measured, axis=2, keepdims=True) / CROP_EYE_DISTANCE
     believed = flat(measured * np.minimum(1, MAX_RESIDUAL / np.maximum(size, 1e-6)))
-    weights = np.linalg.solve(_likeness(known, known) + RIDGE * np.eye(len(known)), believed)
+    weights = np.linalg.solve(_likeness(known, known) + REGRESSION_RIDGE * np.eye(len(known)), believed)
     return LandmarkResiduals(known, weights.astype(np.float32))
 
 
@@ -93,7 +93,7 @@ def _keep_closed(offsets: NDArray[np.floating], placed: NDArray[np.floating]) ->
     """Lips and lids that are closed stay so: both sides take the mean. Irises and the lids' skin go with their eye."""
     down = placed[:, 152] - placed[:, 10]
     unit = np.linalg.norm(placed[:, [263, 362]].mean(axis=1) - placed[:, [33, 133]].mean(axis=1), axis=1)
-    top, bottom = np.array(LIPS + LIDS).T
+    top, bottom = np.array(INNER_LIP_PAIRS + LID_PAIRS).T
     gap = np.einsum("nvi,ni->nv", placed[:, bottom] - placed[:, top], down / np.linalg.norm(down, axis=1)[:, None])
     middle, apart = (offsets[:, top] + offsets[:, bottom]) / 2, (offsets[:, bottom] - offsets[:, top]) / 2
     apart = apart * np.clip(gap / (INDEPENDENT_GAP * unit[:, None]), 0, 1)[..., None]

@@ -13,39 +13,39 @@ from numpy.typing import NDArray
 
 from engine.imaging.mesh_warp import inverse_map
 
-STRIPS = (
+UPPER_LID_STRIPS = (
     ((247, 30, 29, 27, 28, 56, 190), (246, 161, 160, 159, 158, 157, 173)),
     ((467, 260, 259, 257, 258, 286, 414), (466, 388, 387, 386, 385, 384, 398)),
 )
 """Vertices of the skin above the upper lid, and of the lid's edge, from the eye's outer corner on; right eye first."""
-CORNERS = ((33, 133), (263, 362))
+EYE_CORNERS = ((33, 133), (263, 362))
 """Where both end."""
-HIGHER = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
+BELOW_BROW_VERTICES = ((113, 225, 224, 223, 222, 221, 189), (342, 445, 444, 443, 442, 441, 413))
 """Vertices further up, below the brow."""
-LOWER = ((7, 163, 144, 145, 153, 154, 155), (249, 390, 373, 374, 380, 381, 382))
+LOWER_LID_EDGES = ((7, 163, 144, 145, 153, 154, 155), (249, 390, 373, 374, 380, 381, 382))
 """Vertices of the lower lid's edge."""
-CHEEKS = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
+CHEEK_VERTICES = ((117, 118, 119, 120, 100, 101), (346, 347, 348, 349, 329, 330))
 """Vertices of the cheek below the eye, in the light that a shut lid is in."""
-BEGINS = 0.4
+COLOUR_BLEND_SHARE = 0.4
 """Share of the way from the skin above to the lid's edge over which the colours go over."""
-ABOVE = 0.6
+COLOUR_REACH_SHARE = 0.6
 """Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
-LIT = 0.5
+LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
-DARKEST, DEEPER = 0.68, 0.35
+MIN_CHEEK_SHARE, SOCKET_SHADE_SHARE = 0.68, 0.35
 """A lid's brightness as a share of the cheek's: what is above it is in the socket's shadow, which a shut lid is not. Of what
 it would be darker, this share is left."""
-FADES = 0.4
+CORNER_FADE_EYE_WIDTHS = 0.4
 """Eye widths from a corner over which this comes in."""
-ACROSS = 0.15
+COLOUR_BLUR_EYE_WIDTHS = 0.15
 """Eye widths over which a lid's colours are even from corner to corner."""
-GRAIN = 0.1
+GRAIN_EYE_WIDTHS = 0.1
 """Eye widths below which what is seen of the skin is its grain."""
-FAINT = 12.0
+MAX_GRAIN_GREY_LEVELS = 12.0
 """Grey levels up to which structure counts as grain: what is stronger are lashes, brows and paint."""
-SHADED = 0.12
+EDGE_SHADE_SHARE = 0.12
 """By how much a lid is darker at its edge."""
-_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
+_STRIP_TRIANGLES = np.array([t for k in range(8) for t in ((k, k + 1, 9 + k), (k + 1, 10 + k, 9 + k))], np.int32)
 
 
 def lid_skins(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> list[NDArray[np.float32]]:
@@ -72,51 +72,52 @@ def draw_lid(
     field = inverse_map(
         (points - low).astype(np.float32),
         np.column_stack([np.tile(along, 2), np.repeat([0, 1], 9)]).astype(np.float32),
-        _TRIANGLES,
+        _STRIP_TRIANGLES,
         (int(high[1] - low[1]), int(high[0] - low[0])),
         outside=-1.0,
     )
     down = field[..., 1]
     seen = cv2.remap(skin, field[..., 0], down * (len(skin) - 1), cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    t = np.clip(down[..., None] / BEGINS, 0, 1)
+    t = np.clip(down[..., None] / COLOUR_BLEND_SHARE, 0, 1)
     part = frame[low[1] : high[1], low[0] : high[0]]
     part[:] = np.clip(part + share * t * t * (3 - 2 * t) * (seen - part) + 0.5, 0, 255).astype(np.uint8)
 
 
 def _strip(mesh: NDArray, side: int) -> NDArray:
     """(18, 2) the skin above from corner to corner, then the lid's edge."""
-    outer, inner = CORNERS[side]
-    strip = mesh[[v for row in STRIPS[side] for v in (outer, *row, inner)], :2].astype(float)
-    strip[1:8] += ABOVE * (mesh[list(HIGHER[side]), :2] - strip[1:8])
+    outer, inner = EYE_CORNERS[side]
+    strip = mesh[[v for row in UPPER_LID_STRIPS[side] for v in (outer, *row, inner)], :2].astype(float)
+    strip[1:8] += COLOUR_REACH_SHARE * (mesh[list(BELOW_BROW_VERTICES[side]), :2] - strip[1:8])
     return np.asarray(strip)
 
 
 def _skin(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
     above = _above(rgb, mesh, side)
     height, width = above.shape[:2]
-    by_light = np.argsort(-above.sum(axis=2), axis=0)[: max(1, round(LIT * height))]
+    by_light = np.argsort(-above.sum(axis=2), axis=0)[: max(1, round(LIGHTER_SKIN_SHARE * height))]
     colours = np.take_along_axis(above, by_light[..., None], axis=0).mean(axis=0, keepdims=True)
-    colours = cv2.GaussianBlur(colours, (0, 0), ACROSS * width, borderType=cv2.BORDER_REPLICATE)
+    colours = cv2.GaussianBlur(colours, (0, 0), COLOUR_BLUR_EYE_WIDTHS * width, borderType=cv2.BORDER_REPLICATE)
     colours = _out_of_the_shadow(colours, _cheek(rgb, mesh, side))
-    grain = above - cv2.GaussianBlur(above, (0, 0), max(GRAIN * width, 0.5), borderType=cv2.BORDER_REPLICATE)
+    grain = above - cv2.GaussianBlur(above, (0, 0), max(GRAIN_EYE_WIDTHS * width, 0.5), borderType=cv2.BORDER_REPLICATE)
     tall = max(
-        height, round(float(np.linalg.norm(_strip(mesh, side)[1:8] - mesh[list(LOWER[side]), :2], axis=1).mean()))
+        height,
+        round(float(np.linalg.norm(_strip(mesh, side)[1:8] - mesh[list(LOWER_LID_EDGES[side]), :2], axis=1).mean())),
     )
     to_and_fro = np.arange(tall) % (2 * height)
     grain = grain[np.minimum(to_and_fro, 2 * height - 1 - to_and_fro)]
-    shading = 1 - SHADED * np.linspace(0, 1, tall, dtype=np.float32)[:, None, None]
-    return np.asarray(colours * shading + grain.clip(-FAINT, FAINT), np.float32)
+    shading = 1 - EDGE_SHADE_SHARE * np.linspace(0, 1, tall, dtype=np.float32)[:, None, None]
+    return np.asarray(colours * shading + grain.clip(-MAX_GRAIN_GREY_LEVELS, MAX_GRAIN_GREY_LEVELS), np.float32)
 
 
 def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32]) -> NDArray[np.float32]:
     """Colours (1, w, 3) that are much darker than the cheek (3,), made brighter, and nearer to its hue."""
-    least = DARKEST * float(cheek.mean())
+    least = MIN_CHEEK_SHARE * float(cheek.mean())
     bright = np.maximum(colours.mean(axis=2, keepdims=True), 1)
-    wanted = np.where(bright < least, least - DEEPER * (least - bright), bright)
+    wanted = np.where(bright < least, least - SOCKET_SHADE_SHARE * (least - bright), bright)
     own = bright / wanted
     brighter = own * colours * (wanted / bright) + (1 - own) * cheek * (wanted / cheek.mean())
     width = colours.shape[1]
-    from_corner = np.minimum(np.arange(width), np.arange(width)[::-1]) / (FADES * width)
+    from_corner = np.minimum(np.arange(width), np.arange(width)[::-1]) / (CORNER_FADE_EYE_WIDTHS * width)
     middle = np.sin(np.pi / 2 * np.clip(from_corner, 0, 1))[:, None] ** 2
     return np.asarray(colours + middle * (brighter - colours), np.float32)
 
@@ -124,13 +125,13 @@ def _out_of_the_shadow(colours: NDArray[np.float32], cheek: NDArray[np.float32])
 def _cheek(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
     """Mean colour (3,) of the cheek below an eye."""
     area = np.zeros(rgb.shape[:2], np.uint8)
-    cv2.fillConvexPoly(area, cv2.convexHull(mesh[list(CHEEKS[side]), :2].round().astype(np.int32)), 1)
+    cv2.fillConvexPoly(area, cv2.convexHull(mesh[list(CHEEK_VERTICES[side]), :2].round().astype(np.int32)), 1)
     return np.asarray(cv2.mean(rgb, area)[:3], np.float32) + 1
 
 
 def _above(rgb: NDArray[np.uint8], mesh: NDArray[np.floating], side: int) -> NDArray[np.float32]:
     """(h, w, 3) the skin from the crease up towards the brow, straightened, at the picture's own resolution."""
-    rows = mesh[np.array([STRIPS[side][0], HIGHER[side]]), :2].astype(np.float32)
+    rows = mesh[np.array([UPPER_LID_STRIPS[side][0], BELOW_BROW_VERTICES[side]]), :2].astype(np.float32)
     width = max(2, round(float(np.linalg.norm(np.diff(rows[0], axis=0), axis=1).sum())))
     height = max(2, round(float(np.linalg.norm(rows[1] - rows[0], axis=1).mean())))
     along = np.linspace(0, 6, width)

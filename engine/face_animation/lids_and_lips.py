@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-LIDS = (
+LID_PAIRS = (
     *((246, 7), (161, 163), (160, 144), (159, 145), (158, 153), (157, 154), (173, 155)),
     *((466, 249), (388, 390), (387, 373), (386, 374), (385, 380), (384, 381), (398, 382)),
 )
@@ -19,25 +19,25 @@ LID_SKIN = (
     *((467, 466), (260, 388), (259, 387), (257, 386), (258, 385), (286, 384), (414, 398)),
 )
 """Vertices of the skin above the upper lid, each with the edge vertex that it follows half-way."""
-LIPS = ((191, 95), (80, 88), (81, 178), (82, 87), (13, 14), (312, 317), (311, 402), (310, 318), (415, 324))
+INNER_LIP_PAIRS = ((191, 95), (80, 88), (81, 178), (82, 87), (13, 14), (312, 317), (311, 402), (310, 318), (415, 324))
 """Facing vertices (upper, lower) of the inner lips."""
-CLOSED, OPEN = 0.3, 0.6
+CLOSED_GAP_SHARE, OPEN_GAP_SHARE = 0.3, 0.6
 """Below this share of its usual gap an eye counts as shut; above the other its gap is carried as it is."""
-WIDEST = 1.5
+MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 
 
 def lid_ratio(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 14) gap of each pair of lid vertices against the neutral frame's; the tracker never reports a
-    gap of zero, so that ratios under `CLOSED` become 0."""
-    upper, lower = np.array(LIDS).T
+    gap of zero, so that ratios under `CLOSED_GAP_SHARE` become 0."""
+    upper, lower = np.array(LID_PAIRS).T
     gap = np.linalg.norm(meshes[:, upper] - meshes[:, lower], axis=-1)
     rest = np.linalg.norm(neutral[upper] - neutral[lower], axis=-1)
     # an eye is judged as a whole by its middle, so that the corners do not flutter
     ratio = gap / np.maximum(rest, 1e-6)
     middle = np.repeat(np.stack([ratio[:, 2:5].mean(axis=1), ratio[:, 9:12].mean(axis=1)], axis=1), 7, axis=1)
-    shut = np.clip((middle - CLOSED) / (OPEN - CLOSED), 0, 1)
-    return np.asarray(np.clip(ratio, 0, WIDEST) * (shut * shut * (3 - 2 * shut)), float)
+    shut = np.clip((middle - CLOSED_GAP_SHARE) / (OPEN_GAP_SHARE - CLOSED_GAP_SHARE), 0, 1)
+    return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
 
 
 def meet(
@@ -55,14 +55,14 @@ def meet(
     (N, 478, 3).
     """
     out = positions.astype(float)
-    upper, lower = np.array(LIDS).T
+    upper, lower = np.array(LID_PAIRS).T
     wanted = out[:, lower] + ratio[..., None] * (target[upper] - target[lower])
     moved = wanted - out[:, upper]
     out[:, upper] = wanted
     skin, edge = np.array(LID_SKIN).T
     index = {int(v): i for i, v in enumerate(upper)}
     out[:, skin] += 0.5 * moved[:, [index[int(v)] for v in edge]]
-    top, bottom = np.array(LIPS).T
+    top, bottom = np.array(INNER_LIP_PAIRS).T
     down = target[152] - target[10]
     down = down / np.linalg.norm(down)
     gap = (out[:, bottom] - out[:, top]) @ down

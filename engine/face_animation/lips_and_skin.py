@@ -11,40 +11,40 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-UPPER = (
+UPPER_LIP_COLUMNS = (
     *((184, 183, 191), (74, 42, 80), (73, 41, 81), (72, 38, 82), (11, 12, 13)),
     *((302, 268, 312), (303, 271, 311), (304, 272, 310), (408, 407, 415)),
 )
 """Columns across the upper lip, without its border."""
-ABOVE = (
+SKIN_ABOVE_COLUMNS = (
     *((185, 186, 216), (40, 92, 64), (39, 165, 98), (37, 167, 97), (0, 164, 2)),
     *((267, 393, 326), (269, 391, 327), (270, 322, 294), (409, 410, 436)),
 )
 """What each of them goes on with, from the border of the lip over the skin to the nose, or the cheek beside it."""
-LOWER = (
+LOWER_LIP_COLUMNS = (
     *((77, 96, 95), (90, 89, 88), (180, 179, 178), (85, 86, 87), (16, 15, 14)),
     *((315, 316, 317), (404, 403, 402), (320, 319, 318), (307, 325, 324)),
 )
 """Columns across the lower lip, without its border."""
-BELOW = (
+SKIN_BELOW_COLUMNS = (
     *((146, 43, 202, 210, 169, 150), (91, 106, 204, 211, 170, 149), (181, 182, 194, 32, 140, 176)),
     *((84, 83, 201, 208, 171, 148), (17, 18, 200, 199, 175, 152), (314, 313, 421, 428, 396, 377)),
     *((405, 406, 418, 262, 369, 400), (321, 335, 424, 431, 395, 378), (375, 273, 422, 430, 394, 379)),
 )
 """What each of them goes on with, down to the jaw's contour."""
-BROW, CHIN = 10, 152
+BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
 MIN_SKIN_SHARE, MAX_SKIN_SHARE = 0.2, 0.3
 """Shares of its usual breadth: skin is never pressed together by more than the first, nor under the nose by more than on
 the driver's face, where that is below the second."""
-NEIGHBOURS = np.array([1, 2, 3, 2, 1]) / 9
+NEIGHBOUR_WEIGHTS = np.array([1, 2, 3, 2, 1]) / 9
 """How much columns of a lip draw their neighbours along."""
 
 
 def lips_room(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
     the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `MIN_SKIN_SHARE` to `MAX_SKIN_SHARE`."""
-    lip, _, nose = ABOVE[4]
+    lip, _, nose = SKIN_ABOVE_COLUMNS[4]
     now, usual = ((one[..., lip, :2] - one[..., nose, :2]) @ _down(neutral) for one in (faces, neutral))
     return np.asarray(np.clip(now / np.maximum(usual, 1e-6), MIN_SKIN_SHARE, MAX_SKIN_SHARE), float)
 
@@ -58,7 +58,10 @@ def keep_lips_off_skin(faces: NDArray[np.floating], rest: NDArray[np.floating], 
     rest : (478, 2 or 3) the same face at rest. room : (N,) share of its breadth that the skin under the nose keeps.
     """
     least = np.full_like(room, MIN_SKIN_SHARE)
-    for lips, skin, share, way in ((UPPER, ABOVE, room, -1), (LOWER, BELOW, least, 1)):
+    for lips, skin, share, way in (
+        (UPPER_LIP_COLUMNS, SKIN_ABOVE_COLUMNS, room, -1),
+        (LOWER_LIP_COLUMNS, SKIN_BELOW_COLUMNS, least, 1),
+    ):
         columns = np.array(skin)
         out = way * _down(rest)
         usual = np.diff(rest[columns, :2] @ out, axis=1)
@@ -82,11 +85,11 @@ def _in_order(along: NDArray[np.floating], least: NDArray[np.floating]) -> NDArr
 
 def _with_neighbours(moves: NDArray[np.floating]) -> NDArray[np.floating]:
     """How far the columns (N, 9) of a lip move back where each draws those beside it along: no less than by themselves."""
-    drawn = cv2.filter2D(moves, -1, NEIGHBOURS[None], borderType=cv2.BORDER_REPLICATE)
+    drawn = cv2.filter2D(moves, -1, NEIGHBOUR_WEIGHTS[None], borderType=cv2.BORDER_REPLICATE)
     return np.asarray(np.where(np.abs(drawn) > np.abs(moves), drawn, moves))
 
 
 def _down(face: NDArray[np.floating]) -> NDArray[np.float64]:
     """(2,) the way down a face (478, 2 or 3)."""
-    axis = face[CHIN, :2].astype(float) - face[BROW, :2]
+    axis = face[CHIN_VERTEX, :2].astype(float) - face[BROW_VERTEX, :2]
     return np.asarray(axis / np.linalg.norm(axis), float)

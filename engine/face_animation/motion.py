@@ -28,7 +28,7 @@ from engine.perception.landmarks import MESH_SIZE, eye_distance
 PLANE_SHARE = 0.65
 """Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
 its depth is hardly seen there, and errs."""
-SLANTED = (3.0, 10.0)
+PLANE_TURN_DEGREES = (3.0, 10.0)
 """Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
 INSIDE_FROM = 0.12
 """Eye distances inside the contour over which the plane's share rises to the full one."""
@@ -38,7 +38,7 @@ TURN_TRUSTED, TURN_LOST = 15.0, 30.0
 """Degrees of turn up to which tracked points of the head are trusted, and where no more."""
 MAX_CORRECTION = 0.6
 """Largest correction of a point of the head, in eye distances."""
-CHUNK = 32
+CHUNK_FRAMES = 32
 """Frames whose control points are computed together: enough for vectorised work, little memory."""
 
 
@@ -77,8 +77,8 @@ def carry_motion(
     head = options.strength if "head" in options.follow else 0.0
     eyes = options.strength if "eyes" in options.follow else 0.0
     correct = min(options.strength, 1.0) * follow
-    for start in range(0, len(track), CHUNK):
-        some = slice(start, min(start + CHUNK, len(track)))
+    for start in range(0, len(track), CHUNK_FRAMES):
+        some = slice(start, min(start + CHUNK_FRAMES, len(track)))
         motion = split_motion(track.meshes[some], rest)
         around = track.periphery[some] - track.periphery[neutral]
         if proxy is not None:
@@ -183,7 +183,11 @@ def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
     """(478,) how much equation 1 in the plane counts beside the head turned in space, for a target's mesh."""
     slant = float(np.rad2deg(turns(target[None], canonical_face())[0]))
     inside = -rim_distance(target, target[:, :2]) / float(eye_distance(target[:, :2]))
-    return PLANE_SHARE * np.clip((slant - SLANTED[0]) / (SLANTED[1] - SLANTED[0]), 0, 1) * _step(inside, 0, INSIDE_FROM)
+    return (
+        PLANE_SHARE
+        * np.clip((slant - PLANE_TURN_DEGREES[0]) / (PLANE_TURN_DEGREES[1] - PLANE_TURN_DEGREES[0]), 0, 1)
+        * _step(inside, 0, INSIDE_FROM)
+    )
 
 
 def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:

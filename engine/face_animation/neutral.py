@@ -19,12 +19,12 @@ from engine.face_animation.eyes import look
 from engine.face_animation.head_motion import turns
 from engine.perception.expression.features import lopsided
 from engine.perception.expression.measures import (
-    FACE,
-    LIDS,
+    FACE_MEASURES,
+    LID_MEASURES,
     MEASURES,
-    MOUTH,
-    SPREAD,
-    USUAL,
+    MOUTH_MEASURES,
+    REST_SPREAD,
+    SPREAD_BETWEEN_PEOPLE,
     USUAL_BELOW,
     general_rest,
     lowered,
@@ -36,7 +36,7 @@ LOWERED_LIDS_WEIGHT = 4.0
 """How much lowered lids count, as a share of how far they are usually open."""
 
 SIMILAR_REST = 0.5
-"""Frames that differ by less, root mean square in `SPREAD`, from the one that is most at rest are as much so: their median
+"""Frames that differ by less, root mean square in `REST_SPREAD`, from the one that is most at rest are as much so: their median
 is the rest."""
 
 MAX_COMPARED_FRAMES = 2000
@@ -46,11 +46,11 @@ COMPARED_AT_ONCE = 128
 """Frames whose distances from all others are in memory together."""
 
 AS_CALM = 0.5
-"""Frames whose mean square difference from what is looked for, in `SPREAD`, is greater than the least by no more than this
+"""Frames whose mean square difference from what is looked for, in `REST_SPREAD`, is greater than the least by no more than this
 are as good; the head's turn and the gaze choose among them."""
 
 TURN_SCALE, GAZE_SCALE = 0.2, 0.1
-"""What counts as much as one `SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
+"""What counts as much as one `REST_SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
 look, elsewhere than the target's."""
 
 TORN_MOUTH_SCALE = 0.05
@@ -60,10 +60,10 @@ TORN_MOUTH_FROM = 0.15
 """Eye distances from which on a target's mouth is torn aside: under it, faces that are turned or painted seem so, too."""
 
 WORN_EXPRESSION = 0.5
-"""Beyond this, in standard deviations of `USUAL` past the first, a target wears an expression."""
+"""Beyond this, in standard deviations of `SPREAD_BETWEEN_PEOPLE` past the first, a target wears an expression."""
 
 CALM_FACE = 2.0
-"""Mean square of a calm face's differences from a face at rest, in standard deviations of `USUAL`."""
+"""Mean square of a calm face's differences from a face at rest, in standard deviations of `SPREAD_BETWEEN_PEOPLE`."""
 
 Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
 
@@ -101,7 +101,7 @@ def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen:
     face = (
         _face_unlike(values, rest + worn)
         + _torn(track, target, values, rest)
-        + LOWERED_LIDS_WEIGHT * lowered(values, rest[LIDS])
+        + LOWERED_LIDS_WEIGHT * lowered(values, rest[LID_MEASURES])
     )
     face = np.where(track.found, face, np.inf)
     place = (turns(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
@@ -125,8 +125,8 @@ def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> No
 def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
 
-    The most probable one, where people at rest are distributed about the general rest by `USUAL`, and one person at rest
-    about their own by `SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
+    The most probable one, where people at rest are distributed about the general rest by `SPREAD_BETWEEN_PEOPLE`, and one person at rest
+    about their own by `REST_SPREAD`: a frame that many are like and that is not unlike a face at rest. Many alone would not do,
     for a driver may laugh through most of a clip; likeness alone would not, for people differ.
 
     It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
@@ -135,44 +135,46 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MAX_COMPARED_FRAMES, len(values))).astype(int))].astype(
         float
     )
-    blinking = lowered(seen, np.quantile(seen[:, LIDS], 0.7, axis=0))
+    blinking = lowered(seen, np.quantile(seen[:, LID_MEASURES], 0.7, axis=0))
     cost = unlike_rest(seen) - np.log(_density(seen)) + LOWERED_LIDS_WEIGHT * blinking
     alike = _mean_squares(seen[[int(np.argmin(cost))]], seen)[0] < SIMILAR_REST**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
 
 def _density(seen: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N,) how many of the measures (N, 12) are like each: of a Gaussian of `SPREAD` about it, in the mean. The distances of
+    """(N,) how many of the measures (N, 12) are like each: of a Gaussian of `REST_SPREAD` about it, in the mean. The distances of
     all from all would take what a long clip's meshes do, several times."""
     parts = np.array_split(seen, -(-len(seen) // COMPARED_AT_ONCE))
     return np.concatenate([np.exp(-_mean_squares(some, seen) / 2).mean(axis=1) for some in parts])
 
 
 def _mean_squares(some: NDArray[np.float64], seen: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(M, N) mean square difference of measures (M, 12) from others (N, 12), in `SPREAD`."""
-    return np.asarray(cdist(some / SPREAD, seen / SPREAD, "sqeuclidean") / len(MEASURES), float)
+    """(M, N) mean square difference of measures (M, 12) from others (N, 12), in `REST_SPREAD`."""
+    return np.asarray(cdist(some / REST_SPREAD, seen / REST_SPREAD, "sqeuclidean") / len(MEASURES), float)
 
 
 def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how unlike a face at rest faces with these measures (N, 12) are, whoever they are: the mean square of the
     differences, 1 is what people at rest differ by."""
     apart = values - general_rest()
-    return np.asarray(np.mean((apart / np.where(apart < 0, USUAL_BELOW, USUAL))[:, FACE] ** 2, axis=1), float)
+    return np.asarray(
+        np.mean((apart / np.where(apart < 0, USUAL_BELOW, SPREAD_BETWEEN_PEOPLE))[:, FACE_MEASURES] ** 2, axis=1), float
+    )
 
 
 def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
     """By how much the target's measures (12,) are beyond what people at rest differ by: of a mouth that is open or smiles.
     Brows and lids differ between people by as much as an expression moves them, and narrow mouths are a matter of style: of
     these a target tells nothing, and is taken to be at rest."""
-    shown = (measure(np.asarray(target)[None])[0] - general_rest()) / USUAL
+    shown = (measure(np.asarray(target)[None])[0] - general_rest()) / SPREAD_BETWEEN_PEOPLE
     worn = np.zeros(len(MEASURES))
-    worn[MOUTH] = np.maximum(shown[MOUTH] - 1, 0)
-    return np.asarray(np.where(worn > WORN_EXPRESSION, worn, 0) * USUAL, float)
+    worn[MOUTH_MEASURES] = np.maximum(shown[MOUTH_MEASURES] - 1, 0)
+    return np.asarray(np.where(worn > WORN_EXPRESSION, worn, 0) * SPREAD_BETWEEN_PEOPLE, float)
 
 
 def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(N,) mean square difference of measures (N, 12) from those `wanted` (12,), in `SPREAD`, the head's turn left out."""
-    return np.asarray((((values - wanted) / SPREAD)[:, FACE] ** 2).mean(axis=1), float)
+    """(N,) mean square difference of measures (N, 12) from those `wanted` (12,), in `REST_SPREAD`, the head's turn left out."""
+    return np.asarray((((values - wanted) / REST_SPREAD)[:, FACE_MEASURES] ** 2).mean(axis=1), float)
 
 
 def _torn(

@@ -18,17 +18,17 @@ from engine.geometry.rigid import Similarity, fit_similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import fiducials
 
-SIGNIFICANT = 1.1
+SIGNIFICANT_RATIO = 1.1
 """Section 6: ratios above this or below its inverse are significant."""
-SEARCH = 10
+SEARCH_RADIUS_PIXELS = 10
 """Section 6: half the side of the 20x20 region searched, pixels at the crop's eye distance."""
-ROTATIONS = (-30.0, -15.0, 0.0, 15.0, 30.0)
+SEARCH_ROTATIONS_DEGREES = (-30.0, -15.0, 0.0, 15.0, 30.0)
 """Degrees; section 6 allows up to 30."""
-THRESHOLD = 5.0
+OUTLIER_THRESHOLD_GREY_LEVELS = 5.0
 """Section 6: a component whose mean best difference is below this, in grey levels, is an outlier."""
 OUTLIER_MARGIN = 20.0
 """Section 6: pixels closer than this to an outlier are set to one in every frame."""
-RAMP = 6.0
+RAMP_PIXELS = 6.0
 """Pixels over which that passes into what was there, so that no edge appears."""
 
 
@@ -47,7 +47,7 @@ class Outliers:
         x = a[0, 0] * origin[..., 0] + a[0, 1] * origin[..., 1] + b[0]
         y = a[1, 0] * origin[..., 0] + a[1, 1] * origin[..., 1] + b[1]
         far = cv2.remap(self.distance, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=1e3)
-        return np.clip((far - OUTLIER_MARGIN + RAMP) / RAMP, 0, 1)
+        return np.clip((far - OUTLIER_MARGIN + RAMP_PIXELS) / RAMP_PIXELS, 0, 1)
 
 
 def find_outliers(
@@ -59,12 +59,12 @@ def find_outliers(
     ----------
     ratio : the reference's, on the neutral crop. origin : (H, W, 2) its pixels' places in the reference crop.
     """
-    significant = ((ratio > SIGNIFICANT) | (ratio < 1 / SIGNIFICANT)).astype(np.uint8)
+    significant = ((ratio > SIGNIFICANT_RATIO) | (ratio < 1 / SIGNIFICANT_RATIO)).astype(np.uint8)
     count, labels = cv2.connectedComponents(significant, connectivity=8)
     best = match_differences(track.crop(reference), track.crop(neutral), origin, significant)
     sizes = np.bincount(labels.ravel(), minlength=count)
     mean = np.bincount(labels.ravel(), best.ravel(), count) / np.maximum(sizes, 1)
-    outlier = mean < THRESHOLD
+    outlier = mean < OUTLIER_THRESHOLD_GREY_LEVELS
     outlier[0] = False
     chosen = outlier[labels]
     footprint = np.ones(ratio.shape, np.uint8)
@@ -83,10 +83,10 @@ def match_differences(
     """For each pixel of the neutral crop in `where`: how well the 3x3 patch at its place in `frame` is found in
     the neutral crop around it, as the least, over shifts and rotations, of the largest RGB difference."""
     offsets = []
-    for degrees in ROTATIONS:
+    for degrees in SEARCH_ROTATIONS_DEGREES:
         c, s = np.cos(np.deg2rad(degrees)), np.sin(np.deg2rad(degrees))
         offsets.append([(c * x - s * y, s * x + c * y) for y in (-1, 0, 1) for x in (-1, 0, 1)])
-    return _match(frame, neutral, origin, where, np.array(offsets, np.float32), SEARCH)
+    return _match(frame, neutral, origin, where, np.array(offsets, np.float32), SEARCH_RADIUS_PIXELS)
 
 
 @njit(parallel=True, fastmath=True)

@@ -21,7 +21,7 @@ from engine.face_animation.teeth import TEETH_SHOW_FROM
 from engine.face_animation.unseen_blinks import eye_contrast, shut_by_contrast
 from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import (
     FACE_OVAL,
@@ -37,17 +37,17 @@ from engine.perception.temporal_filter import steady
 
 CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
-SMOOTHING = 4.0
+SMOOTHING_PIXELS = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
-BELIEVED, LARGEST = 9.0, 12.0
+TRUSTED_RESIDUAL_PIXELS, MAX_RESIDUAL_PIXELS = 9.0, 12.0
 """Pixels of the crop up to which the measured rest is believed, and from which on it is a residuals of the flow. On
 cheeks that a mouth stretches or lifts, tracker and skin part by up to 11 in 99 of 100 places."""
-EASED = 3.0
+TRUST_SMOOTHING_FRAMES = 3.0
 """Frames over which belief comes and goes (width of a Gaussian): a rest that noise takes past the limit and back would make
 the skin jump."""
-LIGHT = 20.0
+LIGHT_SMOOTHING_PIXELS = 20.0
 """Pixels over which the light of the two frames is made equal first."""
-RIM = 0.35
+CONTOUR_FADE_EYE_DISTANCES = 0.35
 """Within this distance of the face's contour, in eye distances, the flow fades out."""
 AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
 """Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
@@ -84,18 +84,18 @@ def register_track(
         if not hasattr(own, "flow"):
             own.flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_FAST)
         face = track.in_crop(frame)
-        origin = inverse_map(rest, face[:468], triangles, CROP)
+        origin = inverse_map(rest, face[:468], triangles, CROP_SHAPE)
         grey = _grey(track.crop(frame))
         moved = cv2.remap(grey, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         moved = np.clip(moved * (light / _wide(np.asarray(moved))), 0, 255)
         aligned = np.where(origin[..., 0] > -1000, moved, reference).astype(np.uint8)
         half = cv2.resize(own.flow.calc(reference, aligned, None), None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-        even = cv2.GaussianBlur(half, (0, 0), SMOOTHING / 2)
+        even = cv2.GaussianBlur(half, (0, 0), SMOOTHING_PIXELS / 2)
         at = cv2.remap(even, rest[None] / 2 - np.float32(0.25), None, cv2.INTER_LINEAR)[0]  # type: ignore[call-overload]
         size = np.linalg.norm(at, axis=1)
-        at *= np.minimum(1, LARGEST / np.maximum(size, 1e-6))[:, None]
+        at *= np.minimum(1, MAX_RESIDUAL_PIXELS / np.maximum(size, 1e-6))[:, None]
         offset = np.asarray(at @ np.linalg.inv(track.crop_places[frame][:, :2]).T, np.float32)
-        belief = np.clip((LARGEST - size) / (LARGEST - BELIEVED), 0, 1)
+        belief = np.clip((MAX_RESIDUAL_PIXELS - size) / (MAX_RESIDUAL_PIXELS - TRUSTED_RESIDUAL_PIXELS), 0, 1)
         return offset, np.asarray(belief, np.float32), eye_contrast(grey, face, rest)
 
     left, belief = (
@@ -117,8 +117,10 @@ def register_track(
 
 def _eased(belief: NDArray[np.float32]) -> NDArray[np.float32]:
     """Averaged over frames: (N, V)."""
-    reach = 2 * round(4 * EASED) + 1
-    return np.asarray(cv2.GaussianBlur(belief, (1, reach), sigmaX=1, sigmaY=EASED, borderType=cv2.BORDER_REPLICATE))
+    reach = 2 * round(4 * TRUST_SMOOTHING_FRAMES) + 1
+    return np.asarray(
+        cv2.GaussianBlur(belief, (1, reach), sigmaX=1, sigmaY=TRUST_SMOOTHING_FRAMES, borderType=cv2.BORDER_REPLICATE)
+    )
 
 
 def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -126,7 +128,7 @@ def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
     lies behind the face, nor beside an open mouth."""
     oval = rest[list(FACE_OVAL)]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
-    t = np.clip(inside / (RIM * CROP_EYE_DISTANCE), 0, 1)
+    t = np.clip(inside / (CONTOUR_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE), 0, 1)
     weight = t * t * (3 - 2 * t)
     if float(mouth_opening(rest)) > TEETH_SHOW_FROM:
         lips = rest[list(LIPS_OUTER)]
@@ -142,5 +144,5 @@ def _grey(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 def _wide(grey: NDArray) -> NDArray[np.float32]:
     small = cv2.resize(grey, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA).astype(np.float32)
-    blurred = cv2.GaussianBlur(small, (0, 0), LIGHT / 8) + 5
+    blurred = cv2.GaussianBlur(small, (0, 0), LIGHT_SMOOTHING_PIXELS / 8) + 5
     return np.asarray(cv2.resize(blurred, grey.shape[::-1], interpolation=cv2.INTER_LINEAR), np.float32)

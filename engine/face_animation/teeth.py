@@ -13,13 +13,19 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.hidden_regions import LOWER, UPPER, box_around, mouth_triangles, soft_polygon
+from engine.face_animation.hidden_regions import (
+    LOWER_INNER_LIP,
+    UPPER_INNER_LIP,
+    box_around,
+    mouth_triangles,
+    soft_polygon,
+)
 from engine.imaging.mesh_warp import inverse_map
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID, mouth_opening
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, mouth_opening
 
 TEETH_SHOW_FROM = 0.08
 """Opening of a mouth, its gap over its width, from which it shows teeth."""
-CLOSING = (0.2, 0.6)
+CLOSING_GAP_SHARES = (0.2, 0.6)
 """Shares of its gap at rest: a mouth that is closed to the second begins to press its inside together, teeth with the shadow
 of the lips on them, up to the first; a strip of bare teeth would shine between its lips."""
 
@@ -56,7 +62,7 @@ def draw_teeth(frame: NDArray[np.uint8], teeth: Teeth, mesh: NDArray[np.floating
 def behind_lips(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
     """(40, 2) spots of the picture, with its face at `rest` (478, 2), for the outer and inner lips of a face at `mesh`
     (478, 2): their own for the outer ones, for the inner ones what lies behind them."""
-    right = (rest[UPPER[-1]] - rest[UPPER[0]]).astype(float)
+    right = (rest[UPPER_INNER_LIP[-1]] - rest[UPPER_INNER_LIP[0]]).astype(float)
     axes = np.stack([right, (-right[1], right[0])]) / np.linalg.norm(right)  # to the right, and down
     seen, now = rest @ axes.T, mesh @ np.linalg.inv(_turn(rest, mesh)) @ axes.T
     along, middle, gap = _opening(seen)
@@ -67,7 +73,7 @@ def behind_lips(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArr
     half = np.minimum(now_gap, np.interp(at, along, gap)) / 2
     centre = np.interp(at, along, middle)
     behind = rest.astype(float)
-    for lip, down in ((UPPER, centre - half), (LOWER, centre + half)):
+    for lip, down in ((UPPER_INNER_LIP, centre - half), (LOWER_INNER_LIP, centre + half)):
         behind[list(lip)] = np.column_stack([moved + shrink * now[list(lip), 0], down]) @ axes
     return behind[list(LIPS_OUTER + LIPS_INNER)].astype(np.float32)
 
@@ -75,17 +81,17 @@ def behind_lips(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArr
 def _share(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> float:
     """How much teeth keep their shape between the lips of a face at `mesh` (478, 2), at `rest` (478, 2) fully."""
     ratio = float(np.linalg.norm(mesh[13] - mesh[14]) / np.linalg.norm(rest[13] - rest[14]))
-    return float(np.clip((ratio - CLOSING[0]) / (CLOSING[1] - CLOSING[0]), 0, 1))
+    return float(np.clip((ratio - CLOSING_GAP_SHARES[0]) / (CLOSING_GAP_SHARES[1] - CLOSING_GAP_SHARES[0]), 0, 1))
 
 
 def _opening(mesh: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating], NDArray[np.floating]]:
     """Of each pair of facing inner lips (11,), from corner to corner: where along the mouth they are, how far down their
     middle is, and the gap between them."""
-    upper, lower = mesh[list(UPPER)], mesh[list(LOWER)]
+    upper, lower = mesh[list(UPPER_INNER_LIP)], mesh[list(LOWER_INNER_LIP)]
     return (upper[:, 0] + lower[:, 0]) / 2, (upper[:, 1] + lower[:, 1]) / 2, lower[:, 1] - upper[:, 1]
 
 
 def _turn(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     """(2, 2) the linear map, to be multiplied from the right, that carries the head from `rest` (478, 2) to `mesh` (478, 2)."""
-    a, b = (face[list(RIGID)].astype(float) for face in (rest, mesh))
+    a, b = (face[list(RIGID_VERTICES)].astype(float) for face in (rest, mesh))
     return np.asarray(np.linalg.lstsq(a - a.mean(axis=0), b - b.mean(axis=0), rcond=None)[0])

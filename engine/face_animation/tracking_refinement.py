@@ -25,7 +25,7 @@ from engine.face_animation.landmark_residuals import LandmarkResiduals, fit_resi
 from engine.face_animation.layers import uncut
 from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
-from engine.perception.face_track.face_crop import CROP, crop_place
+from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import MESH_SIZE
@@ -89,7 +89,7 @@ def refine_tracking(
         drawn = animation.draw(motions[k], ratios.ratio(frames[k]), window)[..., :3]
         place = places[k].copy()
         place[:, 2] += place[:, :2] @ (window.left, window.top)
-        crop = cv2.warpAffine(drawn, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        crop = cv2.warpAffine(drawn, place, CROP_SHAPE[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return np.asarray(crop, np.uint8)
 
     meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
@@ -102,7 +102,7 @@ def refine_tracking(
 
 def _seen_by(place: NDArray[np.float64], shape: tuple[int, int]) -> Window:
     """The part of a picture of this shape that `place` (2, 3) carries into the crop."""
-    corners = np.array([(x, y) for x in (0, CROP[1]) for y in (0, CROP[0])]) - place[:, 2]
+    corners = np.array([(x, y) for x in (0, CROP_SHAPE[1]) for y in (0, CROP_SHAPE[0])]) - place[:, 2]
     there = corners @ np.linalg.inv(place[:, :2]).T
     low = np.clip(np.floor(there.min(axis=0)) - 1, 0, np.array(shape[::-1]) - 1)
     high = np.clip(np.ceil(there.max(axis=0)) + 2, low + 1, shape[::-1])

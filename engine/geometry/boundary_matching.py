@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-KAPPA = 32
+MAX_ADVANCE_POINTS = 32
 """By how many points the match may advance from one point to the next (the paper's value)."""
 
 
 def match_boundaries(
-    outline: NDArray[np.floating], reference: NDArray[np.floating], kappa: int = KAPPA
+    outline: NDArray[np.floating], reference: NDArray[np.floating], kappa: int = MAX_ADVANCE_POINTS
 ) -> NDArray[np.intp]:
     """The index in `reference` (n, 2) that each point of `outline` (m, 2) belongs to: (m,).
 
@@ -41,7 +41,9 @@ def match_boundaries(
     return matched
 
 
-def match_curves(curve: NDArray[np.floating], reference: NDArray[np.floating], kappa: int = KAPPA) -> NDArray[np.intp]:
+def match_curves(
+    curve: NDArray[np.floating], reference: NDArray[np.floating], kappa: int = MAX_ADVANCE_POINTS
+) -> NDArray[np.intp]:
     """The same for two open curves whose ends belong together: (m,) indices, the first 0, the last n - 1."""
     points = np.ascontiguousarray(curve, np.float64)
     partners = np.ascontiguousarray(reference, np.float64)

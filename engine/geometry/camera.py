@@ -24,9 +24,9 @@ Axes = tuple[tuple[float, ...], ...]
 UPRIGHT: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 TO_VISION = np.diag([1.0, -1.0, -1.0])
 """From x right, y up, z backwards to x right, y down, z forwards, and back."""
-COEFFICIENTS = 5
+DISTORTION_COEFFICIENTS = 5
 """Of a lens: k1, k2, p1, p2, k3."""
-NEWTON_STEPS, CONVERGED = 50, 1e-12
+NEWTON_STEPS, CONVERGED_STEP = 50, 1e-12
 """Most steps in which distortion is undone, and the length of a step, on the plane at distance 1, at which it is."""
 
 
@@ -52,7 +52,7 @@ class Camera:
     aspect: float = 1.0
 
     def __post_init__(self) -> None:
-        if len(self.distortion) not in (0, COEFFICIENTS - 1, COEFFICIENTS):
+        if len(self.distortion) not in (0, DISTORTION_COEFFICIENTS - 1, DISTORTION_COEFFICIENTS):
             raise ValueError(f"a lens has no, 4 or 5 coefficients of distortion, not {len(self.distortion)}")
 
     @staticmethod
@@ -152,7 +152,9 @@ class Camera:
 
     def _coefficients(self) -> NDArray[np.float64]:
         """Of the lens, all five or none."""
-        return np.array([*self.distortion, *[0.0] * (COEFFICIENTS - len(self.distortion))] if self.distortion else [])
+        return np.array(
+            [*self.distortion, *[0.0] * (DISTORTION_COEFFICIENTS - len(self.distortion))] if self.distortion else []
+        )
 
     def _offsets(self, pixels: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """x and y (...,) in pixels from the principal point, as they would be without distortion."""
@@ -212,7 +214,7 @@ def _undistort(places: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
             off_x, off_y = places[n, 0] - at_x, places[n, 1] - at_y
             step_x, step_y = (yy * off_x - xy * off_y) / determinant, (xx * off_y - xy * off_x) / determinant
             x, y = x + step_x, y + step_y
-            if abs(step_x) + abs(step_y) < CONVERGED:
+            if abs(step_x) + abs(step_y) < CONVERGED_STEP:
                 if radial > 0 and determinant > 0:  # else it is a solution beyond where the lens folds back
                     found[n, 0], found[n, 1] = x, y
                 break

@@ -18,7 +18,7 @@ from engine.geometry.cotangent_laplacian import cotangent_edges, cotangent_lapla
 from engine.geometry.handles import Handles, HeldSystem, nearest_rotations
 from engine.geometry.surface import vertex_areas
 
-ITERATIONS = 100
+MAX_ROUNDS = 100
 """Most rounds of an as-rigid-as-possible deformation ..."""
 MIN_GAIN = 1e-5
 """... which ends when a round lessens the energy by less than this share."""
@@ -112,7 +112,7 @@ class AsRigidAsPossible:
         held_at: NDArray[np.floating] | None = None,
         drawn_to: NDArray[np.floating] | None = None,
         start: NDArray[np.floating] | None = None,
-        iterations: int = ITERATIONS,
+        iterations: int = MAX_ROUNDS,
     ) -> NDArray[np.float64]:
         """The vertices (V, 3) float64 for the targets of the handles: `held_at` (H, 3), `drawn_to` (S, 3).
 

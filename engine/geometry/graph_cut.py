@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
-STEPS = 1 << 22
+MAX_INTEGER_COST = 1 << 22
 """The largest cost of a graph in whole numbers: flows are computed in these."""
 
 
@@ -177,7 +177,7 @@ def _source_side(
     """(n,) who stays with the source in the least cut of a graph: a node that leaves it costs `take` (n,), which may be
     negative, and an edge of which q leaves and p stays costs `between` >= 0."""
     count = len(take)
-    scale = STEPS / max(float(np.abs(take).max(initial=0)), float(between.max(initial=0)), 1e-12)
+    scale = MAX_INTEGER_COST / max(float(np.abs(take).max(initial=0)), float(between.max(initial=0)), 1e-12)
     source, sink = count, count + 1
     nodes = np.arange(count)
     rows = np.concatenate([np.full(count, source), nodes, p])

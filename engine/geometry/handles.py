@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
-TWIST = 1e-12
+NO_ROTATION_WEIGHT = 1e-12
 """Towards no rotation at all, as a share of what the points say: decides what points on one line leave open."""
 
 
@@ -177,7 +177,7 @@ def nearest_rotations(spread: NDArray[np.float64]) -> NDArray[np.float64]:
     Source: W. Kabsch, A solution for the best rotation to relate two sets of vectors, Acta Crystallographica A32, 1976.
     """
     size = np.linalg.norm(spread, axis=(1, 2), keepdims=True)
-    steady = spread / np.where(size > 0, size, 1) + TWIST * np.eye(3)
+    steady = spread / np.where(size > 0, size, 1) + NO_ROTATION_WEIGHT * np.eye(3)
     left, _, right = np.linalg.svd(steady)
     left[:, :, 2] *= np.sign(np.linalg.det(left) * np.linalg.det(right))[:, None]
     return np.asarray(right.transpose(0, 2, 1) @ left.transpose(0, 2, 1))

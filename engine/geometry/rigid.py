@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-CONVEX = 2.0
+CONVEX_PENALTY_SCALE = 2.0
 """Squares of the largest residual, in those of `sigma`, with which the robust penalty begins: convex over all residuals."""
-SHARPENED = 1.4
+PENALTY_SHARPENING = 1.4
 """By what the penalty comes nearer to Geman and McClure's in each round (the paper's value)."""
 
 
@@ -130,14 +130,14 @@ def fit_robustly(
     weights = np.ones(len(source))
     transform = fit(source, destination, weights)
     squared = _squared(transform, source, destination)
-    convexity = max(CONVEX * float(squared.max()) / sigma**2, 1.0)
+    convexity = max(CONVEX_PENALTY_SCALE * float(squared.max()) / sigma**2, 1.0)
     while True:
         weights = (convexity / (squared / sigma**2 + convexity)) ** 2
         transform = fit(source, destination, weights)
         squared = _squared(transform, source, destination)
         if convexity == 1:
             return RobustFit(transform, weights)
-        convexity = max(convexity / SHARPENED, 1.0)
+        convexity = max(convexity / PENALTY_SHARPENING, 1.0)
 
 
 def _squared(

@@ -13,11 +13,11 @@ import xatlas
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-GAP = 16
+CHART_GAP_TEXELS = 16
 """Texels between charts, and about half as many around them: colours keep apart down to a quarter of the texture's size."""
-TIGHTER = 0.98
+PACKING_SCALE_STEP = 0.98
 """By how much smaller they are packed than would seem to fit."""
-TRIES = 8
+MAX_PACKINGS = 8
 """Times that charts are packed, smaller each time, until they fit."""
 
 
@@ -53,7 +53,7 @@ def laid_out(uv: NDArray[np.floating], corners: NDArray[np.integer]) -> TextureA
 
 
 def unfolded(
-    vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: int, gap: int = GAP
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: int, gap: int = CHART_GAP_TEXELS
 ) -> tuple[TextureAtlas, NDArray[np.int32]]:
     """Cut a surface into charts that are little distorted, and pack them on a square texture.
 
@@ -79,12 +79,12 @@ def unfolded(
     if not 0 <= corners.min() <= corners.max() < len(points):
         raise ValueError("a triangle has a corner that is not there")
     scale = 0.0  # texels to a unit; xatlas makes a first guess, and then as large a texture as that takes
-    for _ in range(TRIES):
+    for _ in range(MAX_PACKINGS):
         packer = _packed(points, corners, scale or None, size, gap)
         longest = max(packer.width, packer.height)
         if longest <= size:
             break
-        scale = packer.texels_per_unit * TIGHTER * size / longest
+        scale = packer.texels_per_unit * PACKING_SCALE_STEP * size / longest
     else:
         raise ValueError(f"the surface's charts do not fit {size} texels: take a larger texture, or a smaller gap")
     shown, faces, uv = packer[0]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-RAYS = 8
+SEARCH_DIRECTIONS = 8
 """Directions searched; neighbouring pixels use different sets of them, so that together they see more."""
 
 COLOUR_NOISE = 6.0
@@ -36,16 +36,16 @@ def alpha_from_colour_pairs(
 @njit(fastmath=True, nogil=True)
 def _search(rgb, trimap, reach, alpha_out, confidence_out):  # type: ignore[no-untyped-def]
     height, width = trimap.shape
-    front = np.empty((2 * RAYS, 4), np.float32)
-    back = np.empty((2 * RAYS, 4), np.float32)
+    front = np.empty((2 * SEARCH_DIRECTIONS, 4), np.float32)
+    back = np.empty((2 * SEARCH_DIRECTIONS, 4), np.float32)
     for y in range(height):
         for x in range(width):
             if trimap[y, x] <= 0 or trimap[y, x] >= 1:
                 continue
             fronts = backs = 0
             turn = ((x % 3) * 3 + y % 3) / 9.0
-            for ray in range(RAYS):
-                angle = 2 * np.pi * (ray + turn) / RAYS
+            for ray in range(SEARCH_DIRECTIONS):
+                angle = 2 * np.pi * (ray + turn) / SEARCH_DIRECTIONS
                 dx, dy = np.cos(angle), np.sin(angle)
                 has_front = has_back = False
                 steps = 1.0

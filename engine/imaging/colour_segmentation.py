@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
 
-GAUSSIANS = 5
+MIXTURE_GAUSSIANS = 5
 """Gaussians in a mixture: the K of GrabCut."""
-MIN_SAMPLES = 10 * GAUSSIANS
+MIN_SAMPLES = 10 * MIXTURE_GAUSSIANS
 """Pixels of which a mixture says something about their area."""
 MAX_SAMPLES = 1500
 """Pixels, evenly spread, from which a mixture is found."""
@@ -25,11 +25,11 @@ MIN_VARIANCE = 1.0
 """Levels squared that are added to each Gaussian's variances: one of a single colour has a density, too."""
 MIN_DENSITY = 1e-30
 """The probability density below which all colours are equally unlikely."""
-SMOOTHNESS = 8.0
+SMOOTHNESS_COST = 8.0
 """What it costs where the labels of two neighbours of one colour differ, beside negative logarithms of densities."""
 SEED_COST = 1e3
 """What it costs to give a seed another label: more than all its neighbours together."""
-FREE = -1
+UNSEEDED = -1
 """The seed of a pixel that has none."""
 
 
@@ -53,12 +53,12 @@ class ColourMixture:
         Raises ValueError if there are fewer than `MIN_SAMPLES`.
         """
         if len(colours) < MIN_SAMPLES:
-            raise ValueError(f"{len(colours)} colours are too few for a mixture of {GAUSSIANS}")
+            raise ValueError(f"{len(colours)} colours are too few for a mixture of {MIXTURE_GAUSSIANS}")
         some = np.ascontiguousarray(colours[:: max(1, len(colours) // MAX_SAMPLES)], np.float32)
         criteria = (cv2.TERM_CRITERIA_COUNT, 10, 0.0)
         cv2.setRNGSeed(1)
-        _, cluster, _ = cv2.kmeans(some, GAUSSIANS, np.empty(0, np.int32), criteria, 1, cv2.KMEANS_PP_CENTERS)
-        clusters = [some[cluster.ravel() == k].astype(np.float64) for k in range(GAUSSIANS)]
+        _, cluster, _ = cv2.kmeans(some, MIXTURE_GAUSSIANS, np.empty(0, np.int32), criteria, 1, cv2.KMEANS_PP_CENTERS)
+        clusters = [some[cluster.ravel() == k].astype(np.float64) for k in range(MIXTURE_GAUSSIANS)]
         clusters = [own for own in clusters if len(own) > 3]  # fewer have no volume
         return cls(
             np.array([len(own) / len(some) for own in clusters]),
@@ -131,7 +131,7 @@ class ContrastGraph:
         pixels = image[area]
         difference = ((pixels[edges[:, 0]] - pixels[edges[:, 1]]) ** 2).sum(1)
         beta = 1 / (2 * max(float(difference.mean()), 1.0))
-        return cls(edges, SMOOTHNESS * np.exp(-beta * difference) / lengths)
+        return cls(edges, SMOOTHNESS_COST * np.exp(-beta * difference) / lengths)
 
     def cut(
         self, costs: NDArray[np.floating], labels: NDArray[np.integer], seeds: NDArray[np.integer] | None = None
@@ -140,12 +140,12 @@ class ContrastGraph:
 
         costs : (N, L) of each label at each pixel.
         labels : (N,) to begin with.
-        seeds : (N,), the label that a pixel must have, `FREE` where it is sought. That of a pixel whose label is none of the L
+        seeds : (N,), the label that a pixel must have, `UNSEEDED` where it is sought. That of a pixel whose label is none of the L
             is L: it has no say.
         """
         if seeds is not None:
             another = seeds[:, None] != np.arange(costs.shape[1])
-            costs = np.where(seeds[:, None] == FREE, costs, SEED_COST * another)
+            costs = np.where(seeds[:, None] == UNSEEDED, costs, SEED_COST * another)
         return alpha_expansion(costs, self.edges, self.weights, labels)
 
 

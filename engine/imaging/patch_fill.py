@@ -18,7 +18,7 @@ from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
 from engine.imaging.mask_distance import grown
 from engine.imaging.nearest import nearest_in
-from engine.imaging.patchmatch import SIDE, PatchField, colour_planes, valid_centres
+from engine.imaging.patchmatch import PATCH_SIDE, PatchField, colour_planes, valid_centres
 from engine.imaging.poisson import membrane
 from engine.imaging.resample import resized
 from engine.imaging.seams import heal_seams
@@ -68,7 +68,7 @@ def _fill(
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
-        filled = coarsest.hole & grown(coarsest.wanted, SIDE)
+        filled = coarsest.hole & grown(coarsest.wanted, PATCH_SIDE)
         guess = exemplar_fill(guess, filled, sources, ~coarsest.hole)
     field: PatchField | None = None
     for level in reversed(levels):
@@ -141,5 +141,5 @@ def _refine(
 
 def _centres_over(active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Centres of the patches that touch an active pixel and lie inside the picture."""
-    touched = cv2.dilate(active.astype(np.uint8), np.ones((SIDE, SIDE), np.uint8)) > 0
+    touched = cv2.dilate(active.astype(np.uint8), np.ones((PATCH_SIDE, PATCH_SIDE), np.uint8)) > 0
     return touched & valid_centres(np.ones_like(active))

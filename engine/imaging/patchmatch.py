@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-RADIUS = 3
+PATCH_RADIUS = 3
 """Pixels from a patch's centre to its border."""
-SIDE = 2 * RADIUS + 1
+PATCH_SIDE = 2 * PATCH_RADIUS + 1
 """Pixels of a patch's side."""
 
 MAX_SHIFT = 24.0
@@ -59,12 +59,12 @@ def _allowed_shift(mean):  # type: ignore[no-untyped-def]
 def take_target(planes, weight, y, x, target):  # type: ignore[no-untyped-def]
     """Copy the patch at (y, x) into `target` (4, 7, 8): colours and weights. Returns the sum of the weights."""
     mass = np.float32(0)
-    for dy in range(SIDE):
-        for dx in range(SIDE):
-            target[0, dy, dx] = planes[0, y + dy - RADIUS, x + dx - RADIUS]
-            target[1, dy, dx] = planes[1, y + dy - RADIUS, x + dx - RADIUS]
-            target[2, dy, dx] = planes[2, y + dy - RADIUS, x + dx - RADIUS]
-            target[3, dy, dx] = weight[y + dy - RADIUS, x + dx - RADIUS]
+    for dy in range(PATCH_SIDE):
+        for dx in range(PATCH_SIDE):
+            target[0, dy, dx] = planes[0, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
+            target[1, dy, dx] = planes[1, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
+            target[2, dy, dx] = planes[2, y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
+            target[3, dy, dx] = weight[y + dy - PATCH_RADIUS, x + dx - PATCH_RADIUS]
             mass += target[3, dy, dx]
     return max(mass, np.float32(1e-6))
 
@@ -75,8 +75,8 @@ def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def
     (sy, sx) (grey levels squared)."""
     total = s0 = s1 = s2 = np.float32(0)
     # unsigned indices need no wrap-around, without which the inner loop becomes vector instructions
-    oy, ox = np.uintp(sy - RADIUS), np.uintp(sx - RADIUS)
-    for dy in range(np.uintp(SIDE)):
+    oy, ox = np.uintp(sy - PATCH_RADIUS), np.uintp(sx - PATCH_RADIUS)
+    for dy in range(np.uintp(PATCH_SIDE)):
         for dx in range(np.uintp(8)):
             w = target[3, dy, dx]
             d0 = target[0, dy, dx] - planes[0, oy + dy, ox + dx]
@@ -97,12 +97,12 @@ def patch_distance(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def
 def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
     """The colour (3 numbers) to add to the patch at (sy, sx) so that it fits the taken one."""
     s0 = s1 = s2 = np.float32(0)
-    for dy in range(SIDE):
-        for dx in range(SIDE):
+    for dy in range(PATCH_SIDE):
+        for dx in range(PATCH_SIDE):
             w = target[3, dy, dx]
-            s0 += w * (target[0, dy, dx] - planes[0, sy + dy - RADIUS, sx + dx - RADIUS])
-            s1 += w * (target[1, dy, dx] - planes[1, sy + dy - RADIUS, sx + dx - RADIUS])
-            s2 += w * (target[2, dy, dx] - planes[2, sy + dy - RADIUS, sx + dx - RADIUS])
+            s0 += w * (target[0, dy, dx] - planes[0, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
+            s1 += w * (target[1, dy, dx] - planes[1, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
+            s2 += w * (target[2, dy, dx] - planes[2, sy + dy - PATCH_RADIUS, sx + dx - PATCH_RADIUS])
     share = np.float32(1 - SHIFT_COST)
     return _allowed_shift(s0 / mass) * share, _allowed_shift(s1 / mass) * share, _allowed_shift(s2 / mass) * share
 
@@ -111,7 +111,7 @@ def patch_shift(planes, target, mass, sy, sx):  # type: ignore[no-untyped-def]
 def _match_band(planes, weight, targets, sources, field, cost, sweeps, random_tries, seed, top, bottom):  # type: ignore[no-untyped-def]
     height, width = cost.shape
     state = np.uint32((seed + top) * 2654435761 + 12345)
-    target = np.zeros((4, SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
     for sweep in range(sweeps):
         step = 1 if sweep % 2 == 0 else -1
         for row in range(bottom - top):
@@ -214,7 +214,7 @@ class PatchField:
 @njit(fastmath=True, nogil=True)
 def _weigh_band(planes, weight, targets, field, cost, sharpness, shift, trust, top, bottom):  # type: ignore[no-untyped-def]
     """Each patch's colour `shift` and its `trust`."""
-    target = np.zeros((4, SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
     for y in range(top, bottom):
         for x in range(cost.shape[1]):
             if targets[y, x]:
@@ -235,13 +235,13 @@ def _vote_band(planes, hole, field, sharpness, shift, trust, result, top, bottom
                 continue
             best = np.float32(0)
             if sharpness == 0:
-                for cy in range(max(0, y - RADIUS), min(height, y + RADIUS + 1)):
-                    for cx in range(max(0, x - RADIUS), min(width, x + RADIUS + 1)):
+                for cy in range(max(0, y - PATCH_RADIUS), min(height, y + PATCH_RADIUS + 1)):
+                    for cx in range(max(0, x - PATCH_RADIUS), min(width, x + PATCH_RADIUS + 1)):
                         best = max(best, trust[cy, cx])
             mass = np.float32(0)
             s0 = s1 = s2 = np.float32(0)
-            for cy in range(max(0, y - RADIUS), min(height, y + RADIUS + 1)):
-                for cx in range(max(0, x - RADIUS), min(width, x + RADIUS + 1)):
+            for cy in range(max(0, y - PATCH_RADIUS), min(height, y + PATCH_RADIUS + 1)):
+                for cx in range(max(0, x - PATCH_RADIUS), min(width, x + PATCH_RADIUS + 1)):
                     w = trust[cy, cx]
                     if w == 0:
                         continue
@@ -276,5 +276,7 @@ def _side_by_side(function: Callable[..., None], given: tuple[Any, ...], cuts: l
 def valid_centres(usable: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Where a whole patch lies inside `usable` (H, W) and inside the picture."""
     padded = np.pad(usable.astype(np.uint8), 1)
-    eroded = cv2.erode(padded, np.ones((SIDE, SIDE), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    eroded = cv2.erode(
+        padded, np.ones((PATCH_SIDE, PATCH_SIDE), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0
+    )
     return np.asarray(eroded[1:-1, 1:-1] > 0)

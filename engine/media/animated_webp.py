@@ -12,8 +12,8 @@ from PIL import Image
 
 from engine.media.demux import Header, Timetable, unreadable
 
-_SHORTEST = 0.011  # seconds; browsers show frames that claim less for a tenth of a second
-_USUAL = 0.1
+_MIN_FRAME_SECONDS = 0.011  # seconds; browsers show frames that claim less for a tenth of a second
+_USUAL_FRAME_SECONDS = 0.1
 
 
 def read_chunks(path: Path) -> tuple[Header, Timetable]:
@@ -33,7 +33,7 @@ def read_chunks(path: Path) -> tuple[Header, Timetable]:
                 size = 1 + int.from_bytes(body[4:7], "little"), 1 + int.from_bytes(body[7:10], "little")
             elif head[:4] == b"ANMF" and len(body) == 16:
                 seconds = int.from_bytes(body[12:15], "little") / 1000
-                lengths.append(seconds if seconds >= _SHORTEST else _USUAL)
+                lengths.append(seconds if seconds >= _MIN_FRAME_SECONDS else _USUAL_FRAME_SECONDS)
             file.seek(length - len(body) + length % 2, 1)
         cut = file.seek(0, 2) < total
     if size is None or not lengths:

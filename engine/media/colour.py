@@ -7,14 +7,14 @@ from av.video.frame import VideoFrame
 from av.video.reformatter import Interpolation, VideoReformatter
 
 from engine.media.tone_mapping import Primaries, ToneMap, Transfer, tone_map
-from engine.media.ycbcr import BT601, BT709, BT2020, FULL, LIMITED, MATRICES, Coding, rgb_from_frame
+from engine.media.ycbcr import BT601, BT709, BT2020, FULL_RANGE, LIMITED_RANGE, MATRICES, Coding, rgb_from_frame
 
 # FFmpeg's numbers (AVCOL_TRC_*, AVCOL_PRI_*; ITU-T H.273, tables 3 and 2). All others are near enough to BT.709.
 _TRANSFERS: dict[int, Transfer] = {16: "pq", 18: "hlg"}
 _PRIMARIES: dict[int, Primaries] = {9: "bt2020", 11: "p3", 12: "p3"}
 # swscale's numbers of the matrices (SWS_CS_*).
-_SWSCALE = {1: 1, 4: 4, 5: 5, 6: 5, 7: 7, 9: 9, 10: 9}
-_ACCURATE = Interpolation.BICUBIC | Interpolation.ACCURATE_RND | Interpolation.FULL_CHR_H_INT
+_SWSCALE_SPACES = {1: 1, 4: 4, 5: 5, 6: 5, 7: 7, 9: 9, 10: 9}
+_ACCURATE_SCALING = Interpolation.BICUBIC | Interpolation.ACCURATE_RND | Interpolation.FULL_CHR_H_INT
 
 
 class SrgbConverter:
@@ -37,7 +37,7 @@ class SrgbConverter:
         if frame.format.name in ("yuv420p", "yuvj420p") and all(plane.line_size > 0 for plane in frame.planes):
             coding = coding_of(frame)
             if (frame.width, frame.height) != self._size:
-                frame = self._scaler.reformat(frame, *self._size, interpolation=_ACCURATE)
+                frame = self._scaler.reformat(frame, *self._size, interpolation=_ACCURATE_SCALING)
             return rgb_from_frame(frame, coding)
         return self._reformat(frame, "rgb24")
 
@@ -47,10 +47,10 @@ class SrgbConverter:
             frame,
             *self._size,
             format=layout,
-            src_colorspace=_SWSCALE[coding.matrix],
+            src_colorspace=_SWSCALE_SPACES[coding.matrix],
             src_color_range=coding.range,
-            dst_color_range=FULL,
-            interpolation=_ACCURATE,
+            dst_color_range=FULL_RANGE,
+            interpolation=_ACCURATE_SCALING,
         )
         return converted.to_ndarray()
 
@@ -69,8 +69,8 @@ def coding_of(frame: VideoFrame) -> Coding:
         matrix = BT2020
     else:
         matrix = BT709 if frame.height > 576 or frame.width >= 1280 else BT601
-    full = frame.color_range == FULL or frame.format.name.startswith("yuvj")
-    return Coding(matrix, FULL if full else LIMITED)
+    full = frame.color_range == FULL_RANGE or frame.format.name.startswith("yuvj")
+    return Coding(matrix, FULL_RANGE if full else LIMITED_RANGE)
 
 
 def _primaries_of(frame: VideoFrame) -> Primaries:

@@ -27,13 +27,13 @@ from engine.media.video import Warn, report_damage
 
 MOVEMENT_SIGMA = 2.0
 """Frames: the Gaussian by which the movement is smoothed (the paper's value)."""
-NEIGHBOURHOOD = 5
+NEIGHBOURHOOD_FRAMES = 5
 """Frames among which the sharpest is taken, the selected one in their middle (the paper's k)."""
 FLOW_SIDE = 320
 """Pixels of the longer side at which optical flow is computed: 10 ms a frame."""
 FLOW_STEP = 2
 """Frames from one flow to the next: half of the flows say as much, since they are smoothed over more than that."""
-FARNEBACK = {
+FARNEBACK_PARAMETERS = {
     "pyr_scale": 0.5,
     "levels": 3,
     "winsize": 15,
@@ -109,9 +109,9 @@ def equal_movement(movement: NDArray[np.floating], count: int) -> NDArray[np.int
 
 
 def neighbourhoods(selected: Sequence[int] | NDArray[np.int64], frames: int) -> list[range]:
-    """The frames among which each of the `selected` looks for the sharpest: `NEIGHBOURHOOD` around it, of a video of so
+    """The frames among which each of the `selected` looks for the sharpest: `NEIGHBOURHOOD_FRAMES` around it, of a video of so
     many `frames`. None is in two of them."""
-    reach = NEIGHBOURHOOD // 2
+    reach = NEIGHBOURHOOD_FRAMES // 2
     middles = [(int(a) + int(b) + 1) // 2 for a, b in pairwise(selected)]
     starts, ends = [0, *middles], [*middles, frames]
     return [
@@ -139,7 +139,7 @@ def read_selected(
     clip = open_clip(path, limits or Limits())
     damage = Damage()
     converter, grey = SrgbConverter(clip.size), _Grey(clip.size)
-    around = neighbourhoods(selected, int(selected[-1]) + NEIGHBOURHOOD)
+    around = neighbourhoods(selected, int(selected[-1]) + NEIGHBOURHOOD_FRAMES)
     best: tuple[float, int, float, VideoFrame] | None = None
     current = 0
     for index, (time, frame) in enumerate(clip.frames(None, 0.0, damage)):
@@ -180,5 +180,5 @@ class _Grey:
 
 def _mean_flow(before: NDArray[np.uint8], now: NDArray[np.uint8]) -> float:
     """The mean length of the flow between two grey pictures, pixels."""
-    flow = cv2.calcOpticalFlowFarneback(before, now, None, **FARNEBACK)  # type: ignore[call-overload]
+    flow = cv2.calcOpticalFlowFarneback(before, now, None, **FARNEBACK_PARAMETERS)  # type: ignore[call-overload]
     return float(np.linalg.norm(flow, axis=2).mean())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-_HEAD = 4096
+_HEAD_BYTES = 4096
 
 # Brands of ISO base media files (the four letters after `ftyp`) that are pictures; other brands are movies.
 _HEIF_BRANDS = {b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"mif1", b"msf1", b"mif2"}
@@ -38,7 +38,7 @@ def sniff(path: Path) -> str | None:
     animation is `image/apng`. A known type says nothing of whether the rest of the file is whole.
     """
     with path.open("rb") as file:
-        return sniff_bytes(file.read(_HEAD))
+        return sniff_bytes(file.read(_HEAD_BYTES))
 
 
 def is_still_webp(path: Path) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 Shown = TypeVar("Shown")
 
 _USUAL_RATES = (5, 6, 8, 10, 12, 15, 20, 24, 25, 30, 48, 50, 60)
-_JITTER = 0.35
+_MAX_JITTER_FRAMES = 0.35
 """Of a frame: timestamps this near to an even grid are a constant rate. Files round them to milliseconds (Matroska) or
 hundredths (GIF), phones let them tremble a little; at half a frame the place on the grid would be ambiguous."""
 _SHORTEST_STEP = 1e-9
@@ -21,16 +21,16 @@ _SHORTEST_STEP = 1e-9
 SHORTEST_SPAN = 1e-3
 """Seconds for which a frame is on show at least; of those that are not, nobody sees anything."""
 
-_LOWEST = 1.0
+_MIN_FPS = 1.0
 """Frames a second: a slower clip is a row of stills, whose rate is made up."""
 
-_SPAN = 16
+_RATE_SPAN_FRAMES = 16
 """Frames: a changing rate is measured over so many at once (over a quarter of a clip that has few), in which the
 trembling of single timestamps is lost."""
-_FASTER = 0.1
+_MAX_FASTER_SHARE = 0.1
 """Share of a clip of changing rate that may be faster than the rate it is given."""
 
-_HOLES = 0.1
+_MAX_MISSING_SHARE = 0.1
 """Share of frames that may be missing on the grid (dropped by the camera, lost with a broken tail)."""
 
 
@@ -56,16 +56,20 @@ def rate_of(times: np.ndarray, stated: Iterable[float] = ()) -> Rate:
     count = len(times)
     slope = max(float(np.polyfit(np.arange(count), times, 1)[0]), _SHORTEST_STEP)
     whole = [float(round(1 / slope))] if abs(round(1 / slope) * slope - 1) < 5e-4 else []  # rounded timestamps
-    rates = [fps for fps in (*stated, *whole, 1 / slope) if fps >= _LOWEST]
+    rates = [fps for fps in (*stated, *whole, 1 / slope) if fps >= _MIN_FPS]
     for holes in (False, True):  # a rate at which none is missing comes first: headers may guess a quicker one
         for fps in rates:
             even = (times - times[0]) * fps
             places = np.round(even) if holes else np.arange(count)
             offsets = even - places
-            if np.ptp(offsets) / 2 < _JITTER and np.diff(places).min() >= 1 and places[-1] < count * (1 + _HOLES):
+            if (
+                np.ptp(offsets) / 2 < _MAX_JITTER_FRAMES
+                and np.diff(places).min() >= 1
+                and places[-1] < count * (1 + _MAX_MISSING_SHARE)
+            ):
                 return Rate(float(fps), float((offsets.max() + offsets.min()) / 2 / fps), True)
-    span = max(1, min(_SPAN, count // 4))
-    quick = span / max(float(np.quantile(times[span:] - times[:-span], _FASTER)), _SHORTEST_STEP)
+    span = max(1, min(_RATE_SPAN_FRAMES, count // 4))
+    quick = span / max(float(np.quantile(times[span:] - times[:-span], _MAX_FASTER_SHARE)), _SHORTEST_STEP)
     usual = next((rate for rate in _USUAL_RATES if rate >= 0.95 * quick), _USUAL_RATES[-1])
     return Rate(float(usual), 0.0, False)
 

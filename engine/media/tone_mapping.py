@@ -20,10 +20,10 @@ from engine.compiled import njit
 Transfer = Literal["hlg", "pq", "sdr"]
 Primaries = Literal["bt2020", "p3", "bt709"]
 
-WHITE = 203.0
+WHITE_NITS = 203.0
 """cd/m2 of diffuse white (BT.2408)."""
 
-PEAK = 1000.0
+PEAK_NITS = 1000.0
 """cd/m2 of the display that the picture was made for: BT.2100's reference for HLG, usual for PQ; more is clipped."""
 
 _CHROMATICITIES: dict[str, tuple[tuple[float, float], ...]] = {
@@ -31,8 +31,8 @@ _CHROMATICITIES: dict[str, tuple[tuple[float, float], ...]] = {
     "bt2020": ((0.708, 0.292), (0.170, 0.797), (0.131, 0.046)),
     "p3": ((0.680, 0.320), (0.265, 0.690), (0.150, 0.060)),  # SMPTE EG 432-1
 }
-_D65 = (0.3127, 0.3290)
-_STEPS = 16384  # of the tables over luminance and light, which are read at the fourth and square root
+_WHITE_POINT_D65 = (0.3127, 0.3290)
+_TABLE_STEPS = 16384  # of the tables over luminance and light, which are read at the fourth and square root
 
 
 @dataclass(frozen=True)
@@ -59,21 +59,21 @@ class ToneMap:
 def tone_map(transfer: Transfer, primaries: Primaries) -> ToneMap:
     """The conversion for pictures of this transfer and these primaries."""
     code = np.linspace(0, 1, 65536)
-    luminance = np.linspace(0, 1, _STEPS + 1) ** 4
+    luminance = np.linspace(0, 1, _TABLE_STEPS + 1) ** 4
     to_xyz = xyz_of(primaries)
     if transfer == "hlg":
         light = hlg_scene_light(code)
         # BT.2100's OOTF: the display gives PEAK * Y^0.2 times the scene's light, so PEAK * Y^1.2 in luminance.
-        shown = PEAK * luminance**1.2
-        gain = roll_off(shown) / WHITE / np.maximum(luminance, luminance[1])
+        shown = PEAK_NITS * luminance**1.2
+        gain = roll_off(shown) / WHITE_NITS / np.maximum(luminance, luminance[1])
     elif transfer == "pq":
-        light = np.minimum(pq_light(code) / PEAK, 1)
-        gain = roll_off(PEAK * luminance) / WHITE / np.maximum(luminance, luminance[1])
+        light = np.minimum(pq_light(code) / PEAK_NITS, 1)
+        gain = roll_off(PEAK_NITS * luminance) / WHITE_NITS / np.maximum(luminance, luminance[1])
     else:
-        light, gain = srgb_light(code), np.ones(_STEPS + 1)
+        light, gain = srgb_light(code), np.ones(_TABLE_STEPS + 1)
     gain[0] = gain[1]
     matrix = np.linalg.inv(xyz_of("bt709")) @ to_xyz
-    curve = np.round(255 * srgb_code(np.linspace(0, 1, _STEPS + 1) ** 2)).astype(np.uint8)
+    curve = np.round(255 * srgb_code(np.linspace(0, 1, _TABLE_STEPS + 1) ** 2)).astype(np.uint8)
     light, luminance_weights, gain, matrix = (a.astype(np.float32) for a in (light, to_xyz[1], gain, matrix))
     return ToneMap(light, luminance_weights, gain, matrix, curve)
 
@@ -110,9 +110,9 @@ def hlg_scene_light(code: np.ndarray) -> np.ndarray:
 
 
 def roll_off(nits: np.ndarray) -> np.ndarray:
-    """cd/m2 for a display whose peak is `WHITE`, of cd/m2 for one whose peak is `PEAK` (BT.2390, section 5.4.1)."""
-    peak = pq_code(np.array(PEAK))
-    ceiling = float(pq_code(np.array(WHITE)) / peak)
+    """cd/m2 for a display whose peak is `WHITE_NITS`, of cd/m2 for one whose peak is `PEAK_NITS` (BT.2390, section 5.4.1)."""
+    peak = pq_code(np.array(PEAK_NITS))
+    ceiling = float(pq_code(np.array(WHITE_NITS)) / peak)
     knee = 1.5 * ceiling - 0.5
     code = np.minimum(pq_code(nits) / peak, 1)
     t = np.clip((code - knee) / (1 - knee), 0, 1)
@@ -123,7 +123,7 @@ def roll_off(nits: np.ndarray) -> np.ndarray:
 def xyz_of(primaries: Primaries) -> np.ndarray:
     """The (3, 3) matrix from linear RGB to CIE XYZ, white (D65) at luminance 1; its second row gives luminance."""
     columns = np.array([[x / y, 1, (1 - x - y) / y] for x, y in _CHROMATICITIES[primaries]]).T
-    x, y = _D65
+    x, y = _WHITE_POINT_D65
     return columns * np.linalg.solve(columns, [x / y, 1, (1 - x - y) / y])
 
 

@@ -17,7 +17,7 @@ from av.video.plane import VideoPlane
 from engine.compiled import njit
 
 # Shares of red and blue in the brightness, by FFmpeg's number of the matrix (AVCOL_SPC_*; ITU-T H.273, table 4).
-_SHARES = {
+_LUMA_SHARES = {
     1: (0.2126, 0.0722),  # BT.709
     4: (0.30, 0.11),  # FCC
     5: (0.299, 0.114),  # BT.601, 625 lines
@@ -26,12 +26,12 @@ _SHARES = {
     9: (0.2627, 0.0593),  # BT.2020, non-constant luminance
     10: (0.2627, 0.0593),
 }
-MATRICES = frozenset(_SHARES)
+MATRICES = frozenset(_LUMA_SHARES)
 BT709, BT601, BT2020 = 1, 6, 9
-LIMITED, FULL = 1, 2
+LIMITED_RANGE, FULL_RANGE = 1, 2
 """FFmpeg's numbers of the ranges (AVCOL_RANGE_*): 16..235 and 0..255."""
 
-_UNIT = 1 << 16  # fixed-point one; a sum of 8 samples of 8 bits with weights up to 2 stays within 31 bits
+_FIXED_POINT_ONE = 1 << 16  # fixed-point one; a sum of 8 samples of 8 bits with weights up to 2 stays within 31 bits
 
 
 @dataclass(frozen=True)
@@ -43,15 +43,15 @@ class Coding:
 
     def encode(self) -> np.ndarray:
         """The (3, 4) float64 matrix from RGB (0 to 255, and 1) to code values (Y, Cb, Cr)."""
-        red, blue = _SHARES[self.matrix]
+        red, blue = _LUMA_SHARES[self.matrix]
         brightness = np.array([red, 1 - red - blue, blue])
         rows = [
             brightness,
             (np.array([0, 0, 1]) - brightness) / (2 * (1 - blue)),
             (np.array([1, 0, 0]) - brightness) / (2 * (1 - red)),
         ]
-        spans = [255, 255, 255] if self.range == FULL else [219, 224, 224]
-        base = [0 if self.range == FULL else 16, 128, 128]
+        spans = [255, 255, 255] if self.range == FULL_RANGE else [219, 224, 224]
+        base = [0 if self.range == FULL_RANGE else 16, 128, 128]
         return np.column_stack([np.array(rows) * np.array(spans)[:, None] / 255, base])
 
     def decode(self) -> np.ndarray:
@@ -63,10 +63,10 @@ def rgb_from_frame(frame: VideoFrame, coding: Coding) -> np.ndarray:
     """The RGB uint8 (H, W, 3) of a 4:2:0 frame of 8 bits (`yuv420p`, `yuvj420p`), of any size."""
     brightness, blue, red = (_samples(plane) for plane in frame.planes[:3])
     inverse = coding.decode()
-    base = np.int32(0 if coding.range == FULL else 16)
+    base = np.int32(0 if coding.range == FULL_RANGE else 16)
     weights = np.array([inverse[0, 0], inverse[0, 2] / 8, -inverse[1, 1] / 8, -inverse[1, 2] / 8, inverse[2, 1] / 8])
     rgb = np.empty((frame.height, frame.width * 3), np.uint8)
-    _decode(brightness, blue, red, rgb, base, np.round(weights * _UNIT).astype(np.int32))
+    _decode(brightness, blue, red, rgb, base, np.round(weights * _FIXED_POINT_ONE).astype(np.int32))
     return rgb.reshape(frame.height, frame.width, 3)
 
 
@@ -78,14 +78,14 @@ def frame_from_rgb(rgb: np.ndarray, alpha: np.ndarray | None = None) -> VideoFra
     height, width = rgb.shape[:2]
     frame = av.VideoFrame(width, height, "yuv420p" if alpha is None else "yuva420p")
     brightness, blue, red = (_samples(plane) for plane in frame.planes[:3])
-    weights = np.round(Coding(BT709, LIMITED).encode() * _UNIT)
+    weights = np.round(Coding(BT709, LIMITED_RANGE).encode() * _FIXED_POINT_ONE)
     weights[1:, 3] *= 8
-    weights[:, 3] += [_UNIT / 2, _UNIT * 4, _UNIT * 4]
+    weights[:, 3] += [_FIXED_POINT_ONE / 2, _FIXED_POINT_ONE * 4, _FIXED_POINT_ONE * 4]
     _encode(np.ascontiguousarray(rgb).reshape(height, width * 3), brightness, blue, red, weights.astype(np.int32))
     if alpha is not None:
         _samples(frame.planes[3])[:] = np.round(alpha * np.float32(255))
     frame.colorspace = frame.color_primaries = frame.color_trc = BT709
-    frame.color_range = LIMITED
+    frame.color_range = LIMITED_RANGE
     return frame
 
 
@@ -104,7 +104,7 @@ def _decode(
     u, v = np.empty(columns + 1, np.int32), np.empty(columns + 1, np.int32)
     offsets = np.empty((3, 2 * columns), np.int32)
     channels = np.empty((3, width), np.uint8)
-    half, shift, low, high = np.int32(_UNIT // 2), np.int32(16), np.int32(0), np.int32(255)
+    half, shift, low, high = np.int32(_FIXED_POINT_ONE // 2), np.int32(16), np.int32(0), np.int32(255)
     for y in range(height):
         near = y // 2
         far = max(near - 1, 0) if y % 2 == 0 else min(near + 1, rows - 1)

@@ -30,8 +30,15 @@ from engine.motion.source_motion import (
 CHANNELS = {f"{axis}{kind}": (kind, axis) for kind in ("position", "rotation") for axis in "xyz"}
 """By their names in small letters: programs do not agree on which are large."""
 
-UNITS = {"metre": 1.0, "foot": 0.3048, "decimetre": 0.1, "CMU unit": 0.0254 / 0.45, "inch": 0.0254, "centimetre": 0.01}
-UNITS["millimetre"] = 0.001
+UNIT_METRES = {
+    "metre": 1.0,
+    "foot": 0.3048,
+    "decimetre": 0.1,
+    "CMU unit": 0.0254 / 0.45,
+    "inch": 0.0254,
+    "centimetre": 0.01,
+}
+UNIT_METRES["millimetre"] = 0.001
 
 MAX_HIERARCHY_CHARACTERS = 1 << 20
 """Characters: 512 joints need a tenth of it."""
@@ -39,7 +46,7 @@ MAX_HIERARCHY_CHARACTERS = 1 << 20
 MAX_MAGNITUDE = 1e7
 """No number of a BVH file is larger: ten kilometres in millimetres."""
 
-_MOTION = re.compile(
+_MOTION_HEADER = re.compile(
     r"^[^\S\n]*+(?:MOTION\s++)?+Frames[\s:]*+(\S++)\s++Frame\s*+Time[\s:]*+(\S++)[^\S\n]*+$",
     re.MULTILINE | re.IGNORECASE,
 )
@@ -57,7 +64,7 @@ def read_bvh(source: Path | bytes, name: str = "") -> SourceMotion:
         BVH does not know), `motion_too_large`, `motion_not_finite`.
     """
     text = _read_text(source)
-    found = _MOTION.search(text, 0, MAX_HIERARCHY_CHARACTERS)
+    found = _MOTION_HEADER.search(text, 0, MAX_HIERARCHY_CHARACTERS)
     if found is None:
         _refuse_text(text)
     assert found is not None
@@ -99,9 +106,9 @@ def guess_unit(parents: NDArray[np.integer], offsets: Array, ends: Array) -> tup
     height = _longest_way(parents, offsets, ends) / 1.3
     if height <= 0:
         return "unknown", float("nan")
-    unit = min(UNITS, key=lambda key: abs(np.log(height * UNITS[key] / 1.7)))
-    if 1.4 <= height * UNITS[unit] <= 2.1:
-        return unit, UNITS[unit]
+    unit = min(UNIT_METRES, key=lambda key: abs(np.log(height * UNIT_METRES[key] / 1.7)))
+    if 1.4 <= height * UNIT_METRES[unit] <= 2.1:
+        return unit, UNIT_METRES[unit]
     return "unknown", 1.7 / height
 
 
@@ -172,7 +179,7 @@ def _read_hierarchy(text: str) -> list[_Joint]:
     return joints
 
 
-_END = -1
+_BONE_END = -1
 """In the place of a joint's number: where a bone ends."""
 
 
@@ -186,20 +193,22 @@ def _list_joints(lines: list[list[str]], heads: list[str]) -> list[_Joint]:
         if (named is None) == (head == "{"):
             raise _broken()
         if head == "{":
-            open_.append(named if named is not None else _END)
+            open_.append(named if named is not None else _BONE_END)
             named = None
         elif head == "}" and inside is not None:
             open_.pop()
-        elif head in ("END", "ENDSITE") and inside not in (None, _END):
-            named = _END
-        elif head in ("ROOT", "JOINT") and (inside is None) == (head == "ROOT") and inside != _END and len(line) > 1:
+        elif head in ("END", "ENDSITE") and inside not in (None, _BONE_END):
+            named = _BONE_END
+        elif (
+            head in ("ROOT", "JOINT") and (inside is None) == (head == "ROOT") and inside != _BONE_END and len(line) > 1
+        ):
             named = len(joints)
             joints.append(_Joint("_".join(line[1:]), -1 if inside is None else inside))
-        elif head == "OFFSET" and inside == _END:
+        elif head == "OFFSET" and inside == _BONE_END:
             joints[open_[-2]].end = _offset(line)
         elif head == "OFFSET" and inside is not None:
             joints[inside].offset = _offset(line)
-        elif head == "CHANNELS" and inside not in (None, _END) and line[1:2] == [str(len(line) - 2)]:
+        elif head == "CHANNELS" and inside not in (None, _BONE_END) and line[1:2] == [str(len(line) - 2)]:
             joints[inside].channels = line[2:]
         elif head != "HIERARCHY" or joints:
             raise _broken()

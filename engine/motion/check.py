@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from engine.errors import InputError
 from engine.motion.beginning import beginning, duration
-from engine.motion.joint_map import REQUIRED, map_joints
+from engine.motion.joint_map import REQUIRED_JOINTS, map_joints
 from engine.motion.retarget import cleaned
 from engine.motion.source_motion import SourceMotion
 
@@ -56,6 +56,6 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
         parents=tuple(motion.names[parent] if parent >= 0 else None for parent in motion.parents),
         mapping=mapping,
         loops=loops,
-        missing=tuple(name for name in REQUIRED if name not in mapping),
+        missing=tuple(name for name in REQUIRED_JOINTS if name not in mapping),
         refused=refused,
     )

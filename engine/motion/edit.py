@@ -19,16 +19,16 @@ from engine.motion.sole import soles
 
 Array = NDArray[np.float64]
 
-_ARM = ("Shoulder", "Arm", "ForeArm", "Hand")
-_LEG = ("UpLeg", "Leg", "Foot", "ToeBase")
+_ARM_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand")
+_LEG_JOINTS = ("UpLeg", "Leg", "Foot", "ToeBase")
 
 BODY_PARTS: dict[str, tuple[str, ...]] = {
     "head": ("Neck", "Head"),
     "torso": ("Spine", "Spine1", "Spine2"),
-    "left_arm": tuple(f"Left{part}" for part in _ARM),
-    "right_arm": tuple(f"Right{part}" for part in _ARM),
-    "left_leg": tuple(f"Left{part}" for part in _LEG),
-    "right_leg": tuple(f"Right{part}" for part in _LEG),
+    "left_arm": tuple(f"Left{part}" for part in _ARM_JOINTS),
+    "right_arm": tuple(f"Right{part}" for part in _ARM_JOINTS),
+    "left_leg": tuple(f"Left{part}" for part in _LEG_JOINTS),
+    "right_leg": tuple(f"Right{part}" for part in _LEG_JOINTS),
 }
 """What can be kept as pictured, and its joints; fingers go with their arm. Besides: `arms` and `legs`, both sides."""
 

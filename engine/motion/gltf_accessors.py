@@ -23,9 +23,9 @@ MAX_NUMBERS_READ = 4 * MAX_NUMBERS
 MAX_ZERO_ELEMENTS = 3 * MAX_FRAMES
 """Elements of an accessor without bytes: keys with their tangents."""
 
-TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-INDICES = (5121, 5123, 5125)
+COMPONENT_TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+INDEX_TYPES = (5121, 5123, 5125)
 
 
 class Accessors:
@@ -46,8 +46,8 @@ class Accessors:
         """
         part = self._file.part("accessors", index)
         assert index is not None
-        count, width = natural(part.count), _known(WIDTHS, part.type)
-        kind = np.dtype(_known(TYPES, part.componentType)).newbyteorder("<")
+        count, width = natural(part.count), _known(COMPONENT_COUNTS, part.type)
+        kind = np.dtype(_known(COMPONENT_TYPES, part.componentType)).newbyteorder("<")
         if count == 0:
             raise unreadable("an accessor is empty")
         as_it_lies = self._dense(part, count, width, kind)
@@ -86,14 +86,14 @@ class Accessors:
         for one in (sparse, sparse.indices, sparse["values"]):
             self._file.require_known(one)
         changed = natural(sparse.count)
-        if not 0 < changed <= count or sparse.indices.componentType not in INDICES:
+        if not 0 < changed <= count or sparse.indices.componentType not in INDEX_TYPES:
             raise unreadable("a sparse accessor is broken")
         places = self._table(
             sparse.indices.bufferView,
             natural(sparse.indices.byteOffset, 0),
             changed,
             1,
-            np.dtype(TYPES[sparse.indices.componentType]).newbyteorder("<"),
+            np.dtype(COMPONENT_TYPES[sparse.indices.componentType]).newbyteorder("<"),
         )[:, 0].astype(np.int64)
         if places[-1] >= count or (np.diff(places) <= 0).any():
             raise unreadable("a sparse accessor is broken")

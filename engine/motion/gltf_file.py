@@ -30,7 +30,7 @@ MAX_CHANNELS = 65_536
 
 _MAGIC = b"glTF"
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
-_BUFFER = re.compile(rb'"data:[^"\\]*"')
+_DATA_URI = re.compile(rb'"data:[^"\\]*"')
 
 
 def begins_as_gltf(head: bytes) -> bool:
@@ -219,7 +219,7 @@ def _read(source: Path | bytes) -> tuple[bytes, bytes | None]:
     if not begins_as_gltf(data):
         raise unreadable("it is neither GLB nor glTF")
     if data[:4] != _MAGIC:
-        _require_few_parts(len(data) - sum(len(found.group()) for found in _BUFFER.finditer(data)))
+        _require_few_parts(len(data) - sum(len(found.group()) for found in _DATA_URI.finditer(data)))
         return data, None
     if len(data) < 20:
         raise unreadable("it breaks off")

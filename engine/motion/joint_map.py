@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.joint_names import SIDED, TARGET_NAMES, match_names
+from engine.motion.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names
 from engine.motion.source_motion import SourceMotion
 from engine.motion.tree_shape import children_of, common_ancestor, match_shape, path
 
-REQUIRED = (
+REQUIRED_JOINTS = (
     "Hips",
     *(f"{side}{part}" for side in ("Left", "Right") for part in ("UpLeg", "Leg", "Foot", "Arm", "ForeArm")),
 )
@@ -25,12 +25,12 @@ MIN_TURN_ANGLE = np.radians(3)
 MAX_JOINTS_TOLD = 10
 """Names of joints in a refusal, at most."""
 
-CHAINS = tuple(
+JOINT_CHAINS = tuple(
     tuple(side + part for part in chain)
     for side in ("Left", "Right")
     for chain in (
-        SIDED[:4],
-        SIDED[4:],
+        SIDED_JOINTS[:4],
+        SIDED_JOINTS[4:],
         *((f"Hand{f}{n}" for n in "123") for f in ("Thumb", "Index", "Middle", "Ring", "Pinky")),
     )
 )
@@ -51,14 +51,14 @@ def map_joints(motion: SourceMotion, overrides: Mapping[str, str | None] | None 
     overrides = dict(overrides or {})
     _check(motion, overrides)
     found = _order_holds(motion.parents, match_names(motion.names))
-    if any(name not in found for name in REQUIRED):
+    if any(name not in found for name in REQUIRED_JOINTS):
         found = _completed(motion.parents, found, _by_shape(motion))
     chosen = {name: motion.names.index(joint) for name, joint in overrides.items() if joint is not None}
     found = {name: index for name, index in found.items() if name not in overrides} | chosen
     found = _trunk(motion.parents, found)
     found = {name: index for name, index in found.items() if name not in overrides} | chosen
     mapping = {name: motion.names[found[name]] for name in TARGET_NAMES if name in found}
-    missing = [name for name in REQUIRED if name not in mapping]
+    missing = [name for name in REQUIRED_JOINTS if name not in mapping]
     if missing:
         raise not_humanoid(
             motion,
@@ -74,7 +74,7 @@ def _completed(parents: NDArray[np.int32], said: dict[str, int], shape: dict[str
     names said of the rest, such as fingers."""
     kept = set(said.values())
     both = _order_holds(parents, {name: joint for name, joint in shape.items() if joint not in kept} | said)
-    if not shape or all(name in both for name in REQUIRED):
+    if not shape or all(name in both for name in REQUIRED_JOINTS):
         return both if shape else said
     taken = set(shape.values())
     return _order_holds(parents, {name: joint for name, joint in said.items() if joint not in taken} | shape)
@@ -111,7 +111,7 @@ def not_humanoid(motion: SourceMotion, mapping: Mapping[str, str], detail: str) 
 def _each_its_own(motion: SourceMotion, mapping: Mapping[str, str]) -> None:
     """Limbs between one joint and itself have no length and no direction."""
     moved: dict[str, list[str]] = {}
-    for name in REQUIRED:
+    for name in REQUIRED_JOINTS:
         moved.setdefault(mapping[name], []).append(name)
     for joint, names in moved.items():
         if len(names) > 1:
@@ -134,7 +134,7 @@ def _check(motion: SourceMotion, overrides: Mapping[str, str | None]) -> None:
 def _order_holds(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
     """Without the joints that do not hang below the joint that they ought to hang below."""
     kept = dict(found)
-    for chain in CHAINS:
+    for chain in JOINT_CHAINS:
         present = [name for name in chain if name in kept]
         for above, below in itertools.pairwise(present):
             if above in kept and not path(parents, kept[above], kept[below]):
@@ -152,7 +152,7 @@ def _by_shape(motion: SourceMotion) -> dict[str, int]:
 
 def _trunk(parents: NDArray[np.int32], found: dict[str, int]) -> dict[str, int]:
     """Hips, spine, shoulders and neck, from where the limbs hang."""
-    if any(name not in found for name in REQUIRED[1:]):
+    if any(name not in found for name in REQUIRED_JOINTS[1:]):
         return found
     found = dict(found)
     hips = common_ancestor(parents, found["LeftUpLeg"], found["RightUpLeg"])

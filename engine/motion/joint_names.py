@@ -15,16 +15,16 @@ from dataclasses import dataclass
 
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 
-SIDED = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
+SIDED_JOINTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase")
 
 TARGET_NAMES: tuple[str, ...] = (
     *("Hips", "Spine", "Spine1", "Spine2", "Neck", "Head"),
-    *(f"{side}{part}" for side in ("Left", "Right") for part in SIDED),
+    *(f"{side}{part}" for side in ("Left", "Right") for part in SIDED_JOINTS),
     *(f"{side}Hand{f}{n}" for side in ("Left", "Right") for f in FINGERS for n in (1, 2, 3)),
 )
 """The joints of our skeletons that a motion can move, by their Mixamo names."""
 
-_WORDS: Mapping[str, tuple[str, ...]] = {
+_JOINT_WORDS: Mapping[str, tuple[str, ...]] = {
     "Hips": ("hips", "hip", "pelvis"),
     "Neck": ("neck", "lowerneck"),
     "Head": ("head", "skull"),
@@ -37,7 +37,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "Foot": ("foot", "ankle"),
     "ToeBase": ("toebase", "toe", "toes", "ball"),
 }
-_KNOWN = frozenset(word for group in _WORDS.values() for word in group)
+_KNOWN_WORDS = frozenset(word for group in _JOINT_WORDS.values() for word in group)
 _SIDES = {"left": "Left", "l": "Left", "right": "Right", "r": "Right"}
 _FINGER = re.compile(
     r"(?:hand)?f?(thumb|index|middle|mid|ring|pinky|pinkie|little)(?:finger)?(proximal|intermediate|distal)?"
@@ -88,7 +88,12 @@ def _without_common(names: list[list[str]]) -> list[list[str]]:
     for end in (0, -1):
         while len(names) >= MIN_NAMES_ALIKE:
             word, times = Counter(name[end] for name in names if name).most_common(1)[0]
-            if times < COMMON_AFFIX_SHARE * len(names) or word in _SIDES or word in _KNOWN or _FINGER.fullmatch(word):
+            if (
+                times < COMMON_AFFIX_SHARE * len(names)
+                or word in _SIDES
+                or word in _KNOWN_WORDS
+                or _FINGER.fullmatch(word)
+            ):
                 break
             shorter = [
                 (name[1:] if end == 0 else name[:-1]) if len(name) > 1 and name[end] == word else name for name in names
@@ -125,7 +130,7 @@ def _spoken(tokens: Sequence[str]) -> Spoken:
     if not side:
         for start, meaning in (("left", "Left"), ("right", "Right"), ("l", "Left"), ("r", "Right")):
             rest = joined.removeprefix(start)
-            if rest != joined and (rest in _KNOWN or _FINGER.fullmatch(rest)):
+            if rest != joined and (rest in _KNOWN_WORDS or _FINGER.fullmatch(rest)):
                 return Spoken(meaning, rest, number, digits)
     return Spoken(side, joined, number, digits)
 
@@ -153,8 +158,8 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
             phalanx = _PHALANGES.get(finger.group(2) or "", said.number)
             fingers.setdefault((said.side, label), []).append((phalanx, index))
             continue
-        for part, words in _WORDS.items():
-            sided = part in SIDED
+        for part, words in _JOINT_WORDS.items():
+            sided = part in SIDED_JOINTS
             if said.words in words and sided == bool(said.side) and (sided or said.number <= 1 or part != "Head"):
                 found.setdefault(said.side + part, index)
                 break
@@ -173,7 +178,7 @@ def _tell_shoulders(spoken: Sequence[Spoken | None], side: str, found: dict[str,
     if f"{side}Arm" in found or "shoulder" not in here:
         return
     found[f"{side}Arm"] = here["shoulder"]
-    collar = next((here[word] for word in _WORDS["Shoulder"][1:] if word in here), None)
+    collar = next((here[word] for word in _JOINT_WORDS["Shoulder"][1:] if word in here), None)
     if collar is None:
         found.pop(f"{side}Shoulder", None)
     else:

@@ -23,7 +23,7 @@ from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 
-LIMBS = {"Arm": "ForeArm", "ForeArm": "Hand", "UpLeg": "Leg", "Leg": "Foot"}
+LIMB_ENDS = {"Arm": "ForeArm", "ForeArm": "Hand", "UpLeg": "Leg", "Leg": "Foot"}
 
 MAX_SNAP_ANGLE = np.radians(25)
 """A rest pose that stands nearer than this to a world axis is meant to stand along it."""
@@ -135,7 +135,7 @@ def _correct_limb(
 ) -> None:
     correction = corrections.get(f"{side}Shoulder", rotation.identity()) if end == "Hand" else rotation.identity()
     for part in parts:
-        name, following = side + part, side + LIMBS[part]
+        name, following = side + part, side + LIMB_ENDS[part]
         wanted = _direction(skeleton, name, following)
         if name in joints and following in joints and wanted is not None:
             bone = rotation.rotate(correction, places[joints[following]] - places[joints[name]])

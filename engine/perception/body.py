@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.perception.solutions import solution
 
-LANDMARKS = (
+BODY_LANDMARKS = (
     *("Nose", "LeftEyeInner", "LeftEye", "LeftEyeOuter", "RightEyeInner", "RightEye", "RightEyeOuter"),
     *("LeftEar", "RightEar", "MouthLeft", "MouthRight", "LeftShoulder", "RightShoulder", "LeftElbow"),
     *("RightElbow", "LeftWrist", "RightWrist", "LeftPinky", "RightPinky", "LeftIndex", "RightIndex"),
@@ -65,13 +65,13 @@ class Body:
 
     def joint(self, name: str) -> tuple[NDArray[np.float32], NDArray[np.float32], float]:
         """A joint by its Mixamo name: pixel (2,), world (3,), and the least confidence it rests on."""
-        indices = [LANDMARKS.index(landmark) for landmark, _ in MIXAMO_JOINTS[name]]
+        indices = [BODY_LANDMARKS.index(landmark) for landmark, _ in MIXAMO_JOINTS[name]]
         shares = np.array([share for _, share in MIXAMO_JOINTS[name]], np.float32)
         return shares @ self.points[indices], shares @ self.world[indices], float(self.confidence[indices].min())
 
     def landmark(self, name: str) -> NDArray[np.float32]:
-        """The pixel (2,) of one of `LANDMARKS`."""
-        return self.points[LANDMARKS.index(name)]
+        """The pixel (2,) of one of `BODY_LANDMARKS`."""
+        return self.points[BODY_LANDMARKS.index(name)]
 
 
 class BodyTracker:

@@ -20,7 +20,7 @@ MAX_FACES = 20
 SEEN_SHARE = 1 / 12
 """Width of a face, as a share of the side of the square that is looked at, from which the full-range detector misses none.
 Lone faces are found down to a half of it, and of the eighteen in a group of 1800 x 900 pixels, 0.07 wide, ten."""
-BESIDE = 1 / 3
+MIN_SECOND_FACE_WIDTH = 1 / 3
 """Width of the least face that counts beside the largest one, in its widths: in the usual portrait, whose face takes a
 quarter of the picture or more, nobody is looked for part by part."""
 MAX_PARTS = 30
@@ -28,7 +28,7 @@ MAX_PARTS = 30
 MIN_PART_PIXELS = 450
 """Pixels of the least part that is looked at: faces that go unseen in it have eyes less than 16 pixels apart, and are too
 small to be animated."""
-REACHES = (1.25, 0.7)
+CROP_HALF_SIDES = (1.25, 0.7)
 """Half sides of the crops on which a face is measured, in sides of its box; the narrow one is for faces that a detector
 saw: on the rim of a large face the tracker takes whatever it is shown for another."""
 
@@ -82,7 +82,7 @@ def find_faces(
     """The faces of a picture, the largest first, each looked at closely; `most` of them at most.
 
     What the tracker sees by itself is near. All others are looked for by the full-range detector: in the whole picture, and
-    in ever smaller parts of it as long as faces may be left that count beside the largest one found (`BESIDE`). Each is
+    in ever smaller parts of it as long as faces may be left that count beside the largest one found (`MIN_SECOND_FACE_WIDTH`). Each is
     then measured in a crop of its own, and is none if nothing is seen there. Shapes and units are those of `FaceTracker`.
     With `within` (x0, y0, x1, y1) they are those whose middle lies in that part of the picture, however small they are in
     the whole; measured by what is around them all the same.
@@ -91,13 +91,13 @@ def find_faces(
     seen, corner = rgb[y0:y1, x0:x1], np.array([x0, y0, x0, y0])
     with FaceTracker(most, confidence) as tracker:
         near = [_box(mesh[:, :2]) + corner for mesh in tracker(seen)]
-    meshes = _looked_at(rgb, near, [], most, REACHES[:1], confidence)
+    meshes = _looked_at(rgb, near, [], most, CROP_HALF_SIDES[:1], confidence)
     side = max(seen.shape[:2])
     with _detector(confidence, far=True) as detector:
         while len(meshes) < most and len(parts := overlapping_parts(seen.shape, side)) <= MAX_PARTS:
             boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
-            meshes = _looked_at(rgb, boxes, meshes, most, REACHES, confidence)
-            least = max((BESIDE * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
+            meshes = _looked_at(rgb, boxes, meshes, most, CROP_HALF_SIDES, confidence)
+            least = max((MIN_SECOND_FACE_WIDTH * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
             if side * SEEN_SHARE <= least or side < 2 * MIN_PART_PIXELS:
                 break
             side = -(-side // 2)

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from engine.imaging.mask_pieces import largest_piece
 from engine.imaging.resample import resized, size_within
 
-SIZE = 400
+WORKING_SIZE = 400
 """Longest side, in pixels, at which strokes are looked for."""
-STROKE = 18.0
+MIN_STROKE_GREY_LEVELS = 18.0
 """Grey levels by which a stroke is darker, or of another colour, than the paper around it."""
-PAPER = 100.0
+MIN_PAPER_GREY_LEVEL = 100.0
 """Grey levels; darker ground is no paper, on which lines are darker still."""
-PLAIN = 0.15
+MAX_BORDER_SHARE = 0.15
 """Largest share of the border that the figure may touch."""
 MIN_CERTAIN_SHARE = 0.4
 """Share of what the networks believe in (0.3 and more) that they are sure of (0.9 and more), above which the
@@ -36,11 +36,11 @@ def figure_on_plain_ground(
     """
     if (belief > 0.9).sum() > MIN_CERTAIN_SHARE * (belief > 0.3).sum():
         return None
-    size = size_within(rgb.shape, SIZE)
+    size = size_within(rgb.shape, WORKING_SIZE)
     small = resized(np.ascontiguousarray(rgb), size).astype(np.float32)
     rough = resized(belief, size)
     strokes = _strokes(small)
-    if _border(strokes).mean() > PLAIN or np.median(_border(small)) < PAPER:
+    if _border(strokes).mean() > MAX_BORDER_SHARE or np.median(_border(small)) < MIN_PAPER_GREY_LEVEL:
         return None
     figure = _enclosed(strokes)
     if figure is None:
@@ -62,7 +62,7 @@ def _strokes(image: NDArray[np.float32]) -> NDArray[np.bool_]:
     grey = np.asarray(image.min(-1), np.float32)
     paper = np.asarray(cv2.medianBlur(grey.astype(np.uint8), min(side, 101)), np.float32)
     lit = np.asarray(cv2.GaussianBlur(np.maximum(paper, grey), (0, 0), side / 4), np.float32)
-    return np.asarray(lit - grey > STROKE)
+    return np.asarray(lit - grey > MIN_STROKE_GREY_LEVELS)
 
 
 def _enclosed(strokes: NDArray[np.bool_]) -> NDArray[np.bool_] | None:

@@ -15,7 +15,7 @@ from engine.perception.solutions import solution
 
 Side = Literal["Left", "Right"]
 
-JOINTS = (
+HAND_JOINTS = (
     "",
     *(f"{finger}{k}" for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky") for k in (1, 2, 3, 4)),
 )
@@ -46,7 +46,7 @@ class Hand:
 
     def joint(self, name: str) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """A joint by its Mixamo name, such as "LeftHandIndex2": pixel (2,) and world (3,)."""
-        index = JOINTS.index(name.removeprefix(f"{self.side}Hand"))
+        index = HAND_JOINTS.index(name.removeprefix(f"{self.side}Hand"))
         return self.points[index], self.world[index]
 
 

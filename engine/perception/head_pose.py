@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.package_data import package_data
-from engine.perception.landmarks import RIGID, fiducials
+from engine.perception.landmarks import RIGID_VERTICES, fiducials
 
-FOCAL = 1.5
+FOCAL_LENGTH_SIDES = 1.5
 """Assumed focal length of a portrait's camera, in longer sides of the picture."""
 LIKE_A_FACE = 0.5
 """How far 68 placed points may be from a face that is turned and stretched, as a share of their spread: root mean squares.
@@ -48,9 +48,9 @@ def mirror_vertices() -> NDArray[np.int16]:
 
 def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
     """The head's angles by PnP of the rigid vertices of a mesh (478, 2 or 3) in a picture of `size` (w, h)."""
-    chosen = list(RIGID)
+    chosen = list(RIGID_VERTICES)
     model, seen = canonical_face()[chosen].astype(float), mesh[chosen, :2].astype(float)
-    focal = FOCAL * max(size)
+    focal = FOCAL_LENGTH_SIDES * max(size)
     camera = np.array([[focal, 0, (size[0] - 1) / 2], [0, focal, (size[1] - 1) / 2], [0, 0, 1.0]])
     unit = float(np.linalg.norm(mesh[[33, 133], :2].mean(axis=0) - mesh[[263, 362], :2].mean(axis=0)))
     start = np.array([[seen[:, 0].mean() - camera[0, 2]], [seen[:, 1].mean() - camera[1, 2]], [focal]]) / max(

@@ -56,7 +56,7 @@ LEFT_BROW = (300, 293, 334, 296, 336, 276, 283, 282, 295, 285)
 EYES_AND_NOSE_TIP = (33, 133, 159, 145, 263, 362, 386, 374, 4, 1, 5)
 """What the aligning transformation phi is estimated from (Averbuch-Elor et al. 2017, section 4)."""
 
-RIGID = (
+RIGID_VERTICES = (
     *(10, 151, 9, 8, 168, 6, 197, 195, 5, 4, 1, 33, 133, 362, 263, 127, 356, 234, 454, 162, 389, 21, 251),
     *(54, 284, 103, 332, 67, 297, 109, 338, 19, 94, 2, 98, 327),
 )

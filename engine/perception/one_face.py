@@ -11,9 +11,9 @@ from engine.perception.faces import FaceTracker, find_faces, several_faces
 
 SAME_FACE_REACH = 0.75
 """A face that is further from where the followed one was last seen, in its own size, is somebody else's."""
-AROUND = 1.5
+REGION_HALF_SIDE_FACE_SIZES = 1.5
 """Half side of the part of a frame in which a face is followed that is too small in the whole, in its own size."""
-ASTRAY = 0.5
+MAX_OFFSET_FACE_SIZES = 0.5
 """How far such a face may be from the middle of that part, in its own size, before the part is laid anew."""
 
 
@@ -55,7 +55,7 @@ class OneFace:
         if mesh is None or (self._among_others and self._away(mesh) > SAME_FACE_REACH):
             return None
         self._last = mesh
-        if self._part is not None and self._away_from_middle(mesh) > ASTRAY:
+        if self._part is not None and self._away_from_middle(mesh) > MAX_OFFSET_FACE_SIZES:
             self._look_around(mesh, rgb.shape)
         return mesh
 
@@ -89,7 +89,7 @@ class OneFace:
     def _look_around(self, mesh: NDArray[np.float32], shape: tuple[int, ...]) -> None:
         """From now on see the part of a frame (H, W, ...) around this face alone."""
         low, high = mesh[:, :2].min(axis=0), mesh[:, :2].max(axis=0)
-        reach = AROUND * (high - low).max()
+        reach = REGION_HALF_SIDE_FACE_SIZES * (high - low).max()
         x0, y0 = np.maximum((low + high) / 2 - reach, 0).astype(int).tolist()
         x1, y1 = np.minimum(np.ceil((low + high) / 2 + reach), shape[1::-1]).astype(int).tolist()
         self._part = x0, y0, x1, y1

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.imaging.mask_distance import grown
-from engine.perception.body import FAINT_CONFIDENCE, LANDMARKS, Body, find_body
+from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces
 
 MAX_PEOPLE = 12
 """People that are looked for, at most."""
-LIMBS = tuple(
+LIMB_LINES = tuple(
     (f"{side}{a}", f"{side}{b}")
     for side in ("Left", "Right")
     for a, b in (
@@ -24,19 +24,19 @@ LIMBS = tuple(
 """The lines along which a body's limbs lie."""
 LIMB_WIDTH = 0.1
 """Width of a limb, as a share of the height from nose to ankles."""
-HEAD = 0.75
+HEAD_RADIUS_NECK_LENGTHS = 0.75
 """Radius of the head, in distances between nose and the middle of the shoulders."""
-SEEN = 0.5
+MIN_TRUNK_CONFIDENCE = 0.5
 """Mean confidence of shoulders and hips from which a further body is believed."""
-SAME = 0.15
+MIN_DISTANCE_SHARE = 0.15
 """How far from one another two bodies' points are at least, in the median, as a share of their size."""
-WIDE = 1.4
+WIDE_PICTURE_ASPECT = 1.4
 """Width over height from which a picture is wide."""
 MIN_SQUARE = 64
 """Pixels of a side: in less, no character can be made of anybody, and a strip would be looked at in a thousand squares."""
-COVERED = 0.5
+MAX_COVERED_SHARE = 0.5
 """Share of a further body's points that may lie on one found before."""
-CLOSER = 0.35
+CLOSER_MARGIN_SHARE = 0.35
 """How much more than the box of somebody faint is looked at again, as a share of its sides: a body is found there once more, a
 rocket is not."""
 
@@ -67,10 +67,15 @@ def _faint(rgb: NDArray[np.uint8]) -> Body | None:
     if body is None:
         return None
     x, y, wide, high = person_box(body, rgb.shape)
-    box = (x - CLOSER * wide, y - CLOSER * high, (1 + 2 * CLOSER) * wide, (1 + 2 * CLOSER) * high)
+    box = (
+        x - CLOSER_MARGIN_SHARE * wide,
+        y - CLOSER_MARGIN_SHARE * high,
+        (1 + 2 * CLOSER_MARGIN_SHARE) * wide,
+        (1 + 2 * CLOSER_MARGIN_SHARE) * high,
+    )
     again = find_body_within(rgb, box, FAINT_CONFIDENCE)
     size = float(np.ptp(body.points, axis=0).max())
-    if again is None or np.median(np.linalg.norm(body.points - again.points, axis=1)) > SAME * size:
+    if again is None or np.median(np.linalg.norm(body.points - again.points, axis=1)) > MIN_DISTANCE_SHARE * size:
         return None
     return body
 
@@ -78,7 +83,7 @@ def _faint(rgb: NDArray[np.uint8]) -> Body | None:
 def person_box(body: Body, shape: tuple[int, ...]) -> NDArray[np.float32]:
     """The box around a body within a picture of a shape (H, W, ...): x, y, width and height, hair and feet included."""
     points = body.points
-    reach = HEAD * _neck(body)
+    reach = HEAD_RADIUS_NECK_LENGTHS * _neck(body)
     low = np.minimum(points.min(0), body.landmark("Nose") - [reach, 1.6 * reach]) - LIMB_WIDTH / 3 * np.ptp(
         points[:, 1]
     )
@@ -90,17 +95,17 @@ def person_box(body: Body, shape: tuple[int, ...]) -> NDArray[np.float32]:
 def covered_by(body: Body, shape: tuple[int, int]) -> NDArray[np.bool_]:
     """Where a body surely is (H, W): its limbs, trunk and head."""
     drawn = np.zeros(shape, np.uint8)
-    at = {name: tuple(int(value) for value in np.rint(body.landmark(name))) for name in LANDMARKS}
+    at = {name: tuple(int(value) for value in np.rint(body.landmark(name))) for name in BODY_LANDMARKS}
     width = max(1, round(LIMB_WIDTH * float(np.ptp(body.points[:, 1]))))
-    for a, b in LIMBS:
+    for a, b in LIMB_LINES:
         cv2.line(drawn, at[a], at[b], (1,), width)
-    trunk = np.array([at[f"{side}{joint}"] for side, joint in _TRUNK])
+    trunk = np.array([at[f"{side}{joint}"] for side, joint in _TRUNK_CORNERS])
     cv2.fillPoly(drawn, [trunk], (1,))
-    cv2.circle(drawn, at["Nose"], max(1, round(HEAD * _neck(body))), (1,), -1)
+    cv2.circle(drawn, at["Nose"], max(1, round(HEAD_RADIUS_NECK_LENGTHS * _neck(body))), (1,), -1)
     return drawn > 0
 
 
-_TRUNK = (("Left", "Shoulder"), ("Right", "Shoulder"), ("Right", "Hip"), ("Left", "Hip"))
+_TRUNK_CORNERS = (("Left", "Shoulder"), ("Right", "Shoulder"), ("Right", "Hip"), ("Left", "Hip"))
 
 
 def _neck(body: Body) -> float:
@@ -121,18 +126,18 @@ def _paint_over(rgb: NDArray[np.uint8], body: Body) -> NDArray[np.bool_]:
 
 def _is_another(body: Body, found: list[Body], covered: NDArray[np.bool_] | None) -> bool:
     """Whether a body is believable, and none of those found before."""
-    trunk = [LANDMARKS.index(f"{side}{joint}") for side, joint in _TRUNK]
-    if body.confidence[trunk].mean() < SEEN:
+    trunk = [BODY_LANDMARKS.index(f"{side}{joint}") for side, joint in _TRUNK_CORNERS]
+    if body.confidence[trunk].mean() < MIN_TRUNK_CONFIDENCE:
         return False
     if covered is not None:
         height, width = covered.shape
         at = np.rint(body.points).astype(int)
         inside = (at >= 0).all(1) & (at < [width, height]).all(1)
-        if not inside.any() or covered[at[inside, 1], at[inside, 0]].mean() > COVERED:
+        if not inside.any() or covered[at[inside, 1], at[inside, 0]].mean() > MAX_COVERED_SHARE:
             return False
     size = float(np.ptp(body.points, axis=0).max())
     for other in found:
-        if np.median(np.linalg.norm(body.points - other.points, axis=1)) < SAME * size:
+        if np.median(np.linalg.norm(body.points - other.points, axis=1)) < MIN_DISTANCE_SHARE * size:
             return False
         if np.linalg.norm(body.landmark("Nose") - other.landmark("Nose")) < max(_neck(body), _neck(other)):
             return False
@@ -143,7 +148,7 @@ def _squares(shape: tuple[int, ...]) -> list[tuple[float, float, float, float]]:
     """Squares that cover a wide picture, one overlapping the next by half: the network makes every picture a small square,
     in which the people of a wide one are tiny."""
     height, width = shape[:2]
-    if width < WIDE * height or height < MIN_SQUARE:
+    if width < WIDE_PICTURE_ASPECT * height or height < MIN_SQUARE:
         return []
     count = int(np.ceil(2 * (width - height) / height)) + 1
     return [(left, 0, height, height) for left in np.linspace(0, width - height, count)]

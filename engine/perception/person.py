@@ -25,7 +25,7 @@ from engine.perception.segmentation import WORKING_SIZE, Mask, people_in
 CUT_SIZE = 480
 """Longest side at which colours have their say."""
 
-KEPT = 0.6
+KEPT_CONFIDENCE = 0.6
 """Belief from which a pixel stays with the person whatever its colour."""
 
 DOUBTFUL_BELIEF = 0.35
@@ -34,7 +34,7 @@ DOUBTFUL_BELIEF = 0.35
 LIKELY_BELIEF = 0.99
 """Belief of what joints tell to be a person's: settled, unless it has the colours of a plain background."""
 
-EDGE = np.ones((9, 9), np.uint8)
+EDGE_NEIGHBOURHOOD = np.ones((9, 9), np.uint8)
 """The neighbourhood within which the mask that was found may end beside a cut-out's own edge."""
 
 LEFT_OUT = 0.1
@@ -109,8 +109,8 @@ def _within(channel: Mask, found: Mask, others: NDArray[np.bool_]) -> Mask:
     somebody is connected with others, what was found. That ends somewhere near the cut-out's own edge, which is the truth:
     there it counts as it does a little further in."""
     shared = pieces_touching(channel > 0, others, connectivity=8)
-    inside = cv2.erode((channel > CERTAIN_BELIEF).astype(np.uint8), EDGE, borderValue=1)
-    own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE)))
+    inside = cv2.erode((channel > CERTAIN_BELIEF).astype(np.uint8), EDGE_NEIGHBOURHOOD, borderValue=1)
+    own = np.where(inside > 0, found, np.maximum(found, cv2.dilate(found * inside, EDGE_NEIGHBOURHOOD)))
     return np.where(shared, np.minimum(channel, own), channel).astype(np.float32)
 
 
@@ -124,5 +124,5 @@ def settle_by_colour(rgb: NDArray[np.uint8], belief: Mask) -> Mask:
         return belief
     person = grab_cut(small, foreground, background, rough > 0.5, rounds=2).astype(np.float32)
     settled = (belief + resized(person, (belief.shape[1], belief.shape[0]))) / 2
-    kept = np.where(belief > KEPT, belief - KEPT + 0.5, 0)
+    kept = np.where(belief > KEPT_CONFIDENCE, belief - KEPT_CONFIDENCE + 0.5, 0)
     return np.maximum(settled, kept).astype(np.float32)

@@ -10,7 +10,7 @@ from typing import Any
 
 from google.protobuf import message_factory
 
-HELD = (
+UNNEEDED_MODULES = (
     *("matplotlib", "matplotlib.pyplot", "mediapipe.tasks", "mediapipe.tasks.python"),
     *("mediapipe.python.solutions.objectron", "mediapipe.python.solutions.download_utils"),
 )
@@ -34,7 +34,7 @@ def _imported(full: str) -> ModuleType:
     know_old_ways()
     if "mediapipe" in sys.modules:
         return importlib.import_module(full)
-    held = [_Later(name) for name in HELD if name not in sys.modules]
+    held = [_Later(name) for name in UNNEEDED_MODULES if name not in sys.modules]
     for place in held:
         sys.modules[place.__name__] = place
         _attach(place)

@@ -11,13 +11,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-BLOCK = 32
+BLOCK_POINTS = 32
 """Points worked on at a time, so that a long clip takes little memory."""
 HALF_WINDOW_FRAMES = 12
 """Frames looked at on either side."""
 TEMPORAL_SIGMA = 8.0
 """Frames."""
-RANGE = 3.0
+RANGE_SIGMAS = 3.0
 """Positions further apart than about this many noise deviations are motion, not noise."""
 
 
@@ -29,10 +29,10 @@ def noise_level(tracks: NDArray[np.floating]) -> NDArray[np.float64]:
     if len(tracks) < 5:
         return np.zeros(tracks.shape[1])
     deviation = np.empty(tracks.shape[1:])
-    for start in range(0, tracks.shape[1], BLOCK):
-        some = tracks[:, start : start + BLOCK]
+    for start in range(0, tracks.shape[1], BLOCK_POINTS):
+        some = tracks[:, start : start + BLOCK_POINTS]
         second = some[2:] - 2 * some[1:-1] + some[:-2]
-        deviation[start : start + BLOCK] = np.median(np.abs(second), axis=0) / 0.6745 / np.sqrt(6.0)
+        deviation[start : start + BLOCK_POINTS] = np.median(np.abs(second), axis=0) / 0.6745 / np.sqrt(6.0)
     return np.asarray(np.sqrt((deviation**2).mean(axis=-1)), float)
 
 
@@ -54,14 +54,14 @@ def steady(
     sigma = noise_level(tracks) if noise is None else noise
     if out is None:
         out = np.empty(tracks.shape, np.float32)
-    for start in range(0, tracks.shape[1], BLOCK):
-        some = slice(start, start + BLOCK)
+    for start in range(0, tracks.shape[1], BLOCK_POINTS):
+        some = slice(start, start + BLOCK_POINTS)
         out[:, some] = _steady(tracks[:, some], sigma[some])
     return out
 
 
 def _steady(tracks: NDArray[np.float32], sigma: NDArray[np.floating]) -> NDArray[np.float32]:
-    width = 2.0 * (RANGE * np.maximum(sigma, 1e-4)) ** 2
+    width = 2.0 * (RANGE_SIGMAS * np.maximum(sigma, 1e-4)) ** 2
     count, reach = len(tracks), min(HALF_WINDOW_FRAMES, len(tracks) - 1)
     total = tracks.astype(np.float32).copy()
     weight = np.ones(tracks.shape[:2], np.float32)

@@ -21,7 +21,7 @@ from engine.performances.catalogue import FPS, POSTER_SIDE, VIDEOS, names, perfo
 from engine.performances.filming import film
 from engine.performances.lighting import lamps
 from engine.performances.score import SCORES
-from engine.performances.studio import HAIR_LAMPS, SIZE
+from engine.performances.studio import HAIR_LAMPS, PICTURE_SIZE
 
 CRF = 16
 """H.264 quality: without visible loss, all together below 8 MB."""
@@ -43,7 +43,7 @@ def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
     for name in chosen or [one.name for one in scored()]:
         poses = [SCORES[name](index / FPS) for index in range(round(performance(name).seconds * FPS))]
         frames = film(actor, poses, 1, 0.35) if proof else film(actor, poses)
-        with VideoWriter(folder / f"{name}.mp4", (SIZE, SIZE), FPS, crf=CRF) as writer:
+        with VideoWriter(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=CRF) as writer:
             for index, frame in enumerate(frames):
                 writer.write(frame)
                 click.echo(f"\r{name}: {index + 1} of {len(poses)}", nl=index + 1 == len(poses))

@@ -14,7 +14,7 @@ from engine.performances.eyes import Eyeball
 from engine.performances.figure import Figure
 from engine.performances.lids import find_rim
 
-BROW = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.8090), (0.0425, 0.8072), (0.0490, 0.8032)]
+BROW_LINE = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.8090), (0.0425, 0.8072), (0.0490, 0.8032)]
 """The middle line of the sitter's left brow on the map of the head."""
 
 
@@ -53,7 +53,7 @@ def plant(
 def grow_brows(figure: Figure, chart: NDArray[np.floating], count: int = 640, seed: int = 21) -> Rooted:
     """Both brows; `chart` (N, 2) places the fine skin's vertices on the map of the head."""
     rng = np.random.default_rng(seed)
-    middle = smooth_curve(BROW)
+    middle = smooth_curve(BROW_LINE)
     ahead = np.gradient(middle, axis=0)
     ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
     place, offsets = [], []

@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-AXIS = 0.045
+AXIS_DEPTH = 0.045
 """z of the cylinder's axis in the rest pose, metres."""
 
-RADIUS = 0.1
+CHART_RADIUS = 0.1
 """Metres of u for one radian."""
 
-TEXELS = 4000.0
+TEXELS_PER_METRE = 4000.0
 """Texels in a metre: four to the millimetre, a little finer than the supersampled picture."""
 
 LEFT, RIGHT, TOP, BOTTOM = -0.22, 0.22, 0.95, 0.55
-SHAPE = (round((TOP - BOTTOM) * TEXELS), round((RIGHT - LEFT) * TEXELS))
+CHART_SHAPE = (round((TOP - BOTTOM) * TEXELS_PER_METRE), round((RIGHT - LEFT) * TEXELS_PER_METRE))
 
 
 def coordinates(points: NDArray[np.floating]) -> NDArray[np.float32]:
     """(V, 3) points of the rest pose to (V, 2) float32 chart coordinates (u, v), metres."""
-    turn = np.arctan2(points[:, 0], points[:, 2] - AXIS)
-    return np.stack([RADIUS * turn, points[:, 1]], 1).astype(np.float32)
+    turn = np.arctan2(points[:, 0], points[:, 2] - AXIS_DEPTH)
+    return np.stack([CHART_RADIUS * turn, points[:, 1]], 1).astype(np.float32)
 
 
 def texture_coordinates(chart: NDArray[np.floating]) -> NDArray[np.float32]:
-    """Chart coordinates (..., 2) to those of a texture of `SHAPE`, (0, 0) its top left, (1, 1) its bottom right."""
+    """Chart coordinates (..., 2) to those of a texture of `CHART_SHAPE`, (0, 0) its top left, (1, 1) its bottom right."""
     return np.stack([(chart[..., 0] - LEFT) / (RIGHT - LEFT), (TOP - chart[..., 1]) / (TOP - BOTTOM)], -1).astype(
         np.float32
     )
@@ -40,14 +40,14 @@ def texture_coordinates(chart: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def grid() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """u and v at the centres of the texels, (H, W) float32 each."""
-    u = LEFT + (np.arange(SHAPE[1], dtype=np.float32) + 0.5) / TEXELS
-    v = TOP - (np.arange(SHAPE[0], dtype=np.float32) + 0.5) / TEXELS
-    return np.broadcast_to(u, SHAPE), np.broadcast_to(v[:, None], SHAPE)
+    u = LEFT + (np.arange(CHART_SHAPE[1], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
+    v = TOP - (np.arange(CHART_SHAPE[0], dtype=np.float32) + 0.5) / TEXELS_PER_METRE
+    return np.broadcast_to(u, CHART_SHAPE), np.broadcast_to(v[:, None], CHART_SHAPE)
 
 
 def slopes(height: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """How a relief (H, W), metres, rises along u and along v, (H, W) each."""
-    down, across = np.gradient(height, 1 / TEXELS)
+    down, across = np.gradient(height, 1 / TEXELS_PER_METRE)
     return np.asarray(across, np.float32), np.asarray(-down, np.float32)
 
 
@@ -82,8 +82,13 @@ def along(
     """
     curve = smooth_curve(points)
     low, high = curve.min(0) - reach, curve.max(0) + reach
-    columns = slice(max(int((low[0] - LEFT) * TEXELS), 0), min(int((high[0] - LEFT) * TEXELS) + 1, SHAPE[1]))
-    rows = slice(max(int((TOP - high[1]) * TEXELS), 0), min(int((TOP - low[1]) * TEXELS) + 1, SHAPE[0]))
+    columns = slice(
+        max(int((low[0] - LEFT) * TEXELS_PER_METRE), 0),
+        min(int((high[0] - LEFT) * TEXELS_PER_METRE) + 1, CHART_SHAPE[1]),
+    )
+    rows = slice(
+        max(int((TOP - high[1]) * TEXELS_PER_METRE), 0), min(int((TOP - low[1]) * TEXELS_PER_METRE) + 1, CHART_SHAPE[0])
+    )
     u, v = grid()
     texels = np.stack([u[rows, columns], v[rows, columns]], -1)
     distance, nearest = cKDTree(curve).query(texels)
@@ -97,13 +102,15 @@ def along(
 def noise(rng: np.random.Generator, size: float, octaves: int = 1) -> NDArray[np.float32]:
     """Smooth random variation, mean 0 and standard deviation 1, with features of about `size` metres; each
     further octave halves the size and the strength."""
-    frequencies = np.hypot(np.fft.fftfreq(SHAPE[0])[:, None], np.fft.rfftfreq(SHAPE[1])[None]) * TEXELS
-    total = np.zeros(SHAPE, np.float32)
+    frequencies = (
+        np.hypot(np.fft.fftfreq(CHART_SHAPE[0])[:, None], np.fft.rfftfreq(CHART_SHAPE[1])[None]) * TEXELS_PER_METRE
+    )
+    total = np.zeros(CHART_SHAPE, np.float32)
     for octave in range(octaves):
         scale = size / 2**octave
         band = np.exp(-0.5 * ((frequencies * scale - 0.7) / 0.35) ** 2)
-        spectrum = np.fft.rfft2(rng.standard_normal(SHAPE, np.float32)) * band
-        layer = np.fft.irfft2(spectrum, SHAPE).astype(np.float32)
+        spectrum = np.fft.rfft2(rng.standard_normal(CHART_SHAPE, np.float32)) * band
+        layer = np.fft.irfft2(spectrum, CHART_SHAPE).astype(np.float32)
         total += layer / (layer.std() * 2**octave)
     return total / total.std()
 

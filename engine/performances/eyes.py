@@ -7,32 +7,32 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-RADIUS = 0.0147
+EYEBALL_RADIUS = 0.0147
 """Metres. The template's eyes are a little larger than life; the iris is not."""
 
-IRIS = 0.0056
+IRIS_RADIUS = 0.0056
 """Radius of the iris and of the cornea's rim."""
 
-PUPIL = 0.0021
+PUPIL_RADIUS = 0.0021
 
-CORNEA = 0.0074
+CORNEA_RADIUS = 0.0074
 """Radius of curvature of the cornea: 7.8 mm in life."""
 
 IRIS_DEPTH = 0.0007
 """How far the iris lies behind the cornea's rim."""
 
-REFRACTION = 1.336
+REFRACTIVE_INDEX = 1.336
 """Index of refraction of the eye's watery humour."""
 
-_RIM = np.sqrt(RADIUS**2 - IRIS**2)
-_CORNEA_CENTRE = _RIM - np.sqrt(CORNEA**2 - IRIS**2)
+_RIM_DEPTH = np.sqrt(EYEBALL_RADIUS**2 - IRIS_RADIUS**2)
+_CORNEA_CENTRE = _RIM_DEPTH - np.sqrt(CORNEA_RADIUS**2 - IRIS_RADIUS**2)
 
 
 def profile(cosine: NDArray[np.floating]) -> NDArray[np.float64]:
     """Distance of the eye's surface from its centre, by the cosine of the angle to the direction of gaze."""
     c = np.asarray(cosine, np.float64)
-    inside = np.maximum(CORNEA**2 - _CORNEA_CENTRE**2 * (1 - c**2), 0)
-    return np.maximum(RADIUS, np.where(c > 0.8, _CORNEA_CENTRE * c + np.sqrt(inside), 0.0))
+    inside = np.maximum(CORNEA_RADIUS**2 - _CORNEA_CENTRE**2 * (1 - c**2), 0)
+    return np.maximum(EYEBALL_RADIUS, np.where(c > 0.8, _CORNEA_CENTRE * c + np.sqrt(inside), 0.0))
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def colour_of_eye(
     rho = np.hypot(points[:, 0], points[:, 1])
     through = _on_iris(points, view)
     seen = np.hypot(through[:, 0], through[:, 1])
-    cornea = 1 - _ramp(rho, IRIS - 0.00045, IRIS + 0.00040)
+    cornea = 1 - _ramp(rho, IRIS_RADIUS - 0.00045, IRIS_RADIUS + 0.00040)
     iris = _iris(through, seen, np.random.default_rng(seed))
     white = _sclera(points, np.random.default_rng(seed + 1))
     albedo = white + cornea[:, None] * (iris - white)
@@ -87,16 +87,16 @@ def _on_iris(points: NDArray[np.floating], view: NDArray[np.floating]) -> NDArra
     normal = np.asarray(points, np.float64) - [0, 0, _CORNEA_CENTRE]
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     cosine = np.clip((normal * view).sum(1, keepdims=True), 0.05, 1)
-    ratio = 1 / REFRACTION
+    ratio = 1 / REFRACTIVE_INDEX
     inner = np.sqrt(1 - ratio**2 * (1 - cosine**2))
     ray = -ratio * view + (ratio * cosine - inner) * normal
-    depth = (_RIM - IRIS_DEPTH - points[:, 2]) / np.minimum(ray[:, 2], -0.05)
+    depth = (_RIM_DEPTH - IRIS_DEPTH - points[:, 2]) / np.minimum(ray[:, 2], -0.05)
     return points[:, :2] + depth[:, None] * ray[:, :2]
 
 
 def _iris(place: NDArray[np.floating], rho: NDArray[np.floating], rng: np.random.Generator) -> NDArray[np.float64]:
     """Hazel-brown: a warm collar around the pupil, radial fibres, a dark rim."""
-    t = (rho - PUPIL) / (IRIS - PUPIL)
+    t = (rho - PUPIL_RADIUS) / (IRIS_RADIUS - PUPIL_RADIUS)
     turn = np.arctan2(place[:, 1], place[:, 0])
     waves = [(int(k), rng.uniform(0, 2 * np.pi), rng.uniform(0.5, 1)) for k in rng.integers(18, 90, 26)]
     fibres = sum(a * np.cos(k * turn + phase + 2.5 * np.sin(3 * t + phase)) for k, phase, a in waves) / 5.0
@@ -104,7 +104,7 @@ def _iris(place: NDArray[np.floating], rho: NDArray[np.floating], rng: np.random
     colour = collar + _ramp(t, 0.12, 0.5)[:, None] * (outer - collar)
     colour = colour * np.clip(1 + 0.35 * fibres, 0.35, 1.9)[:, None]
     colour = colour * (1 - 0.75 * _ramp(t, 0.74, 1.0))[:, None]
-    return colour * _ramp(rho, PUPIL - 0.00018, PUPIL + 0.00018)[:, None] + 0.003
+    return colour * _ramp(rho, PUPIL_RADIUS - 0.00018, PUPIL_RADIUS + 0.00018)[:, None] + 0.003
 
 
 def _sclera(points: NDArray[np.floating], rng: np.random.Generator) -> NDArray[np.float64]:
@@ -121,7 +121,7 @@ def _sclera(points: NDArray[np.floating], rng: np.random.Generator) -> NDArray[n
         reach = _ramp(x, rng.uniform(0.005, 0.009), 0.0125)
         vessels = np.maximum(vessels, reach * np.exp(-0.5 * ((points[:, 1] - path) / width) ** 2))
     colour = colour * (1 - vessels[:, None] * np.array([0.12, 0.45, 0.42]))
-    rim = np.exp(-0.5 * ((np.hypot(points[:, 0], points[:, 1]) - IRIS) / 0.0009) ** 2)
+    rim = np.exp(-0.5 * ((np.hypot(points[:, 0], points[:, 1]) - IRIS_RADIUS) / 0.0009) ** 2)
     return colour * (1 - 0.25 * rim)[:, None]
 
 

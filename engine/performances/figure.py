@@ -16,12 +16,12 @@ from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
-from engine.performances.eyes import RADIUS, build_eyeball, profile
+from engine.performances.eyes import EYEBALL_RADIUS, build_eyeball, profile
 from engine.performances.lids import Lids, build_lids
 
-PERSON = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
+PHENOTYPE = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
 
-FEATURES = {
+FACE_FEATURES = {
     "r-eye-scale-incr": 0.22,
     "l-eye-scale-incr": 0.22,
     "neck-scale-horiz-decr": 0.35,
@@ -29,7 +29,7 @@ FEATURES = {
 }
 """Local changes that make the average face a person."""
 
-CLOSED = {
+CLOSED_LIPS = {
     "jawOpen": -0.035,
     "mouthPressLeft": 0.10,
     "mouthPressRight": 0.10,
@@ -38,16 +38,16 @@ CLOSED = {
 }
 """The template's lips stand a little apart: with these units they meet."""
 
-BLINKS = ("eyeBlinkLeft", "eyeBlinkRight")
+BLINK_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
 """These units are carried out by `engine.performances.lids`: their weight is the share of the way to a shut eye."""
 
-NECK = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
+NECK_SHARES = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""
 
 LID_GAP = 0.0006
 """Metres between the eyeball and the surface of the skin on it."""
 
-FRAMED = 0.45
+MIN_FRAMED_HEIGHT = 0.45
 """Metres: what lies lower in the template's rest pose is never in the picture."""
 
 
@@ -110,10 +110,10 @@ class Posed:
 def build_figure() -> Figure:
     """Make the actor's body."""
     template, rig = load_template(), load_rig("default")
-    shape = load_shape_space().shape(PERSON, FEATURES) + template.face_units.displacement(CLOSED)
+    shape = load_shape_space().shape(PHENOTYPE, FACE_FEATURES) + template.face_units.displacement(CLOSED_LIPS)
     arms_down = _arms_down(rig, shape)
     skin_quads = template.quads[template.faces("body")]
-    framed = arms_down[skin_quads][:, :, 1].min(1) > FRAMED
+    framed = arms_down[skin_quads][:, :, 1].min(1) > MIN_FRAMED_HEIGHT
     near = np.abs(arms_down[skin_quads][:, :, 0]).max(1) < 0.26
     cage = skin_quads[framed & near]
     once = catmull_clark(cage, len(shape))
@@ -130,7 +130,7 @@ def build_figure() -> Figure:
             eye.centre,
             template.face_units.displacement({name: 1}),
         )
-        for eye, name in zip((left, right), BLINKS, strict=True)
+        for eye, name in zip((left, right), BLINK_UNITS, strict=True)
     ]
     heads = rig.joints(arms_down)[0]
     return Figure(
@@ -140,9 +140,9 @@ def build_figure() -> Figure:
 
 def pose_figure(figure: Figure, pose: Pose) -> Posed:
     """Carry out a pose."""
-    units = {name: weight for name, weight in pose.units.items() if name not in BLINKS}
+    units = {name: weight for name, weight in pose.units.items() if name not in BLINK_UNITS}
     moved = figure.rest + figure.template.face_units.displacement(units)
-    shut = [lids.close(moved, pose.units.get(name, 0.0)) for lids, name in zip(figure.lids, BLINKS, strict=True)]
+    shut = [lids.close(moved, pose.units.get(name, 0.0)) for lids, name in zip(figure.lids, BLINK_UNITS, strict=True)]
     moved = moved + shut[0] + shut[1]
     transforms = bone_transforms(figure.rig.parents, figure.heads, _rotations(figure.rig, pose), np.asarray(pose.lean))
     cage = skin(moved, figure.rig.bones, figure.rig.weights, transforms)
@@ -172,7 +172,7 @@ def rigid_motion(before: NDArray[np.floating], after: NDArray[np.floating]) -> N
 def _rotations(rig: Rig, pose: Pose) -> NDArray[np.float64]:
     turns = np.tile(np.eye(3), (len(rig.names), 1, 1))
     pitch, yaw, roll = pose.head
-    for name, share in NECK.items():
+    for name, share in NECK_SHARES.items():
         turn = Rotation.from_euler("YXZ", [share * yaw, share * pitch, -share * roll], degrees=True)
         turns[rig.index(name)] = turn.as_matrix()
     for side, sign in (("L", 1), ("R", -1)):
@@ -208,7 +208,7 @@ def _keep_off(surface: NDArray[np.float32], eye: NDArray[np.float64], centre: ND
 
     `eye` (4, 4) places the eye's own axes (it looks along +z), whose origin `centre` lies at its middle.
     """
-    near = np.flatnonzero(np.abs(surface - centre).max(1) < 1.5 * RADIUS)
+    near = np.flatnonzero(np.abs(surface - centre).max(1) < 1.5 * EYEBALL_RADIUS)
     local = (surface[near] - centre) @ eye[:3, :3]
     distance = np.linalg.norm(local, axis=1)
     cosine = local[:, 2] / np.maximum(distance, 1e-9)

@@ -21,16 +21,16 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.performances.actor import Actor, Scene, stage
 from engine.performances.figure import Pose
-from engine.performances.studio import CAMERA, SAMPLES, Exposure, backdrop, expose, finish, parts_seen
+from engine.performances.studio import CAMERA, SAMPLES_PER_SIDE, Exposure, backdrop, expose, finish, parts_seen
 from engine.render.rasteriser import Raster, rasterise
 
 FURTHEST_APART = 14
 """Frames between two key frames at most."""
 
-CHANGES = {"unit": 0.75, "blink": 1.0, "head": 9.0, "gaze": 7.0, "breath": 1.0}
+MAX_POSE_CHANGES = {"unit": 0.75, "blink": 1.0, "head": 9.0, "gaze": 7.0, "breath": 1.0}
 """How far a pose may go between two key frames: weights of face units, of blinks, degrees of head and gaze."""
 
-UNSEEN = 300
+MAX_UNSEEN_PIXELS = 300
 """Supersampled pixels that neither key frame saw, beyond which a frame is lit in full: one in three thousand."""
 
 MIN_COVERAGE = 0.02
@@ -40,7 +40,9 @@ SAME_SURFACE = 0.0025
 """Metres along the view by which two points of one surface may differ within a pixel."""
 
 
-def film(actor: Actor, poses: Sequence[Pose], samples: int = SAMPLES, detail: float = 1.0) -> Iterator[NDArray]:
+def film(
+    actor: Actor, poses: Sequence[Pose], samples: int = SAMPLES_PER_SIDE, detail: float = 1.0
+) -> Iterator[NDArray]:
     """The pictures (SIZE, SIZE, 3) uint8 of the `poses`, in order."""
 
     def lit(index: int) -> Exposure:
@@ -74,10 +76,12 @@ def key_frames(poses: Sequence[Pose]) -> list[int]:
     return keys if keys[-1] == len(poses) - 1 else [*keys, len(poses) - 1]
 
 
-def carry(first: Exposure, last: Exposure, share: float, scene: Scene, samples: int = SAMPLES) -> Exposure | None:
+def carry(
+    first: Exposure, last: Exposure, share: float, scene: Scene, samples: int = SAMPLES_PER_SIDE
+) -> Exposure | None:
     """A scene in the light of two others: that of `first` and, by `share` [0, 1], of `last`.
 
-    None where more than `UNSEEN` pixels were seen in neither.
+    None where more than `MAX_UNSEEN_PIXELS` pixels were seen in neither.
     """
     camera = CAMERA.scaled(samples)
     raster = rasterise(camera.project(scene.vertices), scene.triangles, camera.size, perspective=True)
@@ -86,7 +90,7 @@ def carry(first: Exposure, last: Exposure, share: float, scene: Scene, samples: 
     for key, factor in ((first, 1 - share), (last, share)):
         _look_up(key, scene, raster, camera, factor, light, weight)
     covered, known = parts >= 0, weight > MIN_COVERAGE
-    if int((covered & ~known).sum()) > UNSEEN * (samples / SAMPLES) ** 2:
+    if int((covered & ~known).sum()) > MAX_UNSEEN_PIXELS * (samples / SAMPLES_PER_SIDE) ** 2:
         return None
     radiance = backdrop(camera.size)
     radiance[known] = light[known] / weight[known, None]
@@ -172,7 +176,7 @@ def _step(before: Pose, after: Pose) -> float:
     names = set(before.units) | set(after.units)
     moved = [
         abs(before.units.get(name, 0.0) - after.units.get(name, 0.0))
-        / CHANGES["blink" if name.startswith("eyeBlink") else "unit"]
+        / MAX_POSE_CHANGES["blink" if name.startswith("eyeBlink") else "unit"]
         for name in names
     ]
     for kind, one, other in (
@@ -180,5 +184,5 @@ def _step(before: Pose, after: Pose) -> float:
         ("gaze", before.gaze, after.gaze),
         ("breath", (before.breath,), (after.breath,)),
     ):
-        moved += [abs(a - b) / CHANGES[kind] for a, b in zip(one, other, strict=True)]
+        moved += [abs(a - b) / MAX_POSE_CHANGES[kind] for a, b in zip(one, other, strict=True)]
     return max(moved, default=0.0)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
-from engine.performances.chart import AXIS, RADIUS, smooth_curve, step
+from engine.performances.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, step
 from engine.performances.figure import Figure
 
 HAIRLINE = [
@@ -121,4 +121,4 @@ def _scatter(
 
 
 def _chart_of(points: NDArray[np.floating]) -> NDArray[np.floating]:
-    return np.stack([RADIUS * np.arctan2(points[:, 0], points[:, 2] - AXIS), points[:, 1]], 1)
+    return np.stack([CHART_RADIUS * np.arctan2(points[:, 0], points[:, 2] - AXIS_DEPTH), points[:, 1]], 1)

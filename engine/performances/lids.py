@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.performances.eyes import Eyeball
 from engine.render.rasteriser import rasterise
 
-OVERLAP = 0.0003
+RIM_OVERLAP = 0.0003
 """Metres by which the upper rim covers the lower one when shut."""
 
 INNER_FADE, OUTER_FADE = 0.009, 0.0055
@@ -49,7 +49,7 @@ class Lids:
         (V, 3), the template's vertices with all other face units at work."""
         gap = (self.upper @ moved[:, 1]) - (self.lower @ moved[:, 1])
         reach = -(self.upper @ self.shut[:, 1])
-        needed = np.clip((gap + OVERLAP) / np.maximum(reach, 1e-4), 0, 1.6)
+        needed = np.clip((gap + RIM_OVERLAP) / np.maximum(reach, 1e-4), 0, 1.6)
         needed = np.convolve(np.pad(needed, 2, mode="edge"), np.full(5, 0.2), mode="valid")
         inner_is_first = self.x.mean() > 0
         fades = (INNER_FADE, OUTER_FADE) if inner_is_first else (OUTER_FADE, INNER_FADE)

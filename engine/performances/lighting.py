@@ -11,24 +11,28 @@ from engine.performances.chart import step
 from engine.performances.sight import Seen
 from engine.render.light import Lamps, dome, softbox
 
-KEY = (-40.0, 34.0, 44.0, 52.0)
-FILL = (50.0, 8.0, 70.0, 60.0)
+KEY_BOX = (-40.0, 34.0, 44.0, 52.0)
+FILL_BOX = (50.0, 8.0, 70.0, 60.0)
 """Softboxes: azimuth, elevation, width and height in degrees."""
 
-KEY_LIGHT = np.array([2.05, 1.98, 1.86], np.float32)
-FILL_LIGHT = np.array([0.42, 0.44, 0.47], np.float32)
+KEY_IRRADIANCE = np.array([2.05, 1.98, 1.86], np.float32)
+FILL_IRRADIANCE = np.array([0.42, 0.44, 0.47], np.float32)
 """Their irradiance on a surface that faces them."""
 
-ZENITH, HORIZON, FLOOR = np.array([0.14, 0.145, 0.155]), np.full(3, 0.085), np.array([0.05, 0.043, 0.037])
+ZENITH_RADIANCE, HORIZON_RADIANCE, FLOOR_RADIANCE = (
+    np.array([0.14, 0.145, 0.155]),
+    np.full(3, 0.085),
+    np.array([0.05, 0.043, 0.037]),
+)
 """Radiance of the room from above, the sides and below."""
 
-CATCHLIGHT = 2.8
+CATCHLIGHT_GAIN = 2.8
 """How much brighter the boxes look in the eyes than they light the face: their diffusers are not even."""
 
 EYE_BOUNCE = np.array([0.10, 0.11, 0.12], np.float32)
 """Irradiance on the rims of the lids by light from the white of the eye."""
 
-BOUNCE = np.array([0.40, 0.31, 0.27], np.float32)
+MOUTH_IRRADIANCE = np.array([0.40, 0.31, 0.27], np.float32)
 """Irradiance inside the mouth by light that its walls pass on to each other."""
 
 
@@ -40,11 +44,11 @@ def lamps(detail: float = 1.0) -> Lamps:
         return max(round(count * detail), 2)
 
     return (
-        softbox(KEY[0], KEY[1], KEY[2:], KEY_LIGHT, number(22))
-        + softbox(FILL[0], FILL[1], FILL[2:], FILL_LIGHT, number(8))
+        softbox(KEY_BOX[0], KEY_BOX[1], KEY_BOX[2:], KEY_IRRADIANCE, number(22))
+        + softbox(FILL_BOX[0], FILL_BOX[1], FILL_BOX[2:], FILL_IRRADIANCE, number(8))
         + softbox(152, 42, (50, 40), np.array([0.45, 0.45, 0.46]), number(4))
         + softbox(-152, 42, (50, 40), np.array([0.36, 0.36, 0.36]), number(4))
-        + dome(ZENITH, HORIZON, FLOOR, number(24))
+        + dome(ZENITH_RADIANCE, HORIZON_RADIANCE, FLOOR_RADIANCE, number(24))
     )
 
 
@@ -55,7 +59,7 @@ def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.flo
     head = scene.posed.head
     depth = 0.146 - (seen.position[inside] - head[:3, 3]) @ head[:3, 2]
     bounced = wet[:, None] * EYE_BOUNCE
-    bounced[inside] += np.exp(-np.clip(depth, 0, None) / 0.013)[:, None].astype(np.float32) * BOUNCE
+    bounced[inside] += np.exp(-np.clip(depth, 0, None) / 0.013)[:, None].astype(np.float32) * MOUTH_IRRADIANCE
     return bounced
 
 
@@ -70,10 +74,10 @@ def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float
     elevation = np.degrees(np.arcsin(np.clip(ray[:, 1], -1, 1)))
     fresnel = 0.025 + 0.975 * (1 - np.clip(cosine[:, 0], 0, 1)) ** 5
     open_to = np.clip(irradiance[eye].mean(1) / 0.55, 0, 1)
-    for (x, y, width, height), light in ((KEY, KEY_LIGHT), (FILL, FILL_LIGHT)):
+    for (x, y, width, height), light in ((KEY_LIGHT, KEY_LIGHT), (FILL_LIGHT, FILL_LIGHT)):
         inside = step(np.abs(azimuth - x), width / 2 + 3, width / 2 - 3) * step(
             np.abs(elevation - y), height / 2 + 3, height / 2 - 3
         )
         radiance = light / (np.radians(width) * np.radians(height) * np.cos(np.radians(y)))
-        mirrored[eye] += CATCHLIGHT * (inside * fresnel * open_to)[:, None] * radiance
+        mirrored[eye] += CATCHLIGHT_GAIN * (inside * fresnel * open_to)[:, None] * radiance
     return mirrored

@@ -11,7 +11,7 @@ from engine.geometry.surface import chart_tangents
 from engine.performances import chart
 from engine.performances.actor import Actor, Part, Scene
 from engine.performances.eyes import colour_of_eye
-from engine.performances.shirt import BAND
+from engine.performances.shirt import COLLAR_WIDTH
 from engine.performances.sight import Seen, unit
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.bump import bump
@@ -139,9 +139,9 @@ def _cloth(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     on_cloth[seen.covered] = chosen
     weave = interpolate(by_vertex, scene.triangles, seen.raster)[on_cloth]
     around, away = weave[:, 0], weave[:, 1]
-    rib = np.where(away < BAND, 0.5 + 0.5 * np.cos(2 * np.pi * around / 0.0021), 0.75)
+    rib = np.where(away < COLLAR_WIDTH, 0.5 + 0.5 * np.cos(2 * np.pi * around / 0.0021), 0.75)
     fleck = np.sin(around * 5200 + 3.1 * np.sin(away * 900)) * np.sin(away * 6100 + 2.3 * np.sin(around * 1100))
-    stitch = 1 - 0.35 * np.exp(-0.5 * ((away - BAND - 0.0008) / 0.0006) ** 2)
+    stitch = 1 - 0.35 * np.exp(-0.5 * ((away - COLLAR_WIDTH - 0.0008) / 0.0006) ** 2)
     shade = (0.72 + 0.28 * rib) * (1 + 0.10 * fleck) * stitch
     matter.albedo[chosen] = shade[:, None] * np.array([0.050, 0.060, 0.078], np.float32)
     matter.roughness[chosen] = 0.75

@@ -14,7 +14,7 @@ from engine.performances import delight, distress, gestures, presence, speech
 from engine.performances.catalogue import scored
 from engine.performances.figure import Pose
 
-SECONDS: Mapping[str, float] = {performance.name: performance.seconds for performance in scored()}
+PERFORMANCE_SECONDS: Mapping[str, float] = {performance.name: performance.seconds for performance in scored()}
 
 SCORES: Mapping[str, Callable[[float], Pose]] = {
     "idle": presence.idle,

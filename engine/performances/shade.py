@@ -10,10 +10,10 @@ from engine.compiled import njit
 from engine.performances.chart import step
 from engine.render.light import Lamps
 
-VOXEL = 0.0016
+VOXEL_METRES = 0.0016
 """Metres."""
 
-THICKNESS = 0.75
+HAIR_ABSORPTION = 0.75
 """How much of the light that meets a hair it keeps; the rest scatters on."""
 
 
@@ -25,19 +25,19 @@ def light_through(
     `points` (S, K, 3) and `widths` (S, K) are the hairs in the rest pose, `normals` (S, 3) the scalp at their roots:
     lamps behind the head do not reach them.
     """
-    low = points.reshape(-1, 3).min(0) - 2 * VOXEL
-    shape = tuple(np.ceil((points.reshape(-1, 3).max(0) - low) / VOXEL).astype(int) + 2)
+    low = points.reshape(-1, 3).min(0) - 2 * VOXEL_METRES
+    shape = tuple(np.ceil((points.reshape(-1, 3).max(0) - low) / VOXEL_METRES).astype(int) + 2)
     middles = 0.5 * (points[:, 1:] + points[:, :-1])
     area = np.linalg.norm(points[:, 1:] - points[:, :-1], axis=2) * 0.5 * (widths[:, 1:] + widths[:, :-1])
     density = np.zeros(shape, np.float32)
-    cell = ((middles.reshape(-1, 3) - low) / VOXEL).astype(int)
-    np.add.at(density, tuple(cell.T), (area.ravel() / VOXEL**3).astype(np.float32))
+    cell = ((middles.reshape(-1, 3) - low) / VOXEL_METRES).astype(int)
+    np.add.at(density, tuple(cell.T), (area.ravel() / VOXEL_METRES**3).astype(np.float32))
     facing = step(normals @ lamps.directions.T, -0.35, 0.25)
     passed = _march(
         density,
-        np.ascontiguousarray(((points - low) / VOXEL).reshape(-1, 3), np.float32),
+        np.ascontiguousarray(((points - low) / VOXEL_METRES).reshape(-1, 3), np.float32),
         lamps.directions,
-        THICKNESS * VOXEL,
+        HAIR_ABSORPTION * VOXEL_METRES,
     )
     return passed.reshape(*points.shape[:2], -1) * facing[:, None]
 

@@ -11,10 +11,10 @@ from engine.geometry.surface import triangulate
 from engine.performances.figure import Figure
 from engine.render.rasteriser import rasterise
 
-AXIS = 0.012
+NECKLINE_AXIS_DEPTH = 0.012
 """z of the vertical axis around which the neckline runs, metres."""
 
-BAND = 0.017
+COLLAR_WIDTH = 0.017
 """Width of the ribbed collar, metres."""
 
 
@@ -24,7 +24,7 @@ class Shirt:
 
     `corners` (N, 3) and `share` (N, 3): the triangle of skin under each vertex and its barycentrics there; `lift` (N,)
     metres above it; `triangles` (T, 3), `light_triangles` fewer, for shadows; `weave` (N, 2) metres along the cloth:
-    around the neck and away from it (the collar is where the second is less than `BAND`).
+    around the neck and away from it (the collar is where the second is less than `COLLAR_WIDTH`).
     """
 
     corners: NDArray[np.int32]
@@ -41,8 +41,8 @@ def sew_shirt(figure: Figure, seed: int = 31) -> Shirt:
     triangles = triangulate(figure.quads)
     turns = np.linspace(-np.pi, np.pi, 361)[:-1]
     low, high, scale = 0.46, 0.70, 2500.0
-    turn = np.arctan2(skin[:, 0], skin[:, 2] - AXIS)
-    radius = np.hypot(skin[:, 0], skin[:, 2] - AXIS)
+    turn = np.arctan2(skin[:, 0], skin[:, 2] - NECKLINE_AXIS_DEPTH)
+    radius = np.hypot(skin[:, 0], skin[:, 2] - NECKLINE_AXIS_DEPTH)
     width = 1440
     pixels = np.stack([(turn / (2 * np.pi) + 0.5) * width, (high - skin[:, 1]) * scale, -radius], 1)
     whole = triangles[np.ptp(turn[triangles], axis=1) < 1]
@@ -100,8 +100,8 @@ def _filled(column: NDArray[np.floating]) -> NDArray[np.floating]:
 def _thickness(away: NDArray[np.floating]) -> NDArray[np.floating]:
     """Height of the cloth over the skin: a rounded collar, a seam, then loose cloth."""
     collar = 0.0030 * np.sqrt(np.clip((away + 0.002) / 0.004, 0, 1))
-    seam = -0.0009 * np.exp(-0.5 * ((away - BAND) / 0.0009) ** 2)
-    loose = 0.0022 * np.clip((away - BAND) / 0.03, 0, 1)
+    seam = -0.0009 * np.exp(-0.5 * ((away - COLLAR_WIDTH) / 0.0009) ** 2)
+    loose = 0.0022 * np.clip((away - COLLAR_WIDTH) / 0.03, 0, 1)
     return np.where(away < -0.0015, -0.002, collar + seam + loose)
 
 
@@ -115,7 +115,7 @@ def _folds(rng: np.random.Generator, turns: NDArray[np.floating], away: NDArray[
         total += rng.uniform(0.2, 0.7) * np.sin(
             rng.uniform(40, 110) * away[None] + rng.integers(1, 5) * turns[:, None] + rng.uniform(0, 6.28)
         )
-    return 0.00075 * total * np.clip((away[None] - BAND) / 0.05, 0, 1)
+    return 0.00075 * total * np.clip((away[None] - COLLAR_WIDTH) / 0.05, 0, 1)
 
 
 def _grid(index: NDArray[np.integer]) -> NDArray[np.int32]:

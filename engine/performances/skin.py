@@ -12,11 +12,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.brows import BROW
+from engine.performances.brows import BROW_LINE
 from engine.performances.chart import (
+    CHART_SHAPE,
     LEFT,
-    SHAPE,
-    TEXELS,
+    TEXELS_PER_METRE,
     TOP,
     along,
     blob,
@@ -28,11 +28,11 @@ from engine.performances.chart import (
     step,
 )
 
-GROUND = np.array([0.72, 0.52, 0.42], np.float32)
+BASE_REFLECTANCE = np.array([0.72, 0.52, 0.42], np.float32)
 """Diffuse reflectance (linear RGB) of the skin with hardly any pigment."""
 
-BLOOD = np.array([0.14, 0.78, 0.66], np.float32)
-MELANIN = np.array([0.26, 0.50, 0.78], np.float32)
+BLOOD_ABSORBANCE = np.array([0.14, 0.78, 0.66], np.float32)
+MELANIN_ABSORBANCE = np.array([0.26, 0.50, 0.78], np.float32)
 """Absorbance of one unit of pigment in red, green and blue: after the spectra in T. Igarashi et al., The
 Appearance of Human Skin, 2007, in the proportions that matched photographs by eye."""
 
@@ -59,7 +59,7 @@ def paint_skin(seed: int = 7) -> Skin:
     lips = _lips(rng)
     blood = _blood(rng) * (1 - lips) + lips * (0.74 + 0.08 * noise(rng, 0.0016) + 0.07 * noise(rng, 0.006))
     melanin = _melanin(rng) * (1 - lips) + lips * 0.40
-    albedo = GROUND * np.exp(-blood[..., None] * BLOOD - melanin[..., None] * MELANIN)
+    albedo = BASE_REFLECTANCE * np.exp(-blood[..., None] * BLOOD_ABSORBANCE - melanin[..., None] * MELANIN_ABSORBANCE)
     beard = _beard(rng) * (1 - lips)
     albedo *= 1 - beard[..., None] * np.array([0.40, 0.35, 0.27], np.float32)
     brows = np.clip(1.25 * brow_shadow(), 0, 1)[..., None] * np.array([0.34, 0.40, 0.44], np.float32)
@@ -76,11 +76,13 @@ def _lips(rng: np.random.Generator) -> NDArray[np.float32]:
     """The vermilion with its soft, slightly ragged border."""
     upper, lower = smooth_curve(mirrored(UPPER_LIP)), smooth_curve(mirrored(LOWER_LIP))
     outline = np.concatenate([upper, lower[::-1]])
-    texels = np.stack([(outline[:, 0] - LEFT) * TEXELS - 0.5, (TOP - outline[:, 1]) * TEXELS - 0.5], 1)
-    inside = np.zeros(SHAPE, np.uint8)
+    texels = np.stack(
+        [(outline[:, 0] - LEFT) * TEXELS_PER_METRE - 0.5, (TOP - outline[:, 1]) * TEXELS_PER_METRE - 0.5], 1
+    )
+    inside = np.zeros(CHART_SHAPE, np.uint8)
     cv2.fillPoly(inside, [np.rint(texels * 16).astype(np.int32)], 1, shift=4)
     distance = cv2.distanceTransform(inside, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - inside, cv2.DIST_L2, 5)
-    ragged = distance / TEXELS + 0.00022 * noise(rng, 0.0018)
+    ragged = distance / TEXELS_PER_METRE + 0.00022 * noise(rng, 0.0018)
     return step(ragged, -0.0009, 0.0010)
 
 
@@ -144,8 +146,8 @@ def _beard(rng: np.random.Generator) -> NDArray[np.float32]:
 
 def brow_shadow() -> NDArray[np.float32]:
     """Where brows grow, the skin is darker: the shade of hairs too fine to draw, [0, 1]."""
-    total = np.zeros(SHAPE, np.float32)
-    distance, place, (rows, columns) = along(BROW, 0.008)
+    total = np.zeros(CHART_SHAPE, np.float32)
+    distance, place, (rows, columns) = along(BROW_LINE, 0.008)
     half = np.interp(place, [0, 0.1, 0.4, 0.7, 1], [0.0022, 0.0036, 0.0036, 0.0028, 0.0010])
     total[rows, columns] = np.exp(-0.5 * (distance / half) ** 2) * step(place, -0.02, 0.10) * step(place, 1.0, 0.86)
     return total + total[:, ::-1]

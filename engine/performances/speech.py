@@ -16,7 +16,7 @@ from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
 from engine.performances.timing import blink, ease, glances, swell
 
-SHAPES: Mapping[str, Mapping[str, float]] = {
+MOUTH_SHAPES: Mapping[str, Mapping[str, float]] = {
     "_": {},
     "p": {"mouthPress": 0.34, "mouthRollLower": 0.26, "mouthRollUpper": 0.18, "jawOpen": 0.01},
     "f": {"mouthRollLower": 0.46, "mouthUpperUp": 0.22, "jawOpen": 0.07},
@@ -36,10 +36,10 @@ SHAPES: Mapping[str, Mapping[str, float]] = {
 }
 """The mouth of each phoneme, by face units; a unit without a side acts on both. `_` is silence, `@` the schwa."""
 
-PULL: Mapping[str, float] = {"p": 6.0, "f": 4.0, "w": 2.5, "sh": 2.2, "u": 1.8, "o": 1.6, "_": 2.0}
+PHONEME_PULLS: Mapping[str, float] = {"p": 6.0, "f": 4.0, "w": 2.5, "sh": 2.2, "u": 1.8, "o": 1.6, "_": 2.0}
 """How much a shape matters; 1 for all others."""
 
-SPREAD = 0.080
+PULL_SECONDS = 0.080
 """Seconds over which the pull of a phoneme falls off: about half its usual length."""
 
 
@@ -118,13 +118,13 @@ def talk_strong(t: float) -> Pose:
 def _mouth(units: Units, t: float, said: tuple[Phoneme, ...], seconds: float, force: float) -> None:
     """The mouth at a time: the mean of all shapes, weighted by their pull."""
     ends = (Phoneme("_", said[0].at - 0.18, False), *said, Phoneme("_", said[-1].at + 0.20, False))
-    pulls = [PULL.get(one.shape, 1.0) * math.exp(-(((t - one.at) / SPREAD) ** 2)) for one in ends]
+    pulls = [PHONEME_PULLS.get(one.shape, 1.0) * math.exp(-(((t - one.at) / PULL_SECONDS) ** 2)) for one in ends]
     before, after = said[0].at - 0.2, said[-1].at + 0.24
     speaking = ease(t, before, before + 0.16) * (1 - ease(t, after - 0.12, after + 0.10))
     total = sum(pulls) + 1e-9
     for one, pull in zip(ends, pulls, strict=True):
         louder = 1.16 if one.stressed else 0.96
-        for name, weight in SHAPES[one.shape].items():
+        for name, weight in MOUTH_SHAPES[one.shape].items():
             amount = force * louder * speaking * weight * pull / total
             if name.startswith(("mouthPress", "mouthStretch", "mouthSmile", "mouthUpperUp", "mouthLowerDown")):
                 both(units, name, amount, right=0.96)

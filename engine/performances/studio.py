@@ -19,11 +19,13 @@ from engine.render.shading import Surface, illuminate
 from engine.render.strands import draw_strands, shade_strands
 from engine.render.subsurface import diffuse
 
-SIZE = 512
-SAMPLES = 2
+PICTURE_SIZE = 512
+SAMPLES_PER_SIDE = 2
 """Pixels are rendered as SAMPLES x SAMPLES and averaged."""
 
-CAMERA = Camera(eye=(0.0, 0.775, 1.62), focal=SIZE * 1.50 / 0.294, centre=(255.5, 257.0), size=(SIZE, SIZE))
+CAMERA = Camera(
+    eye=(0.0, 0.775, 1.62), focal=PICTURE_SIZE * 1.50 / 0.294, centre=(255.5, 257.0), size=(PICTURE_SIZE, PICTURE_SIZE)
+)
 """A portrait lens 1.6 m away: little perspective, the face about 250 pixels wide."""
 
 EXPOSURE = 1.55
@@ -48,13 +50,13 @@ class Exposure:
     hair: tuple[NDArray[np.float32], ...]
 
 
-def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1.0) -> NDArray[np.uint8]:
+def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: float = 1.0) -> NDArray[np.uint8]:
     """A picture (SIZE, SIZE, 3) uint8 of a scene: some seconds. For a quick proof take one sample a pixel and less
     `detail` of the lamps."""
     return finish(expose(actor, scene, samples, detail), actor, samples)
 
 
-def expose(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1.0) -> Exposure:
+def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: float = 1.0) -> Exposure:
     """Light a scene."""
     camera = CAMERA.scaled(samples)
     seen = look(scene, camera)
@@ -77,7 +79,7 @@ def expose(actor: Actor, scene: Scene, samples: int = SAMPLES, detail: float = 1
     )
 
 
-def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES) -> NDArray[np.uint8]:
+def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES_PER_SIDE) -> NDArray[np.uint8]:
     """Draw the hair over an exposure and develop it: (SIZE, SIZE, 3) uint8."""
     camera = CAMERA.scaled(samples)
     picture = exposure.radiance.copy()

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-UPPER = ((8.3, 10.0), (6.4, 9.1), (7.3, 9.5), (6.8, 8.3), (6.6, 7.8), (9.6, 7.0), (9.2, 6.6))
-LOWER = ((5.1, 8.6), (5.6, 8.8), (6.5, 9.0), (6.7, 8.2), (6.8, 7.6), (10.4, 6.8), (9.8, 6.6))
+UPPER_CROWNS = ((8.3, 10.0), (6.4, 9.1), (7.3, 9.5), (6.8, 8.3), (6.6, 7.8), (9.6, 7.0), (9.2, 6.6))
+LOWER_CROWNS = ((5.1, 8.6), (5.6, 8.8), (6.5, 9.0), (6.7, 8.2), (6.8, 7.6), (10.4, 6.8), (9.8, 6.6))
 """Width and height in millimetres of the crowns from the middle outwards: incisors, canine, premolars, molars.
 After M. Ash, S. Nelson, Wheeler's Dental Anatomy, scaled to the template's head."""
 
-DEPTH = (3.3, 3.2, 3.9, 4.3, 4.5, 5.0, 5.0)
+CROWN_HALF_DEPTHS = (3.3, 3.2, 3.9, 4.3, 4.5, 5.0, 5.0)
 """Half thickness at the gum, millimetres."""
 
 
@@ -54,7 +54,7 @@ class Arch:
 def build_dentition(arch: Arch, detail: float = 1.0, seed: int = 3) -> Dentition:
     """The crowns and the gum of one jaw; `detail` scales the fineness of the mesh, not its shape."""
     rng = np.random.default_rng(seed)
-    sizes = UPPER if arch.up < 0 else LOWER
+    sizes = UPPER_CROWNS if arch.up < 0 else LOWER_CROWNS
     pieces = []
     for side in (-1, 1):
         reached = 0.0
@@ -82,7 +82,7 @@ def _crown(
     levels, sectors = round(18 * detail), round(28 * detail)
     t = np.linspace(-0.25, 1, levels)[:, None]
     turn = np.linspace(0, 2 * np.pi, sectors, endpoint=False)[None]
-    depth = DEPTH[number] / 1000
+    depth = CROWN_HALF_DEPTHS[number] / 1000
     grown = np.clip(t, 0, 1)
     edge = np.sqrt(np.clip(1 - ((grown - 0.90) / 0.10).clip(0) ** 2, 0, 1))  # the last tenth is rounded off
     if number < 2:

@@ -13,7 +13,7 @@ BLINK_REOPENS = 0.22
 """Seconds. Spontaneous blinks: the lid falls about twice as fast as it rises (K.-A. Kwon et al., High-speed camera
 characterization of voluntary eye blinking kinematics, 2013)."""
 
-GLANCE = 0.045
+SACCADE_SECONDS = 0.045
 """Seconds of a saccade of a few degrees."""
 
 
@@ -48,7 +48,7 @@ def glances(t: float, places: tuple[tuple[float, float, float], ...]) -> tuple[f
     time, the first before the clip begins."""
     up, left = places[0][1:]
     for at, next_up, next_left in places[1:]:
-        share = ease(t, at, at + GLANCE)
+        share = ease(t, at, at + SACCADE_SECONDS)
         up, left = up + share * (next_up - up), left + share * (next_left - left)
     return up, left
 

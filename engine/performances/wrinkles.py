@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.chart import SHAPE, along
+from engine.performances.chart import CHART_SHAPE, along
 
 Curve = list[tuple[float, float]]
 
@@ -121,7 +121,7 @@ def carve() -> Wrinkles:
         groups[f"{name}_left"] = _relief(furrows)
         groups[f"{name}_right"] = groups[f"{name}_left"][:, ::-1]
     forehead = _relief(FOREHEAD)
-    left = 1 / (1 + np.exp(-np.linspace(-9, 9, SHAPE[1], dtype=np.float32)[None] * 2.2))
+    left = 1 / (1 + np.exp(-np.linspace(-9, 9, CHART_SHAPE[1], dtype=np.float32)[None] * 2.2))
     groups["forehead_left"], groups["forehead_right"] = forehead * left, forehead * (1 - left)
     groups["glabella"], groups["chin"] = _relief(GLABELLA), _relief(CHIN)
     return Wrinkles(tuple(groups), np.stack([np.ascontiguousarray(relief) for relief in groups.values()]))
@@ -129,7 +129,7 @@ def carve() -> Wrinkles:
 
 def pressed(wrinkles: Wrinkles, units: Mapping[str, float]) -> NDArray[np.float32]:
     """The relief (H, W) float32 metres that a face with these unit weights wears."""
-    total = np.zeros(SHAPE, np.float32)
+    total = np.zeros(CHART_SHAPE, np.float32)
     for name, relief in zip(wrinkles.names, wrinkles.relief, strict=True):
         strength = sum(share * max(units.get(unit, 0.0), 0.0) for unit, share in PRESSED_BY[name].items())
         strength = AT_REST.get(name, 0.0) + strength
@@ -139,7 +139,7 @@ def pressed(wrinkles: Wrinkles, units: Mapping[str, float]) -> NDArray[np.float3
 
 
 def _relief(furrows: tuple[Furrow, ...]) -> NDArray[np.float32]:
-    total = np.zeros(SHAPE, np.float32)
+    total = np.zeros(CHART_SHAPE, np.float32)
     for furrow in furrows:
         width, depth = furrow.width / 1000, furrow.depth / 1000
         distance, place, (rows, columns) = along(furrow.curve, 6 * width)

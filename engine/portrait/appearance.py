@@ -22,7 +22,7 @@ from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.features import expression, frontal
 from engine.perception.head_pose import canonical_face, head_pose
-from engine.perception.landmarks import RIGID, eye_distance
+from engine.perception.landmarks import RIGID_VERTICES, eye_distance
 from engine.perception.one_face import OneFace
 
 BARE_SKIN = (
@@ -89,7 +89,7 @@ def appearance_of_driver(
 
 def _gather(rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]]) -> Appearance:
     meshes = np.array([mesh for _, mesh in rows], float)
-    rigid = np.median(frontal(meshes)[:, list(RIGID), :2], axis=0)
+    rigid = np.median(frontal(meshes)[:, list(RIGID_VERTICES), :2], axis=0)
     light, palette = (np.median(values, axis=0) for values in zip(*(_shading(*row) for row in rows), strict=True))
     return Appearance(
         proportions=(rigid - rigid.mean(axis=0)).astype(np.float32),
@@ -125,7 +125,7 @@ def _shading(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> tuple[NDArra
 
 
 def _turn(meshes: NDArray[np.floating]) -> float:
-    chosen = list(RIGID)
+    chosen = list(RIGID_VERTICES)
     _, rotation, _ = fit_similarities(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
     ahead = rotation[:, :, 2]
     usual = np.median(ahead, axis=0)

@@ -20,7 +20,13 @@ from engine.performances.catalogue import VIDEOS
 from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
 from engine.run import Run
 
-WEIGHTS: Mapping[str, float] = {"expression": 0.35, "proportions": 0.25, "light": 0.15, "palette": 0.15, "turn": 0.10}
+CRITERION_WEIGHTS: Mapping[str, float] = {
+    "expression": 0.35,
+    "proportions": 0.25,
+    "light": 0.15,
+    "palette": 0.15,
+    "turn": 0.10,
+}
 """What counts how much. The expression first: what of it the driver never shows, stays on the face all the time."""
 
 PROPORTIONS_SCALE, LIGHT_SCALE, PALETTE_SCALE, TURN_SCALE = 0.05, 0.4, 20.0, 10.0
@@ -81,7 +87,7 @@ def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> Selec
 
 
 def fit(target: Appearance, driver: Appearance) -> dict[str, float]:
-    """How well a driver fits a target: a score for each of `WEIGHTS`, and their weighted mean as `total`."""
+    """How well a driver fits a target: a score for each of `CRITERION_WEIGHTS`, and their weighted mean as `total`."""
     apart = np.sqrt(((target.proportions - driver.proportions) ** 2).sum(axis=1).mean())
     colour = (target.palette - driver.palette) * (LIGHTNESS_WEIGHT, 1, 1)
     scores = {
@@ -91,7 +97,7 @@ def fit(target: Appearance, driver: Appearance) -> dict[str, float]:
         "palette": _bell(float(np.linalg.norm(colour)) / PALETTE_SCALE),
         "turn": _bell(max(target.turn + driver.turn - MAX_TURN, 0.0) / TURN_SCALE),
     }
-    total = sum(WEIGHTS[name] * score for name, score in scores.items())
+    total = sum(CRITERION_WEIGHTS[name] * score for name, score in scores.items())
     return {name: round(value, 4) for name, value in {**scores, "total": total}.items()}
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
-from engine.face_animation.acting_options import PARTS, ActingOptions, Part
+from engine.face_animation.acting_options import ACTING_PARTS, ActingOptions, Part
 from engine.performances import names
 
 Side = Annotated[int, Field(ge=64, le=4096)]
@@ -19,7 +19,7 @@ States = Annotated[tuple[Annotated[str, Field(max_length=100)], ...], Field(fail
 
 def _named(follow: object) -> object:
     """The parts, where they are not named one by one."""
-    return PARTS if follow in ("all", ["all"], ("all",)) else follow
+    return ACTING_PARTS if follow in ("all", ["all"], ("all",)) else follow
 
 
 class PortraitOptions(BaseModel):
@@ -55,7 +55,7 @@ class PortraitOptions(BaseModel):
         1.0, description="How strongly the motion is carried over; 1 is as the driver does it."
     )
     follow: Annotated[tuple[Part, ...], Field(fail_fast=True, max_length=20), BeforeValidator(_named)] = Field(
-        PARTS, description='Which parts follow the driver; `["all"]` stands for every one.'
+        ACTING_PARTS, description='Which parts follow the driver; `["all"]` stands for every one.'
     )
     head_3d: bool = Field(
         True, description="Turn the head by a 3D proxy; false keeps to the paper's warp in the plane."

@@ -17,7 +17,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
-from engine.perception.expression.features import EXPRESSION, expression
+from engine.perception.expression.features import EXPRESSION_FEATURES, expression
 from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
 from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
@@ -198,7 +198,7 @@ def _check_face(
             ("landmarks", "face_index"),
             found,
         )
-    smile = float(expression(mesh[None])[0, EXPRESSION.index("corners_up")])
+    smile = float(expression(mesh[None])[0, EXPRESSION_FEATURES.index("corners_up")])
     words = "is turned sideways", "looks up or down", "has its mouth open", "smiles"
     if shown := [
         word

@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # a job kind's options name the moves, and stay light
 
 Move = Literal["fixed", "orbit", "parallax"]
 
-MOVES: tuple[Move, ...] = get_args(Move)
+CAMERA_MOVES: tuple[Move, ...] = get_args(Move)
 
 ORBIT_DEGREES = 24.0
 """Degrees that the camera goes round to either side: further, the back of the picture would have to be known."""

@@ -28,7 +28,7 @@ from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
 from engine.render.multisampling import choose, draw_samples, sample_offsets
 from engine.render.outline import facings, mark_outline
-from engine.render.rasteriser import SUBPIXELS, draw_into
+from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into
 from engine.render.scratch import Scratch
 from engine.render.texturing import colour_inside, colour_samples, corner_table
 
@@ -143,7 +143,7 @@ def _draw_over(
     colour_inside(*surface, ids, marks, rgb, alpha, left, top)
     chosen, offsets = choose(marks), sample_offsets(samples)
     seen = draw_samples(points, faces, facing, subject.closed, *chosen, offsets)
-    share = (offsets / SUBPIXELS).astype(np.float32)
+    share = (offsets / SUBPIXEL_STEPS).astype(np.float32)
     colour_samples(*surface, seen, chosen.places, share, alone, rgb, alpha, left, top)
     return alpha
 

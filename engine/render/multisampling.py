@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXELS, bias, snapped
+from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXEL_STEPS, bias, snapped
 
 BLOCK_SHIFT = 3
 """Binary logarithm of the side, in pixels, of the blocks by which triangles find the chosen pixels that they touch."""
@@ -43,8 +43,8 @@ def choose(marks: NDArray[np.bool_]) -> Chosen:
 
 
 def sample_offsets(samples: int) -> NDArray[np.int64]:
-    """(samples * samples, 2) x and y of the samples of a pixel, evenly apart: `SUBPIXELS` from its centre."""
-    along = np.rint(SUBPIXELS * ((np.arange(samples) + 0.5) / samples - 0.5)).astype(np.int64)
+    """(samples * samples, 2) x and y of the samples of a pixel, evenly apart: `SUBPIXEL_STEPS` from its centre."""
+    along = np.rint(SUBPIXEL_STEPS * ((np.arange(samples) + 0.5) / samples - 0.5)).astype(np.int64)
     return np.stack([np.tile(along, samples), np.repeat(along, samples)], 1)
 
 
@@ -79,9 +79,9 @@ def draw_samples(
         ax, ay = int(places[a, 0]), int(places[a, 1])
         bx, by = int(places[b, 0]), int(places[b, 1])
         cx, cy = int(places[c, 0]), int(places[c, 1])
-        left = max((min(ax, bx, cx) - reach + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+        left = max((min(ax, bx, cx) - reach + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
         right = min((max(ax, bx, cx) + reach) >> SUBPIXEL_BITS, width - 1)
-        top = max((min(ay, by, cy) - reach + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+        top = max((min(ay, by, cy) - reach + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
         bottom = min((max(ay, by, cy) + reach) >> SUBPIXEL_BITS, height - 1)
         if left > right or top > bottom or not _any(starts, blocks, top, bottom, left, right):
             continue

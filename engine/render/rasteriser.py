@@ -21,7 +21,7 @@ from engine.compiled import njit
 
 SUBPIXEL_BITS = 8
 """Bits of a coordinate's fraction of a pixel."""
-SUBPIXELS = 1 << SUBPIXEL_BITS
+SUBPIXEL_STEPS = 1 << SUBPIXEL_BITS
 """Steps of a pixel to which vertices are snapped, as graphics hardware does."""
 
 MAX_NARROW_WIDTH = 6
@@ -97,12 +97,12 @@ def draw_into(
 
 @njit(inline="always")
 def _snap(value: float) -> int:
-    return int(np.floor(value * SUBPIXELS + 0.5))
+    return int(np.floor(value * SUBPIXEL_STEPS + 0.5))
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")
 def snapped(points: np.ndarray) -> np.ndarray:
-    """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXELS`; x is `OUT_OF_RANGE` where a vertex is too far out."""
+    """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXEL_STEPS`; x is `OUT_OF_RANGE` where a vertex is too far out."""
     places = np.empty((len(points), 2), np.int32)
     for v in range(len(points)):
         x, y = points[v, 0], points[v, 1]
@@ -155,9 +155,9 @@ def _draw(
     za, zb, zc = points[a, 2], points[b, 2], points[c, 2]
     if min(ax, bx, cx) == OUT_OF_RANGE or (perspective and not min(za, zb, zc) > 0):
         return
-    left = max((min(ax, bx, cx) + SUBPIXELS - 1) >> SUBPIXEL_BITS, 0)
+    left = max((min(ax, bx, cx) + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, 0)
     right = min(max(ax, bx, cx) >> SUBPIXEL_BITS, ids.shape[1] - 1)
-    top = max((min(ay, by, cy) + SUBPIXELS - 1) >> SUBPIXEL_BITS, first)
+    top = max((min(ay, by, cy) + SUBPIXEL_STEPS - 1) >> SUBPIXEL_BITS, first)
     bottom = min(max(ay, by, cy) >> SUBPIXEL_BITS, last)
     if left > right or top > bottom:
         return
@@ -173,7 +173,7 @@ def _draw(
     row_a = (cx - bx) * (py - by) - (cy - by) * (px - bx)
     row_b = (ax - cx) * (py - cy) - (ay - cy) * (px - cx)
     row_c = (bx - ax) * (py - ay) - (by - ay) * (px - ax)
-    scale = np.float32(SUBPIXELS) / np.float32(area)
+    scale = np.float32(SUBPIXEL_STEPS) / np.float32(area)
     right_z = ((by - cy) * za + (cy - ay) * zb + (ay - by) * zc) * scale
     down_z = ((cx - bx) * za + (ax - cx) * zb + (bx - ax) * zc) * scale
     row_z = (row_a * za + row_b * zb + row_c * zc) / np.float32(area)
@@ -220,7 +220,7 @@ def _barycentrics(points: np.ndarray, faces: np.ndarray, ids: np.ndarray, perspe
             ax, ay = _snap(points[a, 0]), _snap(points[a, 1])
             bx, by = _snap(points[b, 0]), _snap(points[b, 1])
             cx, cy = _snap(points[c, 0]), _snap(points[c, 1])
-            px, py = x * SUBPIXELS, y * SUBPIXELS
+            px, py = x * SUBPIXEL_STEPS, y * SUBPIXEL_STEPS
             wa = np.float64((cx - bx) * (py - by) - (cy - by) * (px - bx))
             wb = np.float64((ax - cx) * (py - cy) - (ay - cy) * (px - cx))
             wc = np.float64((bx - ax) * (py - ay) - (by - ay) * (px - ax))

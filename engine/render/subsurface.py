@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-VARIANCES = (0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41)
+PROFILE_VARIANCES = (0.0064, 0.0484, 0.187, 0.567, 1.99, 7.41)
 """Variance of each Gaussian of the profile, square millimetres."""
 
-WEIGHTS = (
+PROFILE_WEIGHTS = (
     (0.233, 0.455, 0.649),
     (0.100, 0.336, 0.344),
     (0.118, 0.198, 0.000),
@@ -41,7 +41,7 @@ def diffuse(
     `translucency` (H, W): 1 where the surface is skin, 0 where it is not translucent (no light comes from there
     nor goes there); `depth` (H, W) metres, +inf where nothing is: light does not leap from one depth to another.
     """
-    shares = np.array(WEIGHTS, np.float32)
+    shares = np.array(PROFILE_WEIGHTS, np.float32)
     shares[shares < MIN_WEIGHT] = 0
     shares /= shares.sum(0)
     total = np.zeros_like(irradiance)
@@ -49,7 +49,7 @@ def diffuse(
     turned_depth = np.ascontiguousarray(depth.T)
     for colour in range(3):
         channel = np.ascontiguousarray(irradiance[..., colour])
-        for variance, share in zip(VARIANCES, shares[:, colour], strict=True):
+        for variance, share in zip(PROFILE_VARIANCES, shares[:, colour], strict=True):
             if share == 0:
                 continue
             sigma = np.sqrt(variance) / 1000 * pixels_per_metre

@@ -20,15 +20,15 @@ from engine.geometry.texture_atlas import TextureAtlas
 from engine.imaging.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 
-SLACK = 4e-3
+DEPTH_SLACK = 4e-3
 """By how much a point may lie behind what the depth buffer has and still be seen, in the unit of the vertices (metres)."""
-JUMP = 3e-2
+DEPTH_JUMP = 3e-2
 """A jump of depth from which two pixels side by side show two parts of the surface, in the same unit."""
-BESIDE = 5
+JUMP_MARGIN_PIXELS = 5
 """Pixels across about such a jump in which nothing is taken."""
-STEEPEST = 45.0
+MAX_VIEW_DEGREES = 45.0
 """Degrees between a view and the surface's normal up to which it gives anything."""
-STRIP = 1 << 18
+STRIP_TEXELS = 1 << 18
 """Texels that are worked on at once: memory stays within the texture's own."""
 
 
@@ -73,10 +73,10 @@ def bake(
     size: int,
     *,
     normals: NDArray[np.floating] | None = None,
-    steepest: float = STEEPEST,
+    steepest: float = MAX_VIEW_DEGREES,
     power: float = 1.0,
-    slack: float = SLACK,
-    jump: float = JUMP,
+    slack: float = DEPTH_SLACK,
+    jump: float = DEPTH_JUMP,
 ) -> BakedTexture:
     """The mean of what all views see, weighted by what each texel weighs in them.
 
@@ -90,7 +90,7 @@ def bake(
         make fewer patches.
     steepest : degrees from the normal up to which a view gives anything.
     power : of the cosine to the normal, which weighs a view: 0 gives all alike, much makes the most frontal win.
-    slack, jump : in the unit of the vertices, as `SLACK` and `JUMP` say.
+    slack, jump : in the unit of the vertices, as `DEPTH_SLACK` and `DEPTH_JUMP` say.
 
     Colours are taken bilinearly. Raises ValueError where triangles and atlas, or a view's arrays, do not fit.
     """
@@ -113,8 +113,8 @@ def bake(
             fronting &= view.paints
         own = np.flatnonzero(fronting[shown])
         trust = np.ones(view.camera.size, np.float32) if view.trust is None else view.trust
-        for start in range(0, len(own), STRIP):
-            here = own[start : start + STRIP]
+        for start in range(0, len(own), STRIP_TEXELS):
+            here = own[start : start + STRIP_TEXELS]
             corners, share = faces[shown[here]], places[here]
             where = view.camera.project(np.einsum("nk,nkd->nd", share, points[corners]))
             facing = (share * cosine[corners]).sum(1)
@@ -199,7 +199,7 @@ def _beside_edges(depth: NDArray[np.float32], jump: float) -> NDArray[np.bool_]:
     down = np.abs(framed[:-2, 1:-1] - 2 * known + framed[2:, 1:-1])
     across = np.abs(framed[1:-1, :-2] - 2 * known + framed[1:-1, 2:])
     jumps = (np.maximum(down, across) > jump).astype(np.uint8)
-    return np.asarray(cv2.dilate(jumps, np.ones((BESIDE, BESIDE), np.uint8)) > 0)
+    return np.asarray(cv2.dilate(jumps, np.ones((JUMP_MARGIN_PIXELS, JUMP_MARGIN_PIXELS), np.uint8)) > 0)
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")

@@ -8,7 +8,7 @@ import pytest
 from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space, sample_bodies
 from engine.body.rest_pose import shortest_rotation, t_pose
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 
 
@@ -53,7 +53,7 @@ def test_feet_stand_on_the_ground(space: BodySpace, template: Template) -> None:
 
 
 def test_bones_keep_their_length_on_the_way_to_the_t_pose(template: Template) -> None:
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     skeleton, _, _ = t_pose(rig, template.vertices, template.vertices_of("body"))
     before, _ = rig.joints(template.vertices)
     linked = np.flatnonzero(rig.parents >= 0)

@@ -13,19 +13,19 @@ from engine.body.contour import Contour, match_contour, skin_points, trace_conto
 from engine.body.first_guess import first_guess
 from engine.body.fitting import Fit, fit_body
 from engine.body.landmarks import landmark_model
-from engine.body.observation import LIMBS, Observation
-from engine.body.posing import COEFFICIENTS, FITTED_JOINTS, forward, rotation_matrices
-from engine.body.rig import HUMAN
+from engine.body.observation import DIRECTED_LIMBS, Observation
+from engine.body.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
 
-TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN)
+TEMPLATE, SPACE, BONES = load_template(), load_body_space(), load_rig(HUMAN_RIG)
 MARKS, SKIN = landmark_model(TEMPLATE, SPACE, BONES), skin_points(TEMPLATE, SPACE, BONES)
 FOCAL, CENTRE, SIZE = 1400.0, (320.0, 400.0), (820, 640)
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, SIZE)
-REST_PARAMETERS = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + COEFFICIENTS)])
+REST_PARAMETERS = np.concatenate([[0, 0, -4.5], np.zeros(3 * len(FITTED_JOINTS) + SHAPE_COEFFICIENTS)])
 
 
 def parameters(coefficients: dict[int, float], **turns: tuple[float, float, float]) -> np.ndarray:
@@ -35,7 +35,7 @@ def parameters(coefficients: dict[int, float], **turns: tuple[float, float, floa
     for name, turn in given.items():
         found[3 + 3 * FITTED_JOINTS.index(name) :][:3] = turn
     for number, value in coefficients.items():
-        found[len(found) - COEFFICIENTS + number] = value
+        found[len(found) - SHAPE_COEFFICIENTS + number] = value
     return found
 
 
@@ -44,15 +44,15 @@ def seen_of(truth: np.ndarray) -> tuple[Observation, dict[str, np.ndarray]]:
     joints, points = forward(SPACE, MARKS, truth)
     pixels = points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE
     place = dict(zip(SPACE.names, joints, strict=True))
-    limbs = np.stack([place[b] - place[a] for a, b in LIMBS])
+    limbs = np.stack([place[b] - place[a] for a, b in DIRECTED_LIMBS])
     limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
-    sure = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+    sure = np.ones(len(pixels), np.float32), np.ones(len(DIRECTED_LIMBS), np.float32)
     return Observation(pixels.astype(np.float32), sure[0], limbs.astype(np.float32), sure[1], CAMERA), place
 
 
 def mask_of(truth: np.ndarray) -> np.ndarray:
     """The body as the camera sees it."""
-    turns, coefficients = truth[3:-COEFFICIENTS].reshape(-1, 3), truth[-COEFFICIENTS:]
+    turns, coefficients = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3), truth[-SHAPE_COEFFICIENTS:]
     rotations = np.broadcast_to(np.eye(3), (len(SPACE.names), 3, 3)).copy()
     rotations[[SPACE.names.index(name) for name in FITTED_JOINTS]] = rotation_matrices(turns)
     heads = SPACE.joints(coefficients)
@@ -128,4 +128,4 @@ def test_wide_clothes_do_not_make_stout_people() -> None:
     truth = parameters({})
     coat = cv2.dilate(mask_of(truth).astype(np.uint8), np.ones((61, 61), np.uint8)) > 0
     found = fitted(truth, trace_contour(coat))
-    assert waist(found.coefficients) - waist(truth[-COEFFICIENTS:]) < 0.04
+    assert waist(found.coefficients) - waist(truth[-SHAPE_COEFFICIENTS:]) < 0.04

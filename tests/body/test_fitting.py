@@ -12,14 +12,14 @@ from engine.body.body_space import load_body_space
 from engine.body.first_guess import first_guess
 from engine.body.fitting import CROSSING_DEPTH, fit_body
 from engine.body.landmarks import landmark_model
-from engine.body.observation import LIMBS, Crossing, Observation
-from engine.body.posing import COEFFICIENTS, FITTED_JOINTS, forward, rotation_matrices
-from engine.body.rig import HUMAN
+from engine.body.observation import DIRECTED_LIMBS, Crossing, Observation
+from engine.body.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
 
 SPACE = load_body_space()
-MARKS = landmark_model(load_template(), SPACE, load_rig(HUMAN))
+MARKS = landmark_model(load_template(), SPACE, load_rig(HUMAN_RIG))
 FOCAL, CENTRE = 1400.0, (320.0, 400.0)
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, (820, 640))
 
@@ -39,7 +39,7 @@ def somebody(seed: int) -> np.ndarray:
         turns[FITTED_JOINTS.index(f"{side}UpLeg")] = [random.uniform(-0.3, 0.05), 0, sign * random.uniform(0, 0.2)]
         turns[FITTED_JOINTS.index(f"{side}Leg")] = [random.uniform(0, 0.4), 0, 0]
     turns[FITTED_JOINTS.index("Head")] = random.uniform(-0.2, 0.2, 3)
-    return np.concatenate([[0.1, 0.0, -4.5], turns.ravel(), random.normal(0, 0.7, COEFFICIENTS)])
+    return np.concatenate([[0.1, 0.0, -4.5], turns.ravel(), random.normal(0, 0.7, SHAPE_COEFFICIENTS)])
 
 
 def test_exact_landmarks_give_the_joints_within_two_centimetres() -> None:
@@ -49,9 +49,9 @@ def test_exact_landmarks_give_the_joints_within_two_centimetres() -> None:
         joints, points = forward(SPACE, MARKS, somebody(seed))
         pixels = points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE
         place = dict(zip(SPACE.names, joints, strict=True))
-        limbs = np.stack([place[b] - place[a] for a, b in LIMBS])
+        limbs = np.stack([place[b] - place[a] for a, b in DIRECTED_LIMBS])
         limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
-        trust = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+        trust = np.ones(len(pixels), np.float32), np.ones(len(DIRECTED_LIMBS), np.float32)
         seen = Observation(
             pixels.astype(np.float32), trust[0], limbs.astype(np.float32), trust[1], CAMERA, landmark_sigma=0.002
         )
@@ -67,16 +67,18 @@ def test_who_strides_towards_the_viewer_is_not_fitted_flat() -> None:
     """The feet's distance in depth, of somebody who walks at an ordinary pace and is seen as they are."""
     truth = np.zeros(len(somebody(0)))
     truth[:3] = [0.1, 0.0, -4.5]
-    turns = truth[3:-COEFFICIENTS].reshape(-1, 3)
+    turns = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3)
     for name, turn in {"LeftArm": (0, 0, -1.1), "RightArm": (0, 0, 1.1), "LeftUpLeg": (-0.4, 0, 0),
                        "LeftLeg": (0.15, 0, 0), "RightUpLeg": (0.15, 0, 0), "RightLeg": (0.3, 0, 0)}.items():  # fmt: skip
         turns[FITTED_JOINTS.index(name)] = turn
     joints, points = forward(SPACE, MARKS, truth)
     pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
     place = dict(zip(SPACE.names, joints, strict=True))
-    limbs = np.stack([place[b] - place[a] for a, b in LIMBS]).astype(np.float32)
+    limbs = np.stack([place[b] - place[a] for a, b in DIRECTED_LIMBS]).astype(np.float32)
     limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
-    seen = Observation(pixels, np.ones(len(pixels), np.float32), limbs, np.ones(len(LIMBS), np.float32), CAMERA)
+    seen = Observation(
+        pixels, np.ones(len(pixels), np.float32), limbs, np.ones(len(DIRECTED_LIMBS), np.float32), CAMERA
+    )
     found, _ = forward(SPACE, MARKS, fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place)).parameters)
     feet = [SPACE.names.index(f"{side}Foot") for side in ("Left", "Right")]
     strides = [at[feet[0], 2] - at[feet[1], 2] for at in (joints, found)]
@@ -89,16 +91,16 @@ def test_of_crossed_forearms_that_is_before_the_other_which_is_said_to_be(front:
     """From landmarks alone, which fit both."""
     truth = np.zeros(len(somebody(0)))
     truth[:3] = [0.1, 0.0, -4.5]
-    turns = truth[3:-COEFFICIENTS].reshape(-1, 3)
+    turns = truth[3:-SHAPE_COEFFICIENTS].reshape(-1, 3)
     for side, sign in (("Left", 1), ("Right", -1)):
         turns[FITTED_JOINTS.index(f"{side}Arm")] = [0.6, 0, -1.25 * sign]
         turns[FITTED_JOINTS.index(f"{side}ForeArm")] = [0, -1.9 * sign, 0]
     joints, points = forward(SPACE, MARKS, truth)
     pixels = (points[:, :2] * [FOCAL, -FOCAL] / -points[:, 2:] + CENTRE).astype(np.float32)
     place = dict(zip(SPACE.names, joints, strict=True))
-    limbs = np.stack([place[b] - place[a] for a, b in LIMBS]).astype(np.float32)
+    limbs = np.stack([place[b] - place[a] for a, b in DIRECTED_LIMBS]).astype(np.float32)
     limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
-    trust = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+    trust = np.ones(len(pixels), np.float32), np.ones(len(DIRECTED_LIMBS), np.float32)
     seen = Observation(pixels, trust[0], limbs, trust[1], CAMERA, crossing=Crossing(front, 0.5, 0.5))
     fit = fit_body(SPACE, MARKS, seen, first_guess(SPACE, MARKS, seen, place))
     found, _ = forward(SPACE, MARKS, fit.parameters)
@@ -118,7 +120,7 @@ def view_from(
     angle: float, truth: np.ndarray, random: np.random.Generator
 ) -> tuple[Observation, dict[str, np.ndarray]]:
     """What a camera sees of somebody, and perception makes of it: landmarks off by their usual share of the height, which
-    the test projects itself, and directions of limbs as `LIMBS` are believed. With the trunk's places in its axes."""
+    the test projects itself, and directions of limbs as `DIRECTED_LIMBS` are believed. With the trunk's places in its axes."""
     middle = truth[:3]
     eye = middle + 4.5 * np.array([np.sin(angle), 0.15, np.cos(angle)])
     camera = Camera((0, 0, 0), FOCAL, CENTRE, (820, 640)).aimed(eye, middle)
@@ -127,10 +129,10 @@ def view_from(
     pixels = seen[:, :2] * [FOCAL, -FOCAL] / -seen[:, 2:] + CENTRE
     pixels += random.normal(0, 0.012 * np.ptp(pixels[:, 1]), pixels.shape)
     place = dict(zip(SPACE.names, joints, strict=True))
-    limbs = np.stack([place[b] - place[a] for a, b in LIMBS])
-    limbs = limbs / np.linalg.norm(limbs, axis=1, keepdims=True) + random.normal(0, 0.2, (len(LIMBS), 3))
+    limbs = np.stack([place[b] - place[a] for a, b in DIRECTED_LIMBS])
+    limbs = limbs / np.linalg.norm(limbs, axis=1, keepdims=True) + random.normal(0, 0.2, (len(DIRECTED_LIMBS), 3))
     limbs /= np.linalg.norm(limbs, axis=1, keepdims=True)
-    trust = np.ones(len(pixels), np.float32), np.ones(len(LIMBS), np.float32)
+    trust = np.ones(len(pixels), np.float32), np.ones(len(DIRECTED_LIMBS), np.float32)
     return Observation(pixels.astype(np.float32), trust[0], limbs.astype(np.float32), trust[1], camera), place
 
 
@@ -140,7 +142,7 @@ def errors(truth: np.ndarray, views: list[Observation], trunk: dict[str, np.ndar
     (found, _), (joints, _) = (forward(SPACE, MARKS, parameters) for parameters in (fit.parameters, truth))
     turned = [SPACE.names.index(name) for name in FITTED_JOINTS]
     pose = ((found - found[0]) - (joints - joints[0]))[turned]
-    shape = SPACE.vertices(fit.coefficients) - SPACE.vertices(truth[-COEFFICIENTS:])
+    shape = SPACE.vertices(fit.coefficients) - SPACE.vertices(truth[-SHAPE_COEFFICIENTS:])
     return tuple(float(np.sqrt((off**2).sum(1).mean())) for off in (pose, shape))  # type: ignore[return-value]
 
 

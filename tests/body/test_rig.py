@@ -5,12 +5,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body import Template
-from engine.body.rig import FACE_JOINTS, HUMAN, RIGS, Rig
+from engine.body.rig import FACE_JOINTS, HUMAN_RIG, RIG_NAMES, Rig
 from engine.body.template import load_rig
 from engine.geometry.skinning import bone_transforms, skin
 
 
-@pytest.fixture(scope="module", params=[*RIGS, HUMAN])
+@pytest.fixture(scope="module", params=[*RIG_NAMES, HUMAN_RIG])
 def rig(request: pytest.FixtureRequest) -> Rig:
     return load_rig(request.param)
 
@@ -71,7 +71,7 @@ def test_a_turned_head_carries_the_eyes_and_leaves_the_feet(template: Template) 
 
 
 def test_the_face_takes_its_weights_from_the_head() -> None:
-    human, mixamo = load_rig(HUMAN), load_rig("mixamo")
+    human, mixamo = load_rig(HUMAN_RIG), load_rig("mixamo")
     assert human.names == (*mixamo.names, *FACE_JOINTS)
     assert {human.names[human.parents[human.index(joint)]] for joint in FACE_JOINTS} == {"Head"}
     for joint in mixamo.names:
@@ -79,7 +79,7 @@ def test_the_face_takes_its_weights_from_the_head() -> None:
 
 
 def test_the_jaw_carries_chin_teeth_and_tongue(template: Template) -> None:
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     heads, _ = rig.joints(template.vertices)
     turn = Rotation.from_euler("x", 0.3)
     posed = skin(template.vertices, rig.bones, rig.weights, bone_transforms(rig.parents, heads, turns(rig, Jaw=turn)))
@@ -94,7 +94,7 @@ def test_the_jaw_carries_chin_teeth_and_tongue(template: Template) -> None:
 
 
 def test_eyes_turn_about_their_middle(template: Template) -> None:
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     heads, _ = rig.joints(template.vertices)
     turn = Rotation.from_euler("y", 0.3)
     posed = skin(

@@ -7,7 +7,7 @@ import numpy as np
 from engine.body import load_shape_space, load_template
 from engine.body.body_space import load_body_space
 from engine.body.cache import cache_folder
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.targets import compact, expand, gather
 from engine.body.template import load_rig
 
@@ -29,9 +29,9 @@ def test_stored_targets_are_the_same() -> None:
 
 
 def test_the_converted_template_is_small() -> None:
-    load_template(), load_rig(HUMAN), load_body_space(), load_shape_space()
+    load_template(), load_rig(HUMAN_RIG), load_body_space(), load_shape_space()
     newest: dict[str, int] = {}
     for file in sorted((cache_folder() / "template").glob("*.npz"), key=lambda file: file.stat().st_mtime):
         newest[file.name.rsplit("-", 2)[0]] = file.stat().st_size
-    assert {"mesh", f"rig-{HUMAN}", "bodies", "shape"} <= set(newest)
+    assert {"mesh", f"rig-{HUMAN_RIG}", "bodies", "shape"} <= set(newest)
     assert sum(newest.values()) < MEGABYTES * 1e6

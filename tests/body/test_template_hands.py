@@ -10,11 +10,11 @@ from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.hand_fitting import HandAnchor, HandFit, fit_hand, hand_length
 from engine.body.hands import FINGERS, HandModel, chain, hand_model
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import bone_transforms
-from engine.perception.hands import JOINTS
+from engine.perception.hands import HAND_JOINTS
 
 FOCAL, CENTRE, WRIST = 2000.0, (500.0, 500.0), np.array([0.4, 0.1, -3.5])
 CAMERA = Camera((0, 0, 0), FOCAL, CENTRE, (1000, 1000))
@@ -28,12 +28,12 @@ def space() -> BodySpace:
 
 @pytest.fixture(scope="module", params=["Left", "Right"])
 def model(request: pytest.FixtureRequest, space: BodySpace, template: Template) -> HandModel:
-    return hand_model(template, space, load_rig(HUMAN), request.param)
+    return hand_model(template, space, load_rig(HUMAN_RIG), request.param)
 
 
 def bent(model: HandModel, space: BodySpace, turns: dict[str, Rotation], arm: np.ndarray) -> np.ndarray:
     """The landmarks (21, 3), metres around the wrist, of a hand whose joints are turned, on a forearm with these axes."""
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     own = np.tile(np.eye(3), (len(rig.names), 1, 1))
     for name, turn in turns.items():
         own[space.names.index(f"{model.side}Hand{name}")] = turn.as_matrix()
@@ -59,12 +59,12 @@ def test_fingers_lie_beside_each_other_and_end_in_their_tips(model: HandModel) -
         out = sign * model.mean[chain(finger), 0]
         assert (np.diff(out) > 0.01).all()
         assert np.linalg.norm(np.diff(model.mean[chain(finger)], axis=0), axis=1)[2] > 0.012  # the tip is not the joint
-    knuckles = model.mean[[JOINTS.index(f"{finger}1") for finger in FINGERS[1:]], 2]
+    knuckles = model.mean[[HAND_JOINTS.index(f"{finger}1") for finger in FINGERS[1:]], 2]
     assert (np.diff(knuckles) < 0).all(), "from the index, in front, to the little finger"
 
 
 def test_both_hands_are_each_others_mirror_images(space: BodySpace, template: Template) -> None:
-    left, right = (hand_model(template, space, load_rig(HUMAN), side) for side in ("Left", "Right"))
+    left, right = (hand_model(template, space, load_rig(HUMAN_RIG), side) for side in ("Left", "Right"))
     np.testing.assert_allclose((left.mean - left.mean[0]) * [-1, 1, 1], right.mean - right.mean[0], atol=0.003)
     np.testing.assert_allclose(
         left.bend * [1, -1, -1], right.bend, atol=0.03
@@ -105,7 +105,7 @@ def test_known_turns_come_back(model: HandModel, space: BodySpace, seed: int) ->
     truth = bent(model, space, turns, arm.as_matrix())
     fit = refit(model, arm.as_matrix(), seen(truth))
     turned = [0, *(mark for finger in FINGERS for mark in chain(finger)[:3])]
-    found = {JOINTS[mark]: Rotation.from_matrix(r) for mark, r in zip(turned, fit.rotations, strict=True)}
+    found = {HAND_JOINTS[mark]: Rotation.from_matrix(r) for mark, r in zip(turned, fit.rotations, strict=True)}
     away = np.linalg.norm(bent(model, space, found, arm.as_matrix()) - truth, axis=1)
     assert np.median(away[1:]) < 0.005
     assert away.max() < 0.01

@@ -9,9 +9,9 @@ from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.face_points import face_points
 from engine.body.landmarks import landmark_model
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 MIRRORED = (*range(16, -1, -1), *range(26, 16, -1), *(27, 28, 29, 30), *range(35, 30, -1))
 """The point on the other side for each of the first 36 of the face: jaw, brows and nose."""
@@ -23,8 +23,8 @@ def space() -> BodySpace:
 
 
 def test_all_33_landmarks_of_the_body_are_there(template: Template, space: BodySpace) -> None:
-    model = landmark_model(template, space, load_rig(HUMAN))
-    assert sorted(model.names) == sorted(LANDMARKS)
+    model = landmark_model(template, space, load_rig(HUMAN_RIG))
+    assert sorted(model.names) == sorted(BODY_LANDMARKS)
     place = dict(zip(model.names, model.mean, strict=True))
     for name in model.names:
         if name.startswith("Left"):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.label_map import Labels
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
@@ -26,7 +26,7 @@ from engine.character.texture import paint_tiles
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 from engine.perception.people import MAX_PEOPLE, find_people, person_box
 from engine.run import Run
 
@@ -204,7 +204,10 @@ def test_one_person_is_one_person(media: Callable[[str], Path]) -> None:
 
 
 def test_strokes_have_the_last_word_over_the_mask(figure: Figure, silhouette: Silhouette) -> None:
-    belly, wall = figure.points[[LANDMARKS.index("LeftHip"), LANDMARKS.index("RightHip")]].mean(0), (30.0, 30.0)
+    belly, wall = (
+        figure.points[[BODY_LANDMARKS.index("LeftHip"), BODY_LANDMARKS.index("RightHip")]].mean(0),
+        (30.0, 30.0),
+    )
     at = (float(belly[0]), float(belly[1]))
     painted = repaint_mask(
         silhouette.alpha,
@@ -252,8 +255,8 @@ def test_a_label_map_that_is_given_back_is_the_label_map(
     stroke = LabelStroke(path=((float(at[0]), float(at[1])),), radius=6, part="right_leg")
     painted = label(figure, silhouette, fitted, None, (stroke,), LIMITS, quiet)
     x, y = np.rint(silhouette.to_grid[:, :2] @ at + silhouette.to_grid[:, 2]).astype(int)
-    assert labels.labels[y, x] == PARTS.index("left_leg")
-    assert painted.labels[y, x] == PARTS.index("right_leg")
+    assert labels.labels[y, x] == BODY_PARTS.index("left_leg")
+    assert painted.labels[y, x] == BODY_PARTS.index("right_leg")
 
 
 def test_of_all_the_largest_stays_if_too_little_of_them_is_seen(couple: Path, tmp_path: Path) -> None:
@@ -304,7 +307,7 @@ def test_what_is_printed_in_front_is_behind_only_where_backs_are_mirrored(
     figure: Figure, silhouette: Silhouette, labels: Labels
 ) -> None:
     corners = figure.points[
-        [LANDMARKS.index(f"{side}{joint}") for side in ("Left", "Right") for joint in ("Shoulder", "Hip")]
+        [BODY_LANDMARKS.index(f"{side}{joint}") for side in ("Left", "Right") for joint in ("Shoulder", "Hip")]
     ]
     x, y = np.rint(corners.mean(0)).astype(int)
     rgb = figure.rgb.copy()
@@ -326,7 +329,7 @@ def landmarks(**places: tuple[float, float]) -> np.ndarray:
         **{"RightHip": (80, 180), "LeftWrist": (140, 190), "RightWrist": (60, 190), "LeftKnee": (120, 260)},
         **{"RightKnee": (80, 260), "LeftAnkle": (120, 340), "RightAnkle": (80, 340)},
     }
-    return np.array([{**upright, **places}.get(name, (100, 100)) for name in LANDMARKS], np.float32)
+    return np.array([{**upright, **places}.get(name, (100, 100)) for name in BODY_LANDMARKS], np.float32)
 
 
 def in_space(points: np.ndarray) -> np.ndarray:
@@ -349,7 +352,7 @@ def test_postures_are_told() -> None:
     assert told(landmarks(LeftWrist=(105, 5), RightWrist=(95, 5))) == ["hands_overhead"]
     seated = in_space(landmarks())
     for side in ("Left", "Right"):
-        hip, knee = (LANDMARKS.index(f"{side}{joint}") for joint in ("Hip", "Knee"))
+        hip, knee = (BODY_LANDMARKS.index(f"{side}{joint}") for joint in ("Hip", "Knee"))
         seated[knee] = seated[hip] + [0, -0.1, 0.4]
     assert told(landmarks(), seated) == ["person_seated"]
     assert told(landmarks(), seated, legs=False) == []

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_regions import SHAPE, bar, rectangle
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.crossed_arms import crossed_arms
 from engine.character.crossed_labels import Behind
 from engine.character.figure import Choice, Figure, find_figure
@@ -22,7 +22,7 @@ from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.texture import paint_tiles
 from engine.media.limits import Limits
 
-LEFT, RIGHT = PARTS.index("left_arm"), PARTS.index("right_arm")
+LEFT, RIGHT = BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm")
 Media = Callable[[str], Path]
 
 
@@ -109,8 +109,8 @@ def test_an_arm_goes_on_where_it_is_behind_the_other() -> None:
 
 
 def test_behind_the_other_an_arm_has_its_own_colours_and_its_hand_the_face_s() -> None:
-    labels = np.full((200, 160), PARTS.index("torso"))
-    labels[:60] = PARTS.index("head")
+    labels = np.full((200, 160), BODY_PARTS.index("torso"))
+    labels[:60] = BODY_PARTS.index("head")
     labels[100:130, 10:150], labels[90:140, 70:120] = LEFT, RIGHT
     rgb = np.zeros((200, 160, 3), np.uint8)
     rgb[:60], rgb[60:] = (200, 150, 120), (90, 90, 90)

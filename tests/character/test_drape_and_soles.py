@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.drape import drape
 from engine.character.free_cloth import ROUND, FreeCloth, free_cloth
 from engine.character.part_surface import Surface
@@ -26,9 +26,9 @@ RIG = load_human().rig
 def body() -> tuple[np.ndarray, np.ndarray]:
     """A trunk 24 wide over two legs of 10 with a gap of 4: its parts (h, w), and how deep it is to each side."""
     shown = np.full((HEIGHT, WIDTH), -1)
-    shown[30 : CROTCH + 1, MIDDLE - 12 : MIDDLE + 12] = PARTS.index("torso")
-    shown[CROTCH + 1 : 195, MIDDLE - 12 : MIDDLE - 2] = PARTS.index("right_leg")
-    shown[CROTCH + 1 : 195, MIDDLE + 2 : MIDDLE + 12] = PARTS.index("left_leg")
+    shown[30 : CROTCH + 1, MIDDLE - 12 : MIDDLE + 12] = BODY_PARTS.index("torso")
+    shown[CROTCH + 1 : 195, MIDDLE - 12 : MIDDLE - 2] = BODY_PARTS.index("right_leg")
+    shown[CROTCH + 1 : 195, MIDDLE + 2 : MIDDLE + 12] = BODY_PARTS.index("left_leg")
     return shown, np.where(shown >= 0, 8.0, np.nan)
 
 
@@ -214,7 +214,7 @@ def test_trousers_are_no_skirt() -> None:
 
 def test_nobody_without_legs_wears_a_skirt() -> None:
     shown, depth = body()
-    shown = np.where(shown == PARTS.index("torso"), shown, -1)
+    shown = np.where(shown == BODY_PARTS.index("torso"), shown, -1)
     mask = shown >= 0
     assert free_cloth(mask, shown, depth, -depth, np.zeros_like(mask)) is None
 

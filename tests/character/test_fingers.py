@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.fitting import Fit
 from engine.body.hands import FINGERS
-from engine.body.posing import COEFFICIENTS
+from engine.body.posing import SHAPE_COEFFICIENTS
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import joint_axes
@@ -16,7 +16,7 @@ from engine.character.template_fit import FittedBody, load_human
 from engine.geometry.camera import Camera
 
 FOCAL, CENTRE, PLACE = 2200.0, (499.5, 499.5), np.array([0, 0.1, -3.0])
-NOBODY = np.zeros(COEFFICIENTS, np.float32)
+NOBODY = np.zeros(SHAPE_COEFFICIENTS, np.float32)
 DOWN = {"LeftArm": (0, 0, -1.2), "RightArm": (0, 0, 1.2)}
 
 

@@ -21,7 +21,7 @@ from engine.motion.library import built_in
 from engine.motion.rotation import about
 from engine.motion.skeleton import Skeleton
 from engine.motion.source_motion import SourceMotion
-from engine.render.camera_moves import MOVES, Move, camera_at
+from engine.render.camera_moves import CAMERA_MOVES, Move, camera_at
 
 DISTANCE = 4.0
 
@@ -95,7 +95,7 @@ def test_the_walk_uses_the_room_that_there_is(character: Character) -> None:
     assert boxes(character, seen, film, arms=True)[:, 1, 1].max() > 850, "until the picture is filled"
 
 
-@pytest.mark.parametrize("move", MOVES)
+@pytest.mark.parametrize("move", CAMERA_MOVES)
 def test_whoever_comes_nearer_stays_in_sight_of_a_camera_that_moves(character: Character, move: Move) -> None:
     """Nearer than what the camera goes around, they are off to the side when it swings."""
     seen = camera(character, 0.3, 0.3, beside=0.3)
@@ -109,7 +109,7 @@ def test_whoever_comes_nearer_stays_in_sight_of_a_camera_that_moves(character: C
         assert (shown >= 0).all() and (shown <= [width - 1, height - 1]).all()
 
 
-@pytest.mark.parametrize("move", MOVES)
+@pytest.mark.parametrize("move", CAMERA_MOVES)
 def test_a_group_is_seen_by_one_camera_that_goes_around_the_first(character: Character, move: Move) -> None:
     """Each is in a world of their own: a point of the second is where the film shows it."""
     seen = camera(character, 0.3, 0.3)

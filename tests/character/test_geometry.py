@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import load_body_space
 from engine.body.fitting import Fit
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.labels import (
     hair_beside_arms,
     refined_labels,
@@ -198,16 +198,16 @@ def test_rough_labels_fill_the_mask_and_resemble_the_template() -> None:
     mask = np.zeros((120, 60), np.bool_)
     mask[5:115, 10:50] = True
     template = np.full((120, 60), -1)
-    template[10:40, 15:45], template[40:110, 15:45] = PARTS.index("head"), PARTS.index("torso")
+    template[10:40, 15:45], template[40:110, 15:45] = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
     found = rough_labels(mask, template)
     assert (found[~mask] == -1).all()
-    assert set(np.unique(found[mask])) == {PARTS.index("head"), PARTS.index("torso")}
-    assert (found[5:35, 10:50] == PARTS.index("head")).mean() > 0.97
-    assert (found[45:115, 10:50] == PARTS.index("torso")).mean() > 0.97
+    assert set(np.unique(found[mask])) == {BODY_PARTS.index("head"), BODY_PARTS.index("torso")}
+    assert (found[5:35, 10:50] == BODY_PARTS.index("head")).mean() > 0.97
+    assert (found[45:115, 10:50] == BODY_PARTS.index("torso")).mean() > 0.97
 
 
 def test_hair_beside_a_raised_arm_is_the_heads() -> None:
-    head, arm = PARTS.index("head"), PARTS.index("right_arm")
+    head, arm = BODY_PARTS.index("head"), BODY_PARTS.index("right_arm")
     template = np.full((200, 200), -1)
     template[40:90, 120:160], template[20:180, 40:56] = head, arm
     labels = np.full((200, 200), -1)
@@ -230,7 +230,7 @@ def test_hair_beside_a_raised_arm_is_the_heads() -> None:
 
 
 def test_an_arm_is_one_piece_unless_the_other_passes_before_it() -> None:
-    torso, left, right = (PARTS.index(name) for name in ("torso", "left_arm", "right_arm"))
+    torso, left, right = (BODY_PARTS.index(name) for name in ("torso", "left_arm", "right_arm"))
     labels = np.full((80, 120), torso)
     labels[10:20, 10:60], labels[60:62, 100:102] = left, left  # an arm and a speck
     labels[40:50, 10:60], labels[40:50, 30:36] = right, left  # an arm with the other before it: three pieces
@@ -254,12 +254,12 @@ def test_refined_labels_go_to_where_the_colours_change() -> None:
     rgb = np.zeros((80, 80, 3), np.uint8)
     rgb[:, :46], rgb[:, 46:] = (200, 60, 50), (40, 80, 190)
     rgb = np.clip(rgb + np.random.default_rng(0).normal(0, 6, rgb.shape), 0, 255).astype(np.uint8)
-    rough = np.where(np.arange(80) < 40, PARTS.index("torso"), PARTS.index("left_arm"))[None].repeat(80, 0)
+    rough = np.where(np.arange(80) < 40, BODY_PARTS.index("torso"), BODY_PARTS.index("left_arm"))[None].repeat(80, 0)
     occlusion = np.zeros((80, 80), np.bool_)
     occlusion[10:70, 30:52] = True
     found = refined_labels(rgb, rough, occlusion, rough)
-    assert (found[12:68, 30:46] == PARTS.index("torso")).mean() > 0.99
-    assert (found[12:68, 46:52] == PARTS.index("left_arm")).mean() > 0.99
+    assert (found[12:68, 30:46] == BODY_PARTS.index("torso")).mean() > 0.99
+    assert (found[12:68, 46:52] == BODY_PARTS.index("left_arm")).mean() > 0.99
     assert (found[~occlusion] == rough[~occlusion]).all()
 
 
@@ -269,19 +269,19 @@ def test_refined_labels_stay_where_too_little_is_left_to_refine_them_again() -> 
     red = np.zeros((80, 80), np.bool_)
     red[38:44, 38:44] = True
     rgb = np.where(red[..., None], (200, 50, 40), (60, 80, 160)) + rng.normal(0, 6, (80, 80, 3))
-    rough = np.full((80, 80), PARTS.index("torso"))
-    rough[28:54, 28:54] = PARTS.index("left_arm")
+    rough = np.full((80, 80), BODY_PARTS.index("torso"))
+    rough[28:54, 28:54] = BODY_PARTS.index("left_arm")
     occlusion = np.zeros_like(red)
     occlusion[15:-15, 15:-15] = True
     nowhere = np.full_like(rough, -1)
     found = refined_labels(np.clip(rgb, 0, 255).astype(np.uint8), rough, occlusion, nowhere)
-    np.testing.assert_array_equal(found == PARTS.index("left_arm"), red)
+    np.testing.assert_array_equal(found == BODY_PARTS.index("left_arm"), red)
 
 
 def test_a_sleeve_before_a_trunk_of_the_same_cloth_stays_the_arms_and_its_hand_is_found() -> None:
     """The arm's mixture of colours is of cloth and skin, the trunk's of cloth alone: cloth is likelier to be the trunk's. The
     template's arm is where the sleeve is, and six pixels beside the hand."""
-    torso, arm = PARTS.index("torso"), PARTS.index("left_arm")
+    torso, arm = BODY_PARTS.index("torso"), BODY_PARTS.index("left_arm")
     across, down = np.meshgrid(np.arange(100), np.arange(160))
     sleeve, hand = (across >= 70) & (down < 120), (across >= 64) & (down >= 120)
     rgb = np.where(hand[..., None], (215, 165, 140), (40, 44, 70))

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.options import MaskStroke
 from engine.character.sample import FLOOR, WALL, sample_picture
@@ -23,7 +23,7 @@ from engine.media.limits import Limits
 LIMITS = Limits()
 
 
-HEAD, TORSO, LEFT_ARM, RIGHT_ARM, LEFT_LEG, RIGHT_LEG = range(len(PARTS))
+HEAD, TORSO, LEFT_ARM, RIGHT_ARM, LEFT_LEG, RIGHT_LEG = range(len(BODY_PARTS))
 
 
 def quiet(code: str, message: str) -> None:
@@ -83,10 +83,10 @@ def test_a_mask_has_the_size_of_a_picture_whose_copy_has_not_its_proportions(tmp
     small = cv2.resize(mask.astype(np.float32), (1441, 1920), interpolation=cv2.INTER_AREA)
     assert np.abs(cut.alpha - small).max() < 1e-6
     fitted = fit_template(figure, cut)
-    parts = np.where(mask[..., None], LABEL_COLOURS[PARTS.index("torso")], 0).astype(np.uint8)
+    parts = np.where(mask[..., None], LABEL_COLOURS[BODY_PARTS.index("torso")], 0).astype(np.uint8)
     write_image(tmp_path / "labels.png", parts)
     found = label(figure, cut, fitted, tmp_path / "labels.png", (), LIMITS, quiet)
-    assert (found.labels[cut.mask] == PARTS.index("torso")).all()
+    assert (found.labels[cut.mask] == BODY_PARTS.index("torso")).all()
 
 
 def test_a_ragged_mask_makes_a_surface(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.hair_behind_arms import hair_behind_arms
 from engine.character.occlusion import completed
 
-HEAD, TORSO, ARM = (PARTS.index(name) for name in ("head", "torso", "right_arm"))
+HEAD, TORSO, ARM = (BODY_PARTS.index(name) for name in ("head", "torso", "right_arm"))
 HAIR, SKIN, SLEEVE = (45, 30, 25), (225, 175, 150), (240, 240, 245)
 
 

@@ -5,23 +5,23 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.figure import Figure
 from engine.character.silhouette import ARM_AND_HAND, FOREARM, NEAR, _seen
 from engine.character.stages import hand_labels
 from engine.character.template_fit import BEFORE, _arms_before_the_trunk
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
 
 TRUNK = {"LeftShoulder": (120, 50), "RightShoulder": (80, 50), "RightHip": (85, 120), "LeftHip": (115, 120)}
 
 
 def figure(places: dict[str, tuple[float, float]], confidence: float, world_z: float = 0.0) -> Figure:
-    points, sure = np.zeros((len(LANDMARKS), 2), np.float32), np.zeros(len(LANDMARKS), np.float32)
-    world = np.zeros((len(LANDMARKS), 3), np.float32)
+    points, sure = np.zeros((len(BODY_LANDMARKS), 2), np.float32), np.zeros(len(BODY_LANDMARKS), np.float32)
+    world = np.zeros((len(BODY_LANDMARKS), 3), np.float32)
     for name, place in (TRUNK | places).items():
-        points[LANDMARKS.index(name)], sure[LANDMARKS.index(name)] = place, confidence
-    world[[LANDMARKS.index(name) for name in places], 2] = world_z
+        points[BODY_LANDMARKS.index(name)], sure[BODY_LANDMARKS.index(name)] = place, confidence
+    world[[BODY_LANDMARKS.index(name) for name in places], 2] = world_z
     none = np.zeros((240, 200), np.bool_)
     return Figure(np.zeros((240, 200, 3), np.uint8), None, points, sure, world, True, (200, 240),
                   np.zeros((1, 4), np.float32), 0, none, None, (None, None))  # fmt: skip
@@ -74,9 +74,9 @@ def test_a_hand_that_is_seen_is_the_arms_and_the_other_says_nothing() -> None:
     hand[5, :2], hand[17, :2], hand[12, :2] = (10, 50), (30, 50), (20, 70)
     doubled = np.array([[2.0, 0, 5], [0, 2, 1]])
     labels = hand_labels((None, hand), doubled, (200, 120))
-    assert set(np.unique(labels)) == {-1, PARTS.index("right_arm")}
+    assert set(np.unique(labels)) == {-1, BODY_PARTS.index("right_arm")}
     for x, y in ((20, 30), (20, 45), (20, 65), (12, 50)):
-        assert labels[2 * y + 1, 2 * x + 5] == PARTS.index("right_arm")
+        assert labels[2 * y + 1, 2 * x + 5] == BODY_PARTS.index("right_arm")
     assert labels[2 * 65 + 1, 2 * 28 + 5] == -1, "beside the tip"
     assert (labels >= 0).sum() == pytest.approx(4 * (20 * 20 / 2 + 20 * 20 / 2), rel=0.1), "the area of its hull"
 
@@ -89,13 +89,13 @@ def test_a_hand_that_is_seen_is_the_arms_and_the_other_says_nothing() -> None:
 def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confidence: float, expected: float) -> None:
     wrist = figure({"LeftWrist": place}, confidence, -0.1)
     found = _arms_before_the_trunk(wrist)
-    assert found[LANDMARKS.index("LeftWrist"), 2] == pytest.approx(expected)
+    assert found[BODY_LANDMARKS.index("LeftWrist"), 2] == pytest.approx(expected)
     others = [
-        k for k, name in enumerate(LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")
+        k for k, name in enumerate(BODY_LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")
     ]
     np.testing.assert_array_equal(found[others], wrist.world[others])
 
 
 def test_an_arm_already_further_forward_stays() -> None:
     found = _arms_before_the_trunk(figure({"LeftWrist": (100, 90)}, 0.9, 0.45))
-    assert found[LANDMARKS.index("LeftWrist"), 2] == pytest.approx(0.45)
+    assert found[BODY_LANDMARKS.index("LeftWrist"), 2] == pytest.approx(0.45)

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.drape import drape
 from engine.character.free_cloth import FreeCloth, Ring
 from engine.character.hem import legs_below, with_cloth
@@ -23,7 +23,7 @@ from engine.character.unseen_limbs import not_seen
 from engine.geometry.welding import is_closed
 from tests.character.test_overlapping_legs import AT_THE_SHINS, SIZE, standing
 
-TORSO, LEFT, RIGHT = (PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
+TORSO, LEFT, RIGHT = (BODY_PARTS.index(name) for name in ("torso", "left_leg", "right_leg"))
 GREEN, SKIN, GREY = (40, 120, 60), (225, 180, 150), (140, 140, 145)
 END = 100
 """The last row in which the cloth of `pictured` surely goes round both legs."""

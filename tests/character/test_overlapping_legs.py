@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from engine.body.fitting import Fit
-from engine.body.parts import PARTS, vertex_parts
-from engine.body.posing import COEFFICIENTS
+from engine.body.parts import BODY_PARTS, vertex_parts
+from engine.body.posing import SHAPE_COEFFICIENTS
 from engine.character.label_map import label_parts
 from engine.character.layers import build_layers
 from engine.character.overlapping_legs import as_the_template, leg_before
@@ -24,8 +24,8 @@ from engine.geometry.welding import is_closed
 from engine.imaging.mask_distance import distance_to
 
 SIZE = (448, 260)
-LEFT, RIGHT = PARTS.index("left_leg"), PARTS.index("right_leg")
-LEFT_ARM, RIGHT_ARM = PARTS.index("left_arm"), PARTS.index("right_arm")
+LEFT, RIGHT = BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg")
+LEFT_ARM, RIGHT_ARM = BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm")
 ARMS_DOWN = {"LeftArm": (0, 0, -60), "RightArm": (0, 0, 60)}
 AT_THE_KNEES = {"LeftUpLeg": (-14, 0, -16), "LeftLeg": (14, 0, -4), "RightUpLeg": (2, 0, 10)}
 FROM_THE_SIDE = {"Hips": (0, 75, 0)}
@@ -38,7 +38,7 @@ def fitted_as(turns: dict[str, tuple[int, int, int]]) -> FittedBody:
     for joint, degrees in (ARMS_DOWN | turns).items():
         rotations[human.rig.index(joint)] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     place = np.array([0, 0.05, -3.0], np.float32)
-    fit = Fit(np.zeros(COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
+    fit = Fit(np.zeros(SHAPE_COEFFICIENTS, np.float32), rotations, place, 0.0, np.zeros(1))
     return FittedBody(
         fit, Camera((0, 0, 0), 660.0, (SIZE[1] / 2, SIZE[0] / 2), SIZE), np.zeros(len(rotations), np.bool_)
     )

@@ -15,15 +15,15 @@ from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.media.image import write_image
 from engine.media.limits import Limits
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 
 DRAWN = BY_HAND["drawing_child_boy"]
 
 
 def told(places: dict[str, tuple[float, float]]) -> list[str]:
-    points = np.zeros((len(LANDMARKS), 2))
+    points = np.zeros((len(BODY_LANDMARKS), 2))
     for name, place in places.items():
-        points[LANDMARKS.index(name)] = place
+        points[BODY_LANDMARKS.index(name)] = place
     warnings: list[str] = []
     check_skeleton(points, lambda code, message: warnings.append(code))
     return warnings

@@ -28,7 +28,7 @@ from engine.character.unfound_hands import UnfoundHand, unfound_hands
 from engine.geometry.welding import weld
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
-from engine.perception.body import LANDMARKS
+from engine.perception.body import BODY_LANDMARKS
 from engine.run import Run
 
 SHAPE = (160, 120)
@@ -47,12 +47,12 @@ ON_GRID = np.array([[1.0, 0, 0], [0, 1, 0]])
 def figure(
     places: dict[str, tuple[float, float]], face: bool = True, left_hand: bool = False, sure: float = 0.6
 ) -> Figure:
-    points, none = np.zeros((len(LANDMARKS), 2), np.float32), np.zeros(SHAPE, np.bool_)
+    points, none = np.zeros((len(BODY_LANDMARKS), 2), np.float32), np.zeros(SHAPE, np.bool_)
     for name, place in (STANDING | places).items():
-        points[LANDMARKS.index(name)] = place
-    confidence = np.full(len(LANDMARKS), sure, np.float32)
+        points[BODY_LANDMARKS.index(name)] = place
+    confidence = np.full(len(BODY_LANDMARKS), sure, np.float32)
     hands = (np.zeros((21, 3), np.float32) if left_hand else None, None)
-    return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, confidence, np.zeros((len(LANDMARKS), 3), np.float32), True,
+    return Figure(np.zeros((*SHAPE, 3), np.uint8), None, points, confidence, np.zeros((len(BODY_LANDMARKS), 3), np.float32), True,
                   SHAPE[::-1], np.zeros((1, 4), np.float32), 0, none, FACE if face else None, hands)  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.dressed_template import LOOKS, dress
 from benchmarks.known_person import SIZE, draw_into
 from benchmarks.known_places import places
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.face_region import in_profile
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.head import turn_head
@@ -46,7 +46,7 @@ def test_in_profile_both_sides_of_a_head_are_alike() -> None:
     rgb = np.full((120, 80, 3), (60, 45, 35), np.uint8)
     rgb[30:70, 40:60] = (225, 175, 150)  # a face that looks to the right
     labels = np.full((120, 80), -1, np.int8)
-    labels[15:75, 20:60], labels[75:115, 15:65] = PARTS.index("head"), PARTS.index("torso")
+    labels[15:75, 20:60], labels[75:115, 15:65] = BODY_PARTS.index("head"), BODY_PARTS.index("torso")
     none = np.zeros(labels.shape, np.bool_)
     found = Labels(labels, none, np.zeros(0, np.int8), none, np.full_like(labels, -1))
     face, alpha = np.array([50, 50, 12, 22, 0], np.float32), (labels >= 0).astype(np.float32)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.label_map import Labels
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion, _body, limb_in_one_piece
 
 SHAPE = (60, 120)
-LEFT, RIGHT, TORSO = (PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
+LEFT, RIGHT, TORSO = (BODY_PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
 
 
 def rectangle(rows: tuple[int, int], columns: tuple[int, int]) -> np.ndarray:

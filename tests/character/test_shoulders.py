@@ -7,7 +7,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.label_map import Labels
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import find_regions
@@ -16,7 +16,7 @@ from engine.character.template_fit import load_human
 from engine.imaging.mask_distance import grown
 from tests.character.test_overlapping_legs import SIZE, standing
 
-HEAD, TORSO, LEFT, RIGHT = (PARTS.index(name) for name in ("head", "torso", "left_arm", "right_arm"))
+HEAD, TORSO, LEFT, RIGHT = (BODY_PARTS.index(name) for name in ("head", "torso", "left_arm", "right_arm"))
 SKIN, WHITE, HAIR, GREY = (215, 170, 145), (235, 235, 238), (45, 30, 25), (120, 120, 125)
 
 
@@ -25,7 +25,7 @@ def seen() -> tuple[PosedTemplate, np.ndarray, np.ndarray]:
     rig, template = load_human().rig, standing({})
     labels = np.full(SIZE, -1)
     part = vertex_parts(rig)[template.triangles]
-    for index in range(len(PARTS)):
+    for index in range(len(BODY_PARTS)):
         labels[template.covers((part == index).all(1), SIZE)] = index
     y, x = np.mgrid[: SIZE[0], : SIZE[1]]
     joint = template.joints[rig.index("LeftArm")]

@@ -11,7 +11,7 @@ from template_character import template_character
 
 from engine.character.pipeline import MOST_BYTES, write_small_glb
 from engine.errors import Canceled
-from engine.export.glb import TIGHTER
+from engine.export.glb import TEXTURE_REDUCTIONS
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.run import Run
 
@@ -57,5 +57,5 @@ def test_a_cancel_is_heard_before_each_try(tmp_path: Path, heard: int) -> None:
 
     with pytest.raises(Canceled):
         write_small_glb(tmp_path / "character.glb", noisy(4096, 4096), (), Run(canceled=canceled))
-    assert len(asked) == heard <= TIGHTER.index((2, 90)) + 1
+    assert len(asked) == heard <= TEXTURE_REDUCTIONS.index((2, 90)) + 1
     assert not list(tmp_path.iterdir())

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from test_head_and_legs import standing
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.crossed_labels import Behind
 from engine.character.label_map import Labels
 from engine.character.layers import _behind_the_other
@@ -21,7 +21,7 @@ from engine.character.template_fit import load_human, pose_template
 from engine.geometry.welding import is_closed
 
 SHAPE = (800, 600)
-LEFT = PARTS.index("left_arm")
+LEFT = BODY_PARTS.index("left_arm")
 
 
 def posed(forearm: float) -> PosedTemplate:
@@ -107,7 +107,7 @@ def nothing(limb: SolidLimb) -> tuple[Surface, Surface]:
 def test_behind_the_other_arm_it_is_beneath_its_surface(
     limb: SolidLimb, sleeve: NDArray[np.bool_], template: PosedTemplate
 ) -> None:
-    right = PARTS.index("right_arm")
+    right = BODY_PARTS.index("right_arm")
     none, unused = np.zeros(SHAPE, np.bool_), np.zeros((*SHAPE, 1), np.float32)
     rows = np.flatnonzero(sleeve.any(1))
     lower = np.arange(SHAPE[0])[:, None] > rows.mean()

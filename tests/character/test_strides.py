@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.body.observation import LIMBS
+from engine.body.observation import DIRECTED_LIMBS
 from engine.character.template_fit import FLATTENED, legs_apart
 
 FRONT = np.array([0.0, 0, 1])
 
 
 def limbs(left: tuple[float, float, float], right: tuple[float, float, float]) -> np.ndarray:
-    """Directions of `LIMBS`, both legs straight, arms down."""
-    found = np.tile([0.0, -1, 0], (len(LIMBS), 1))
+    """Directions of `DIRECTED_LIMBS`, both legs straight, arms down."""
+    found = np.tile([0.0, -1, 0], (len(DIRECTED_LIMBS), 1))
     found[4:6], found[6:] = left, right
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 

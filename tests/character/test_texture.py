@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.body.parts import PARTS
+from engine.body.parts import BODY_PARTS
 from engine.character.face_region import face_within
 from engine.character.label_map import Labels
 from engine.character.limb_texture import of_the_limbs, paint_limbs
@@ -21,15 +21,15 @@ GREEN, RED, BROWN, SKIN = (20, 160, 60), (210, 40, 30), (70, 45, 30), (230, 180,
 def person() -> tuple[np.ndarray, np.ndarray]:
     """A round head with hair above and a face, a dress with an arm before it, on a red wall; and its labels."""
     labels = np.full((240, 160), -1)
-    labels[90:220, 40:120] = PARTS.index("torso")
+    labels[90:220, 40:120] = BODY_PARTS.index("torso")
     cv2.circle(head := np.zeros((240, 160), np.uint8), (80, 50), 38, (1,), -1)
-    labels[head > 0] = PARTS.index("head")
+    labels[head > 0] = BODY_PARTS.index("head")
     rgb = np.empty((240, 160, 3), np.uint8)
     rgb[:] = RED
-    rgb[labels == PARTS.index("torso")] = GREEN
-    rgb[(labels == PARTS.index("head"))] = SKIN
-    rgb[:40][labels[:40] == PARTS.index("head")] = BROWN
-    labels[140:165, 40:100] = PARTS.index("right_arm")
+    rgb[labels == BODY_PARTS.index("torso")] = GREEN
+    rgb[(labels == BODY_PARTS.index("head"))] = SKIN
+    rgb[:40][labels[:40] == BODY_PARTS.index("head")] = BROWN
+    labels[140:165, 40:100] = BODY_PARTS.index("right_arm")
     rgb[140:165, 40:100] = SKIN
     return rgb, labels
 
@@ -46,7 +46,7 @@ def painted(  # type: ignore[no-untyped-def]
 ):
     rgb, labels = person()
     none = np.zeros(labels.shape, np.bool_)
-    apart = np.array([PARTS.index("right_arm")], np.int8)
+    apart = np.array([BODY_PARTS.index("right_arm")], np.int8)
     alpha = (labels >= 0).astype(np.float32)
     reach = np.zeros(labels.shape, np.bool_)
     reach[140:165, 40:115] = True  # behind the dress, too
@@ -60,7 +60,7 @@ def painted(  # type: ignore[no-untyped-def]
 
 def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
     tiles, labels = painted()
-    hidden = labels == PARTS.index("right_arm")
+    hidden = labels == BODY_PARTS.index("right_arm")
     assert np.abs(tiles.body[hidden].astype(int) - GREEN).max() <= 6, "neither arm, nor wall, nor hair"
     np.testing.assert_array_equal(tiles.limbs[hidden], person()[0][hidden])
     assert np.abs(tiles.limbs[142:163, 102:113].astype(int) - SKIN).max() <= 6, (
@@ -73,7 +73,7 @@ def test_what_of_the_body_goes_with_an_arm_has_its_colours() -> None:
     along[140:165, 40:60] = True
     tiles, labels = painted(along=along)
     np.testing.assert_array_equal(tiles.body[142:163, 42:57], person()[0][142:163, 42:57])
-    rest = (labels == PARTS.index("right_arm")) & (np.arange(160) > 65)
+    rest = (labels == BODY_PARTS.index("right_arm")) & (np.arange(160) > 65)
     assert np.abs(tiles.body[rest].astype(int) - GREEN).max() <= 6
 
 
@@ -88,7 +88,7 @@ def test_beside_an_arm_its_surface_has_the_arms_colours_and_not_those_behind() -
 def test_a_hand_in_a_pocket_is_of_the_faces_colour() -> None:
     tiles, labels = painted(hand=(100, 114))
     assert (tiles.limbs[140:165, 101:114] == SKIN).all()
-    arm = labels == PARTS.index("right_arm")
+    arm = labels == BODY_PARTS.index("right_arm")
     np.testing.assert_array_equal(tiles.limbs[arm], person()[0][arm])
     np.testing.assert_array_equal(tiles.body[140:165, 101:114], person()[0][140:165, 101:114])
 
@@ -100,7 +100,7 @@ def test_what_is_called_an_arm_and_shown_by_the_body_has_the_pictures_colours_th
 
 def test_pixels_of_the_texture_are_those_of_the_picture() -> None:
     rgb = np.random.default_rng(1).integers(0, 256, (240, 160, 3)).astype(np.uint8)
-    labels = np.full((120, 80), PARTS.index("torso"), np.int8)
+    labels = np.full((120, 80), BODY_PARTS.index("torso"), np.int8)
     none = np.zeros(labels.shape, np.bool_)
     half = np.array([[0.5, 0, -0.13], [0, 0.5, -0.31]])  # a grid of half the size, somewhere between the pixels
     found = Labels(labels, none, np.zeros(0, np.int8), none, np.full(labels.shape, -1, np.int8))
@@ -121,7 +121,7 @@ def test_a_face_is_not_on_the_back_and_hair_is() -> None:
 
 def test_a_face_that_nobody_found_is_not_on_the_back_either() -> None:
     """It begins below the crown of a head, ends with its chin, and is as wide as the head."""
-    head = person()[1] == PARTS.index("head")
+    head = person()[1] == BODY_PARTS.index("head")
     x, y, wide, high, turned = face = face_within(head)
     np.testing.assert_allclose((x, wide, y + high, y - high), (80, 38, 88, 12 + 0.3 * 76), atol=1.5)
     assert turned == 0
@@ -190,12 +190,12 @@ def test_front_and_back_take_one_place_on_the_border_and_none_that_is_barred() -
 
 def test_behind_an_arm_that_hangs_a_shirt_has_no_print_and_beside_it_the_picture_s_colours() -> None:
     labels = np.full((400, 200), -1)
-    labels[40:360, 40:160], labels[40:360, 40:70] = PARTS.index("torso"), PARTS.index("right_arm")
+    labels[40:360, 40:160], labels[40:360, 40:70] = BODY_PARTS.index("torso"), BODY_PARTS.index("right_arm")
     rgb = np.random.default_rng(3).normal((30, 34, 60), 5, (400, 200, 3))
     rgb[60:340, 95:130] = np.random.default_rng(4).integers(120, 256, (280, 35, 3))  # the print
     rgb = np.clip(rgb, 0, 255).astype(np.uint8)
-    arm, none = labels == PARTS.index("right_arm"), np.zeros(labels.shape, np.bool_)
-    apart = np.array([PARTS.index("right_arm")], np.int8)
+    arm, none = labels == BODY_PARTS.index("right_arm"), np.zeros(labels.shape, np.bool_)
+    apart = np.array([BODY_PARTS.index("right_arm")], np.int8)
     found = Labels(labels.astype(np.int8), none, apart, none, np.full(labels.shape, -1, np.int8))
     tiles = paint_tiles(rgb, (labels >= 0).astype(np.float32), SAME, found, arm, arm, None, "mirror")
     assert tiles.body[arm].max() < 90
@@ -232,9 +232,9 @@ def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> Non
     """The left arm is behind the trunk, all but its hand; the right one is before it. Neither is the colour of the trunk."""
     seen = np.full((200, 160, 3), (120, 40, 40), np.uint8)
     found = np.full((200, 160), -1, np.int8)
-    left, right = (PARTS.index(f"{side}_arm") for side in ("left", "right"))
+    left, right = (BODY_PARTS.index(f"{side}_arm") for side in ("left", "right"))
     hand, hidden, other = np.s_[130:150, 110:126], np.s_[60:130, 110:126], np.s_[60:150, 40:60]
-    found[20:180, 30:130] = PARTS.index("torso")
+    found[20:180, 30:130] = BODY_PARTS.index("torso")
     found[hand], found[other] = left, right
     sleeve, skin = (40, 60, 130), (225, 180, 150)
     seen[hand], seen[other] = skin, sleeve

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.body.parts import PARTS, vertex_parts
+from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.posed_template import PosedTemplate
@@ -21,7 +21,7 @@ from engine.character.unseen_limbs import unseen_limbs, with_limbs_hidden
 from engine.geometry.welding import is_closed
 from tests.character.test_overlapping_legs import SIZE, fitted_as, standing
 
-LEFT, RIGHT, TORSO = (PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
+LEFT, RIGHT, TORSO = (BODY_PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
 SHIRT, SKIN, WALL = (60, 60, 160), (220, 170, 140), (200, 200, 200)
 
 
@@ -151,7 +151,7 @@ def test_whoever_is_seen_whole_lacks_nothing() -> None:
 def test_a_leg_that_nobody_sees_stands_beside_the_other() -> None:
     template, rig = standing({"Hips": (0, 90, 0)}), load_human().rig
     mask = clothed(template)
-    left, right = PARTS.index("left_leg"), PARTS.index("right_leg")
+    left, right = BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg")
     found = labelled(template, mask).labels
     labels = label_parts(
         np.zeros((*SIZE, 3), np.uint8), mask, template, rig, np.where(found == left, right, found).astype(np.int8)

@@ -11,7 +11,7 @@ from glb_reader import Glb, validate
 from PIL import Image
 from template_character import still, template_character, walk
 
-from engine.export.glb import QUALITY, TIGHTER, Written, jpeg, write_glb
+from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, Written, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.edit import travel
@@ -149,7 +149,7 @@ def test_many_vertices_get_wide_indices(mesh: SkinnedMesh, tmp_path: Path) -> No
 def test_noise_is_a_texture_like_any_other() -> None:
     """Of more than a byte to a pixel; and no colour is shared with a neighbour."""
     noise = np.random.default_rng(6).integers(0, 256, (256, 512, 3), np.uint8)
-    packed = jpeg(noise, QUALITY, synthetic=True)
+    packed = jpeg(noise, JPEG_QUALITY, synthetic=True)
     assert len(packed) > noise.size / 3
     with Image.open(io.BytesIO(packed)) as texture:
         assert np.abs(np.asarray(texture).astype(int) - noise).mean() < 12
@@ -159,9 +159,9 @@ def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: 
     noise = np.random.default_rng(5).integers(0, 256, (512, 1024, 3), np.uint8)
     noisy, file = replace(mesh, texture=noise), tmp_path / "a.glb"
     free = write_glb(file, noisy)
-    assert free == write_glb(file, noisy, most=free.size) == Written(file.stat().st_size, 1, QUALITY)
+    assert free == write_glb(file, noisy, most=free.size) == Written(file.stat().st_size, 1, JPEG_QUALITY)
     before = free
-    for smaller, quality in TIGHTER:
+    for smaller, quality in TEXTURE_REDUCTIONS:
         written = write_glb(file, noisy, most=before.size - 1)
         assert written == Written(file.stat().st_size, smaller, quality)
         assert written.size < before.size

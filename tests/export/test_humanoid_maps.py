@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from engine.body.rig import HUMAN
+from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.character.template_fit import load_human
 
@@ -56,20 +56,20 @@ CHAINS = (
 
 @pytest.mark.parametrize("required", [UNITY, UNREAL, OPTIONAL], ids=["Unity", "Unreal", "optional"])
 def test_every_bone_that_an_engine_requires_is_there(required: dict[str, str]) -> None:
-    names = load_rig(HUMAN).names
+    names = load_rig(HUMAN_RIG).names
     assert {bone: joint for bone, joint in required.items() if joint not in names} == {}
     assert len(set(required.values())) == len(required), "no joint is two bones"
 
 
 @pytest.mark.parametrize("chain", CHAINS, ids=lambda chain: chain[-1])
 def test_chains_hang_together(chain: tuple[str, ...]) -> None:
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     for upper, lower in pairwise(chain):
         assert rig.names[rig.parents[rig.index(lower)]] == upper
 
 
 def test_the_root_is_the_hips() -> None:
-    rig = load_rig(HUMAN)
+    rig = load_rig(HUMAN_RIG)
     assert [name for name, parent in zip(rig.names, rig.parents, strict=True) if parent < 0] == ["Hips"]
 
 
@@ -77,4 +77,4 @@ def test_a_character_made_of_a_picture_has_the_bodys_joints_alone() -> None:
     """It is one surface: neither mouth nor eyes open in it."""
     human = load_human()
     assert human.rig.names == human.space.names == tuple(load_rig("mixamo").names)
-    assert {*load_rig(HUMAN).names} - {*human.rig.names} == {*OPTIONAL.values()}
+    assert {*load_rig(HUMAN_RIG).names} - {*human.rig.names} == {*OPTIONAL.values()}

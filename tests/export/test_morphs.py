@@ -17,7 +17,7 @@ from engine.body.template import FACE_UNITS
 from engine.export.glb import write_glb
 from engine.export.gltf_materials import Material, TextureTransform
 from engine.export.vrm import VrmMeta, write_vrm
-from engine.export.vrm_expressions import ARKIT_MIXTURES, PRESETS, Expression, arkit_expressions
+from engine.export.vrm_expressions import ARKIT_MIXTURES, PRESET_NAMES, Expression, arkit_expressions
 from engine.geometry.morph_target import MorphTarget, morph_target
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import triangulate
@@ -206,7 +206,7 @@ def test_a_vrm_has_expressions_of_its_own_names_and_the_characters(
     assert issues["numErrors"] == issues["numWarnings"] == 0
     glb = Glb(tmp_path / "a.vrm")
     vrm = glb.json["extensions"]["VRMC_vrm"]
-    assert set(vrm["expressions"]["preset"]) == set(PRESETS)
+    assert set(vrm["expressions"]["preset"]) == set(PRESET_NAMES)
     assert set(vrm["expressions"]["custom"]) == set(FACE_UNITS)
     names = glb.json["meshes"][0]["extras"]["targetNames"]
     for name, expression in vrm["expressions"]["preset"].items():
@@ -240,7 +240,7 @@ def test_only_what_the_shapes_can_show_is_an_expression() -> None:
 
 
 def test_every_mixture_is_of_face_units_within_bounds() -> None:
-    assert set(ARKIT_MIXTURES) == set(PRESETS)
+    assert set(ARKIT_MIXTURES) == set(PRESET_NAMES)
     for mixture in ARKIT_MIXTURES.values():
         assert set(mixture.targets) <= set(FACE_UNITS)
         assert all(0 < weight <= 1 for weight in mixture.targets.values())

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from engine.export.animation_tracks import HELD, closing_root, tracks
-from engine.export.influences import FULL, quantise_influences
+from engine.export.animation_tracks import SINGLE_FRAME_SECONDS, closing_root, tracks
+from engine.export.influences import FULL_WEIGHT, quantise_influences
 from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 
@@ -30,7 +30,7 @@ def test_a_loop_is_closed_and_a_single_frame_held() -> None:
     np.testing.assert_allclose(closed.times, [0, 0.1, 0.2, 0.3])
     np.testing.assert_array_equal(closed.rotations[3], closed.rotations[0])
     held = tracks(Clip("still", 10, turn[1:2], np.ones((1, 3), np.float32)), BONE)
-    np.testing.assert_allclose(held.times, [0, HELD])
+    np.testing.assert_allclose(held.times, [0, SINGLE_FRAME_SECONDS])
     assert held.turning.all() and not held.moving.any()
 
 
@@ -56,11 +56,11 @@ def test_whole_weights_sum_to_one_and_name_no_joint_twice(row: list[tuple[int, f
     bones, weights = np.array([[joint for joint, _ in row]]), np.array([[weight for _, weight in row]])
     joints, whole = quantise_influences(bones, weights)
     used = joints[0][whole[0] > 0]
-    assert whole.sum() == FULL and len(set(used)) == len(used) and (np.diff(whole[0].astype(int)) <= 0).all()
+    assert whole.sum() == FULL_WEIGHT and len(set(used)) == len(used) and (np.diff(whole[0].astype(int)) <= 0).all()
     assert not joints[0][whole[0] == 0].any()
     for joint in range(6):
         exact = weights[bones == joint].sum() / weights.sum()
-        assert abs(whole[joints == joint].sum() / FULL - exact) <= 3 / FULL
+        assert abs(whole[joints == joint].sum() / FULL_WEIGHT - exact) <= 3 / FULL_WEIGHT
 
 
 def test_a_vertex_without_weight_is_refused() -> None:

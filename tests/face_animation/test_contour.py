@@ -7,7 +7,7 @@ import pytest
 from made_face import placed
 from numpy.typing import NDArray
 
-from engine.face_animation.contour import EARS, MAX_GAIN, beside_contour, keep_inside, rim_distance
+from engine.face_animation.contour import EAR_VERTICES, MAX_GAIN, beside_contour, keep_inside, rim_distance
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, MESH_SIZE, RIGHT_EYE
 
 UNIT = 50.0
@@ -48,7 +48,7 @@ def test_no_point_of_a_turned_head_lies_beyond_the_contour_of_its_cheeks(mesh: N
     faces = np.stack([placed(UNIT, CENTRE, yaw)[:, :2] for yaw in (-20.0, 20.0)]).astype(float)
     kept = faces.copy()
     keep_inside(kept, mesh, SEEN)
-    cheeks = np.flatnonzero((mesh[:, 1] > mesh[EARS[0], 1]) & (mesh[:, 1] < mesh[LIP, 1]))
+    cheeks = np.flatnonzero((mesh[:, 1] > mesh[EAR_VERTICES[0], 1]) & (mesh[:, 1] < mesh[LIP, 1]))
     for turned, now in zip(faces, kept, strict=True):
         assert (rim_distance(turned, turned[cheeks]) > 0.01 * UNIT).sum() >= 10
         assert rim_distance(now, now[cheeks]).max() < 0.01 * UNIT

@@ -12,8 +12,8 @@ from scipy.spatial import Delaunay
 
 from engine.face_animation.control_points import ControlPoints, place_control_points
 from engine.face_animation.dense_field import (
-    DISKS,
-    FALLOFF,
+    BLUR_KERNELS,
+    FALLOFF_DIAGONALS,
     LARGEST_DISK,
     build_warp_mesh,
     disk_radii,
@@ -78,10 +78,10 @@ def plain_field(control: NDArray, offsets: NDArray, outside: NDArray) -> NDArray
     """Forward offsets of every pixel: interpolated over the triangulation, then blurred by ten disks."""
     field = LinearNDInterpolator(Delaunay(control), offsets.astype(float))(pixels())
     diagonal = float(np.hypot(*SHAPE))
-    level = np.round(np.clip(outside / (FALLOFF * diagonal), 0, 1) * (DISKS - 1)).astype(int)
+    level = np.round(np.clip(outside / (FALLOFF_DIAGONALS * diagonal), 0, 1) * (BLUR_KERNELS - 1)).astype(int)
     out = field.copy()
-    for k in range(1, DISKS):
-        radius = k / (DISKS - 1) * LARGEST_DISK * diagonal
+    for k in range(1, BLUR_KERNELS):
+        radius = k / (BLUR_KERNELS - 1) * LARGEST_DISK * diagonal
         reach = int(np.ceil(radius))
         y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
         disk = (x**2 + y**2 <= radius**2).astype(float)
@@ -188,7 +188,7 @@ def test_disks_grow_from_nothing_to_five_hundredths_of_the_diagonal_in_ten_steps
     radii = disk_radii(face, line, SHAPE)
     assert (np.diff(radii) >= 0).all()
     assert radii[0] == 0 and radii[-1] == pytest.approx(LARGEST_DISK * diagonal)
-    assert len(np.unique(radii.round(6))) == DISKS
+    assert len(np.unique(radii.round(6))) == BLUR_KERNELS
     assert (disk_radii(face, face[:, :2], SHAPE) == 0).all()
 
 

@@ -20,7 +20,7 @@ from engine.face_animation.registration import register_track
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.held_face import EASE_BACK
 from engine.perception.face_track.periphery import PeripheryTracker
 from engine.perception.face_track.track import FaceTrack
@@ -73,10 +73,12 @@ def test_crops_show_the_face_in_its_place_and_are_small(track: FaceTrack, frames
     eyes = np.array(CROP_EYES)
     for index in (0, len(track) - 1):
         crop, mesh = track.crop(index), track.in_crop(index)
-        assert crop.shape == (*CROP, 3)
+        assert crop.shape == (*CROP_SHAPE, 3)
         found = np.array([mesh[[33, 133]].mean(axis=0), mesh[[263, 362]].mean(axis=0)])
         assert np.abs(found - eyes).max() < 4
-        again = cv2.warpAffine(frames[index], track.crop_places[index], CROP[::-1], borderMode=cv2.BORDER_REPLICATE)
+        again = cv2.warpAffine(
+            frames[index], track.crop_places[index], CROP_SHAPE[::-1], borderMode=cv2.BORDER_REPLICATE
+        )
         inner = (slice(60, 260), slice(60, 230))
         assert np.abs(again[inner].astype(int) - crop[inner]).mean() < 5
     assert track.crops.file.stat().st_size / len(track) < 50_000

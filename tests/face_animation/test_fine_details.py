@@ -13,11 +13,11 @@ from made_face import SKIN, driver, in_crop, painted, placed, smiling
 from numpy.typing import NDArray
 
 from engine.face_animation.fine_details import (
-    BRIGHTENING,
-    DARKEST,
-    FLOOR,
-    STEP,
-    WINDOW,
+    BRIGHTENING_FACTOR,
+    MIN_RATIO,
+    RATIO_FLOOR_GREY_LEVELS,
+    RATIO_STEP,
+    TEMPORAL_WINDOW_FRAMES,
     DetailRegion,
     RatioImages,
     detail_region,
@@ -27,7 +27,7 @@ from engine.face_animation.fine_details import (
     most_expressive,
     shade,
 )
-from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.face_crop import CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE
 
@@ -38,7 +38,7 @@ CHEEK = (slice(150, 190), slice(60, 100))
 
 
 def plain(level: float) -> NDArray[np.uint8]:
-    return np.full((*CROP, 3), level, np.uint8)
+    return np.full((*CROP_SHAPE, 3), level, np.uint8)
 
 
 def with_crease(depth: float) -> NDArray[np.uint8]:
@@ -58,13 +58,13 @@ def ratios(track: FaceTrack, outliers: bool = False, refined: bool = True) -> Ra
 
 def inside() -> NDArray[np.bool_]:
     """Pixels of the crop well within the face."""
-    mask = np.zeros(CROP, np.uint8)
+    mask = np.zeros(CROP_SHAPE, np.uint8)
     cv2.fillPoly(mask, [in_crop(FACE)[list(FACE_OVAL), :2].round().astype(np.int32)], 1)
     return np.asarray(cv2.erode(mask, np.ones((25, 25))) > 0)
 
 
 def test_a_face_that_does_not_change_has_ratio_one(tmp_path: Path) -> None:
-    face = painted(in_crop(FACE), CROP[::-1])
+    face = painted(in_crop(FACE), CROP_SHAPE[::-1])
     track = track_of(tmp_path, [face] * 3)
     for refined in (False, True):
         np.testing.assert_allclose(ratios(track, refined=refined).single(2), 1, atol=1e-4)
@@ -73,7 +73,7 @@ def test_a_face_that_does_not_change_has_ratio_one(tmp_path: Path) -> None:
 def test_the_ratio_is_that_of_luminances(tmp_path: Path) -> None:
     """Equation 2, with a floor on both sides against noise in the dark."""
     track = track_of(tmp_path, [plain(LEVEL), plain(90)])
-    expected = (90 + FLOOR) / (LEVEL + FLOOR)
+    expected = (90 + RATIO_FLOOR_GREY_LEVELS) / (LEVEL + RATIO_FLOOR_GREY_LEVELS)
     np.testing.assert_allclose(ratios(track, refined=False).single(1)[inside()], expected, atol=0.01)
 
 
@@ -100,19 +100,19 @@ def test_brightening_is_tuned_down_to_a_hundredth(tmp_path: Path) -> None:
     track = track_of(tmp_path, [plain(LEVEL), with_crease(1.5)])
     raw = ratios(track, refined=False).single(1)
     assert raw[170, 80] > 1.25
-    assert 1 < ratios(track).single(1)[170, 80] <= 1 + BRIGHTENING * (raw.max() - 1) + 1e-4
-    assert ratios(track).single(1).max() <= 1 + BRIGHTENING * (raw.max() - 1) + 1e-4
+    assert 1 < ratios(track).single(1)[170, 80] <= 1 + BRIGHTENING_FACTOR * (raw.max() - 1) + 1e-4
+    assert ratios(track).single(1).max() <= 1 + BRIGHTENING_FACTOR * (raw.max() - 1) + 1e-4
 
 
 def test_nothing_darkens_beyond_the_bound(tmp_path: Path) -> None:
     track = track_of(tmp_path, [plain(LEVEL), with_crease(0.05)])
-    assert ratios(track, refined=False).single(1)[170, 80] < DARKEST - 0.05
-    assert ratios(track).single(1).min() == pytest.approx(DARKEST, abs=1e-4)
+    assert ratios(track, refined=False).single(1)[170, 80] < MIN_RATIO - 0.05
+    assert ratios(track).single(1).min() == pytest.approx(MIN_RATIO, abs=1e-4)
 
 
 def test_shading_of_a_head_that_turns_in_fixed_light_is_no_expression(tmp_path: Path) -> None:
     """The whole cheek darkens as the head turns away: hardly a trace is left; a crease in it stays."""
-    shaded = np.clip(plain(LEVEL) * np.linspace(0.6, 1.0, CROP[1])[None, :, None], 0, 255).astype(np.uint8)
+    shaded = np.clip(plain(LEVEL) * np.linspace(0.6, 1.0, CROP_SHAPE[1])[None, :, None], 0, 255).astype(np.uint8)
     shaded[CHEEK[0], 78:82] = (shaded[CHEEK[0], 78:82] * 0.75).astype(np.uint8)
     track = track_of(tmp_path, [plain(LEVEL), shaded], [FACE, placed(70, (100, 100), yaw=15)])
     found = ratios(track).single(1)
@@ -143,7 +143,7 @@ def test_ratios_are_taken_where_the_skin_went(tmp_path: Path) -> None:
     assert np.linalg.norm(rest[205, :2] - acted[205, :2]) > 4
     track = track_of(tmp_path, pictures, [FACE, moved])
     found = ratios(track, refined=False).single(1)
-    unaligned = (luminance(pictures[1]) + FLOOR) / (luminance(pictures[0]) + FLOOR)
+    unaligned = (luminance(pictures[1]) + RATIO_FLOOR_GREY_LEVELS) / (luminance(pictures[0]) + RATIO_FLOOR_GREY_LEVELS)
     assert np.abs(found[inside()] - 1).max() < 0.4 * np.abs(unaligned[inside()] - 1).max()
 
 
@@ -158,7 +158,7 @@ def test_in_time_a_gaussian_of_21_frames(tmp_path: Path) -> None:
     assert seen.argmax() == 20
     np.testing.assert_allclose(seen, seen[::-1], atol=1e-3)
     assert seen.sum() == pytest.approx(whole, rel=0.05)
-    half = WINDOW // 2
+    half = TEMPORAL_WINDOW_FRAMES // 2
     assert np.abs(seen[: 20 - half]).max() < 1e-3 and np.abs(seen[21 + half :]).max() < 1e-3
     assert (np.diff(seen[20 - half : 21]) >= -1e-4).all()
 
@@ -181,7 +181,7 @@ def test_kept_ratio_images_are_those_that_were_made(tmp_path: Path, monkeypatch:
     kept = keep_ratio_images(track, 0)
     assert list(own.iterdir()) == [kept.images.file]
     for image, expected in zip(kept, RatioImages(track, 0), strict=True):
-        np.testing.assert_allclose(image, expected, atol=5 * STEP)
+        np.testing.assert_allclose(image, expected, atol=5 * RATIO_STEP)
         assert (image[CHEEK[0], 120:150] == 1).all()
     kept.images.file.unlink()
 
@@ -252,7 +252,7 @@ def shade_from(frame: NDArray, region: DetailRegion, ratio: NDArray, origin: NDA
 
 def test_ratio_one_changes_nothing(picture: NDArray) -> None:
     frame = picture.copy()
-    shade_from(frame, detail_region(picture, TARGET), np.ones(CROP, np.float32), identity(), 1)
+    shade_from(frame, detail_region(picture, TARGET), np.ones(CROP_SHAPE, np.float32), identity(), 1)
     np.testing.assert_array_equal(frame, picture)
 
 
@@ -260,7 +260,7 @@ def test_a_ratio_multiplies_the_skin_and_spares_eyes_mouth_and_background(pictur
     """Equation 3."""
     frame = picture.copy()
     details = detail_region(picture, TARGET)
-    shade_from(frame, details, np.full(CROP, 0.5, np.float32), identity(), 1)
+    shade_from(frame, details, np.full(CROP_SHAPE, 0.5, np.float32), identity(), 1)
     factor = frame.astype(float).sum(axis=2) / picture.astype(float).sum(axis=2)
     x, y = TARGET[50, :2].round().astype(int)
     x0, y0 = details.box[:2]
@@ -283,7 +283,7 @@ def test_ratios_land_on_the_same_part_of_the_face(picture: NDArray) -> None:
     crop = in_crop(FACE)
     details = detail_region(picture, TARGET)
     for vertex in (50, 280, 151):
-        spot = np.ones(CROP, np.float32)
+        spot = np.ones(CROP_SHAPE, np.float32)
         cv2.circle(spot, crop[vertex, :2].round().astype(int).tolist(), 4, 0.5, -1)
         frame = picture.copy()
         shade_from(frame, details, spot, identity(), 1)
@@ -296,7 +296,7 @@ def test_ratios_land_on_the_same_part_of_the_face(picture: NDArray) -> None:
 def test_ratios_move_with_the_warp(picture: NDArray) -> None:
     """Through an inverse map that shifts, in pixels of the picture or of one twice as large."""
     details = detail_region(picture, TARGET)
-    ratio = np.ones(CROP, np.float32)
+    ratio = np.ones(CROP_SHAPE, np.float32)
     cv2.circle(ratio, in_crop(FACE)[50, :2].round().astype(int).tolist(), 6, 0.6, -1)
     still = np.full_like(picture, 200)
     shade_from(still, details, ratio, identity(), 1)
@@ -311,7 +311,7 @@ def test_ratios_move_with_the_warp(picture: NDArray) -> None:
 def test_colours_keep_their_hue(picture: NDArray) -> None:
     flat = np.empty_like(picture)
     flat[:] = SKIN
-    shade_from(flat, detail_region(picture, TARGET), np.full(CROP, 0.6, np.float32), identity(), 1)
+    shade_from(flat, detail_region(picture, TARGET), np.full(CROP_SHAPE, 0.6, np.float32), identity(), 1)
     x, y = TARGET[50, :2].round().astype(int)
     factor = flat[y, x] / np.array(SKIN)
     assert factor.max() < 0.9

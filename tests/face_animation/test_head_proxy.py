@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from engine.face_animation.head_motion import HeadMotion, split_motion
 from engine.face_animation.head_proxy import (
-    JOINED,
+    CONTOUR_BLEND_EYE_DISTANCES,
     LARGEST_TURN,
-    STEEPEST,
+    MAX_DEPTH_SLOPE,
     build_head_proxy,
     head_share,
     limit_rotation,
     move_head,
     surface_depth,
 )
-from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
 
 UNIT, CENTRE = 50.0, (150.0, 120.0)
 
@@ -31,7 +31,7 @@ def mesh() -> NDArray[np.float32]:
 
 def acted(mesh: NDArray, rotation: NDArray, scale: float = 1.0, shift=(0.0, 0.0, 0.0)) -> HeadMotion:
     """A driver with this very face that turns about the middle of its rigid points."""
-    pivot = mesh[list(RIGID)].mean(axis=0)
+    pivot = mesh[list(RIGID_VERTICES)].mean(axis=0)
     return split_motion((scale * (mesh - pivot) @ rotation.T + pivot + shift)[None], mesh)
 
 
@@ -40,7 +40,7 @@ def test_the_proxy_has_the_mesh_s_own_depth_on_the_face(mesh: NDArray) -> None:
     proxy = build_head_proxy(points, mesh)
     oval = mesh[list(FACE_OVAL), :2]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in mesh[:, :2]])
-    own = (inside > JOINED * UNIT) | np.isin(np.arange(MESH_SIZE), FACE_OVAL)
+    own = (inside > CONTOUR_BLEND_EYE_DISTANCES * UNIT) | np.isin(np.arange(MESH_SIZE), FACE_OVAL)
     assert own.sum() > 430
     np.testing.assert_allclose(proxy.points[:MESH_SIZE][own], mesh[own], atol=1e-4)
     np.testing.assert_array_equal(proxy.points[:MESH_SIZE, :2], mesh[:, :2])
@@ -67,7 +67,7 @@ def test_in_a_turned_face_depth_leaves_the_contour_s_at_a_bounded_slope(yaw: flo
     apart = np.linalg.norm(turned[:, None, :2] - contour[None, :, :2], axis=2)
     nearest = apart.argmin(axis=1)
     rise = np.abs(proxy.points[:MESH_SIZE, 2] - contour[nearest, 2])
-    assert (rise <= STEEPEST * apart.min(axis=1) + 0.05 * UNIT).all()
+    assert (rise <= MAX_DEPTH_SLOPE * apart.min(axis=1) + 0.05 * UNIT).all()
 
 
 def test_depth_beside_the_face_falls_back_to_the_ears(mesh: NDArray) -> None:
@@ -105,7 +105,7 @@ def test_a_turn_by_hand(mesh: NDArray, yaw: float) -> None:
     points = np.concatenate([mesh[:, :2].astype(float), [[190.0, 60.0], [100.0, 90.0]]])
     proxy = build_head_proxy(points, mesh)
     moved = move_head(proxy, acted(mesh, turn(yaw=yaw)), mesh)[0]
-    pivot = mesh[list(RIGID)].astype(float).mean(axis=0)
+    pivot = mesh[list(RIGID_VERTICES)].astype(float).mean(axis=0)
     c, s = np.cos(np.deg2rad(yaw)), np.sin(np.deg2rad(yaw))
     x, z = proxy.points[:, 0] - pivot[0], proxy.points[:, 2] - pivot[2]
     np.testing.assert_allclose(moved[:, 0], pivot[0] + c * x - s * z, atol=0.02)
@@ -119,7 +119,7 @@ def test_scale_and_shift_are_carried_in_the_target_s_own_size(mesh: NDArray) -> 
     target = placed(2 * UNIT, (300.0, 300.0))
     proxy = build_head_proxy(target[:, :2], target)
     moved = move_head(proxy, acted(mesh, turn(), 1.1, (6.0, -4.0, 0.0)), target)[0]
-    pivot = target[list(RIGID)].mean(axis=0)
+    pivot = target[list(RIGID_VERTICES)].mean(axis=0)
     expected = 1.1 * (target - pivot) + pivot + (12.0, -8.0, 0.0)
     np.testing.assert_allclose(moved[:, :2], expected[:, :2], atol=0.05)
 

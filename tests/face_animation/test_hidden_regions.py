@@ -22,7 +22,7 @@ from engine.face_animation.hidden_regions import (
     relight,
     transfer_mouth,
 )
-from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.face_crop import CROP_SHAPE
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 SIZE = (320, 340)
@@ -38,9 +38,9 @@ def closed() -> NDArray[np.float32]:
 def driver() -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     """A crop with a wide open mouth, and a row of teeth in it."""
     mesh = in_crop(opened(placed(70), 0.6))
-    picture = painted(mesh, CROP[::-1])
+    picture = painted(mesh, CROP_SHAPE[::-1])
     inner = mesh[list(LIPS_INNER), :2]
-    mouth = np.zeros(CROP, np.uint8)
+    mouth = np.zeros(CROP_SHAPE, np.uint8)
     cv2.fillPoly(mouth, [inner.round().astype(np.int32)], 1)
     top = int(inner[:, 1].min())
     mouth[: top + 6] = 0
@@ -52,7 +52,7 @@ def driver() -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
 @pytest.fixture(scope="module")
 def neutral() -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
     mesh = in_crop(placed(70))
-    return painted(mesh, CROP[::-1]), mesh
+    return painted(mesh, CROP_SHAPE[::-1]), mesh
 
 
 @pytest.fixture(scope="module")

@@ -7,12 +7,12 @@ import pytest
 from made_face import opened, placed, shut, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.lids_and_lips import LIDS, LIPS, WIDEST, lid_ratio, meet
+from engine.face_animation.lids_and_lips import INNER_LIP_PAIRS, LID_PAIRS, MAX_GAP_RATIO, lid_ratio, meet
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import eye_opening
 
-UPPER, LOWER = np.array(LIDS).T
-TOP, BOTTOM = np.array(LIPS).T
+UPPER, LOWER = np.array(LID_PAIRS).T
+TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
 
 
 @pytest.fixture(scope="module")
@@ -53,9 +53,9 @@ def test_ratios_grow_with_the_gap_and_have_a_limit(driver: NDArray) -> None:
     shares = np.linspace(0, 2, 41)
     ratio = lid_ratio(np.stack([shut(driver, s) for s in shares]), driver)
     assert (np.diff(ratio, axis=0) >= 0).all()
-    open_eyes = (shares > 0.6) & (shares < WIDEST)
+    open_eyes = (shares > 0.6) & (shares < MAX_GAP_RATIO)
     np.testing.assert_allclose(ratio[open_eyes], np.repeat(shares[open_eyes, None], 14, axis=1), rtol=1e-3)
-    assert ratio.max() == pytest.approx(WIDEST)
+    assert ratio.max() == pytest.approx(MAX_GAP_RATIO)
 
 
 def test_each_eye_is_its_own(driver: NDArray) -> None:

@@ -10,7 +10,7 @@ from made_face import driver, in_crop, opened, painted, placed
 
 from engine.face_animation.fine_details import keep_ratio_images
 from engine.face_animation.loop import close_loop
-from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.face_crop import CROP_SHAPE
 
 
 @pytest.mark.parametrize("count", [2, 3, 10, 100])
@@ -34,7 +34,7 @@ def test_looks_lead_to_the_beginning_with_the_face(tmp_path: Path) -> None:
     """A mouth that opens and a cheek that darkens, from the first frame to the last: across the seam both are led back."""
     count = 40
     meshes = [opened(placed(60, (100, 100)), 0.4 * i / count) for i in range(count)]
-    pictures = [painted(in_crop(mesh), CROP[::-1]) for mesh in meshes]
+    pictures = [painted(in_crop(mesh), CROP_SHAPE[::-1]) for mesh in meshes]
     cheek = (slice(150, 180), slice(70, 90))
     for i, picture in enumerate(pictures):
         picture[cheek] = picture[cheek] * (1 - 0.2 * i / count)
@@ -45,7 +45,7 @@ def test_looks_lead_to_the_beginning_with_the_face(tmp_path: Path) -> None:
         steps = np.abs(np.diff(np.append(shown, shown[0])))
         assert steps[-1] <= steps[:-1].max() + 1e-2 and np.ptp(shown) > 0.05
     for frame, mesh in enumerate(closed.meshes):
-        drawn = painted(in_crop(mesh), CROP[::-1])
+        drawn = painted(in_crop(mesh), CROP_SHAPE[::-1])
         shown, meant = ((crop[:, 144].astype(int).sum(axis=1) < 250).sum() for crop in (closed.crop(frame), drawn))
         assert abs(shown - meant) <= 3  # the dark of the mouth is as high as the mesh has it
 

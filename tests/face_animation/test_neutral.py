@@ -24,7 +24,7 @@ from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.features import expression, lopsided
-from engine.perception.expression.measures import MEASURES, SPREAD, general_rest, measure
+from engine.perception.expression.measures import MEASURES, REST_SPREAD, general_rest, measure
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
@@ -237,7 +237,7 @@ def test_rest_is_what_few_frames_show_if_the_others_are_unlike_any_rest(rest: ND
 
 def test_a_rest_of_thousands_of_frames_takes_little_memory() -> None:
     """The distances of 2000 frames from one another are 32 MB, and the peak of a clip of three minutes was three such."""
-    values = general_rest() + np.random.default_rng(5).normal(size=(5400, len(MEASURES))) * SPREAD
+    values = general_rest() + np.random.default_rng(5).normal(size=(5400, len(MEASURES))) * REST_SPREAD
     tracemalloc.start()
     try:
         probable_rest(values)

@@ -10,9 +10,9 @@ import pytest
 from made_face import SKIN, driver, in_crop, placed, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.fine_details import DARKEST, RatioImages
-from engine.face_animation.outliers import SEARCH, SIGNIFICANT, match_differences
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.face_animation.fine_details import MIN_RATIO, RatioImages
+from engine.face_animation.outliers import SEARCH_RADIUS_PIXELS, SIGNIFICANT_RATIO, match_differences
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 
 FACE = placed(70, (100, 100))
@@ -24,13 +24,13 @@ SHADOW, CREASE = (130, 165), (90, 175)
 def skin() -> NDArray[np.float64]:
     """Skin with soft blotches, as all skin has."""
     rng = np.random.default_rng(0)
-    blotches = cv2.GaussianBlur(rng.normal(0, 1, CROP), (0, 0), 6)
+    blotches = cv2.GaussianBlur(rng.normal(0, 1, CROP_SHAPE), (0, 0), 6)
     return np.array(SKIN, float) + 4 * (blotches / blotches.std())[..., None]
 
 
 def darkened(picture: NDArray, centre: tuple[float, float], size: tuple[float, float], depth: float) -> NDArray:
     """A soft dark spot."""
-    ys, xs = np.mgrid[: CROP[0], : CROP[1]]
+    ys, xs = np.mgrid[: CROP_SHAPE[0], : CROP_SHAPE[1]]
     spot = np.exp(-0.5 * (((xs - centre[0]) / size[0]) ** 2 + ((ys - centre[1]) / size[1]) ** 2))
     return picture * (1 - depth * spot)[..., None]
 
@@ -59,9 +59,9 @@ def at(image: NDArray, place: tuple[int, int], reach: int = 9) -> NDArray:
 def test_a_moved_shadow_is_removed_and_a_new_crease_is_kept(track: FaceTrack) -> None:
     raw = RatioImages(track, 0, outliers=False).single(2)
     refined = RatioImages(track, 0, outliers=True).single(2)
-    assert at(raw, SHADOW, 14).min() < 1 / SIGNIFICANT - 0.1  # without it, the shadow would be carried over
+    assert at(raw, SHADOW, 14).min() < 1 / SIGNIFICANT_RATIO - 0.1  # without it, the shadow would be carried over
     assert at(refined, SHADOW, 14).min() > 0.99
-    assert at(refined, CREASE).min() <= DARKEST + 1e-6
+    assert at(refined, CREASE).min() <= MIN_RATIO + 1e-6
     assert at(refined, CREASE).min() == pytest.approx(at(raw, CREASE).min(), abs=0.05)
 
 
@@ -89,15 +89,15 @@ def test_without_outliers_nothing_is_removed(tmp_path: Path) -> None:
     images = RatioImages(track, 0, outliers=True)
     assert images.outliers is not None
     assert images.outliers.distance.min() > 100
-    assert at(images.single(1), CREASE).min() <= DARKEST + 1e-6
+    assert at(images.single(1), CREASE).min() <= MIN_RATIO + 1e-6
 
 
 @pytest.mark.parametrize("shift", [(3, 0), (-6, 5), (0, -9)])
 def test_a_patch_is_found_again_within_the_search(shift: tuple[int, int]) -> None:
     rng = np.random.default_rng(0)
-    neutral = rng.integers(40, 200, (*CROP, 3), np.uint8)
+    neutral = rng.integers(40, 200, (*CROP_SHAPE, 3), np.uint8)
     frame = np.roll(neutral, (-shift[1], -shift[0]), axis=(0, 1))
-    where = np.zeros(CROP, np.uint8)
+    where = np.zeros(CROP_SHAPE, np.uint8)
     where[100:104, 100:104] = 1
     best = match_differences(frame, neutral, _identity(), where)
     assert best[where > 0].max() == 0
@@ -106,8 +106,8 @@ def test_a_patch_is_found_again_within_the_search(shift: tuple[int, int]) -> Non
 
 def test_beyond_the_search_it_is_not_found() -> None:
     rng = np.random.default_rng(0)
-    neutral = rng.integers(40, 200, (*CROP, 3), np.uint8)
-    where = np.zeros(CROP, np.uint8)
+    neutral = rng.integers(40, 200, (*CROP_SHAPE, 3), np.uint8)
+    where = np.zeros(CROP_SHAPE, np.uint8)
     where[100:104, 100:104] = 1
     best = match_differences(np.roll(neutral, 14, axis=1), neutral, _identity(), where)
     assert best[where > 0].min() > 20
@@ -117,36 +117,38 @@ def test_beyond_the_search_it_is_not_found() -> None:
 def test_a_turned_patch_is_found(degrees: int) -> None:
     """Turned texture is found better than by a search that only shifts, made here the plain way."""
     rng = np.random.default_rng(0)
-    texture = cv2.GaussianBlur(rng.normal(0, 1, (*CROP, 3)), (0, 0), 1.6)
+    texture = cv2.GaussianBlur(rng.normal(0, 1, (*CROP_SHAPE, 3)), (0, 0), 1.6)
     neutral = np.clip(128 + 50 * texture / texture.std(), 0, 255).astype(np.uint8)
     places = [(60 + 40 * i, 80 + 50 * j) for i in range(4) for j in range(4)]
     turned, shifted = [], []
     for x, y in places:
         about = cv2.getRotationMatrix2D((float(x), float(y)), degrees, 1.0)
-        frame = cv2.warpAffine(neutral, about, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        where = np.zeros(CROP, np.uint8)
+        frame = cv2.warpAffine(
+            neutral, about, CROP_SHAPE[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+        )
+        where = np.zeros(CROP_SHAPE, np.uint8)
         where[y, x] = 1
         turned.append(match_differences(frame, neutral, _identity(), where)[y, x])
         patch = frame[y - 1 : y + 2, x - 1 : x + 2].astype(int)
         shifted.append(
             min(
                 int(np.abs(patch - neutral[v - 1 : v + 2, u - 1 : u + 2]).max())
-                for v in range(y - SEARCH, y + SEARCH)
-                for u in range(x - SEARCH, x + SEARCH)
+                for v in range(y - SEARCH_RADIUS_PIXELS, y + SEARCH_RADIUS_PIXELS)
+                for u in range(x - SEARCH_RADIUS_PIXELS, x + SEARCH_RADIUS_PIXELS)
             )
         )
     assert np.mean(turned) < 0.85 * np.mean(shifted)
 
 
 def _identity() -> NDArray[np.float32]:
-    ys, xs = np.mgrid[: CROP[0], : CROP[1]].astype(np.float32)
+    ys, xs = np.mgrid[: CROP_SHAPE[0], : CROP_SHAPE[1]].astype(np.float32)
     return np.stack([xs, ys], axis=-1)
 
 
 def test_shadows_of_a_real_face_are_judged_alike_on_both_sides() -> None:
     """Mirrored pictures give mirrored verdicts: the search has no preferred side by more than its even width."""
     neutral, acted = pictures((0.0, 4.0))
-    where = np.zeros(CROP, np.uint8)
+    where = np.zeros(CROP_SHAPE, np.uint8)
     where[150:185, 115:146] = 1
     straight = match_differences(acted, neutral, _identity(), where)
     flipped = match_differences(

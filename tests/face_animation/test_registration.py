@@ -11,7 +11,7 @@ from made_face import SKIN, driver, opened, placed
 from numpy.typing import NDArray
 
 from engine.face_animation.registration import register_track
-from engine.perception.face_track.face_crop import CROP
+from engine.perception.face_track.face_crop import CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER, RIGHT_EYE
 
@@ -24,14 +24,15 @@ SHIFT = np.array([2.0, -1.5])
 def skin() -> NDArray[np.uint8]:
     """Skin with pores and freckles, so that it can be followed."""
     rng = np.random.default_rng(0)
-    fine = sum(a * cv2.GaussianBlur(rng.normal(0, 1, CROP), (0, 0), s) * s for a, s in ((6, 2.0), (10, 5.0)))
+    fine = sum(a * cv2.GaussianBlur(rng.normal(0, 1, CROP_SHAPE), (0, 0), s) * s for a, s in ((6, 2.0), (10, 5.0)))
     return np.clip(np.array(SKIN) + 3 * np.asarray(fine)[..., None], 0, 255).astype(np.uint8)
 
 
 def moved(picture: NDArray[np.uint8], shift: NDArray) -> NDArray[np.uint8]:
     matrix = np.column_stack([np.eye(2), shift])
     return np.asarray(
-        cv2.warpAffine(picture, matrix, CROP[::-1], flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE), np.uint8
+        cv2.warpAffine(picture, matrix, CROP_SHAPE[::-1], flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE),
+        np.uint8,
     )
 
 
@@ -81,7 +82,7 @@ def test_what_stays_as_tracked_is_not_steadied_once_more(tmp_path: Path) -> None
 
 def test_a_true_track_is_left_alone(tmp_path: Path) -> None:
     """Also in other light: it is made equal before the flow is measured."""
-    dark = np.clip(skin() * np.linspace(0.7, 1.0, CROP[1])[None, :, None], 0, 255).astype(np.uint8)
+    dark = np.clip(skin() * np.linspace(0.7, 1.0, CROP_SHAPE[1])[None, :, None], 0, 255).astype(np.uint8)
     track = driver(tmp_path, [FACE] * 6, [skin()] * 3 + [dark] * 3)
     found = register_track(track, 0).meshes - track.meshes
     inner = [v for v in CHEEKS if v not in FACE_OVAL]

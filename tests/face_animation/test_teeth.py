@@ -8,7 +8,7 @@ import pytest
 from made_face import opened, placed
 from numpy.typing import NDArray
 
-from engine.face_animation.hidden_regions import LOWER, UPPER
+from engine.face_animation.hidden_regions import LOWER_INNER_LIP, UPPER_INNER_LIP
 from engine.face_animation.teeth import behind_lips, draw_teeth, shown_teeth
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
@@ -58,7 +58,7 @@ def test_a_mouth_that_gets_smaller_covers_them() -> None:
     """What is seen is as large as the opening: nothing is pressed together."""
     pursed = with_lips(0.6, 0.7)
     seen = spots(pursed)
-    upper, lower = list(UPPER[3:8]), list(LOWER[3:8])
+    upper, lower = list(UPPER_INNER_LIP[3:8]), list(LOWER_INNER_LIP[3:8])
     np.testing.assert_allclose(np.diff(seen[upper, 0]), np.diff(pursed[upper, 0]), atol=1e-2)
     np.testing.assert_allclose(seen[lower, 1] - seen[upper, 1], pursed[lower, 1] - pursed[upper, 1], atol=1e-2)
 

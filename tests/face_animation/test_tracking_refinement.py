@@ -21,18 +21,18 @@ from engine.face_animation.landmark_residuals import (
     CORRECTED_SHARE_AT_LIPS,
     CROP_EYE_DISTANCE,
     MAX_RESIDUAL,
-    RIDGE,
+    REGRESSION_RIDGE,
     LandmarkResiduals,
     fit_residuals,
     no_residuals,
 )
 from engine.face_animation.layers import separate_layers
-from engine.face_animation.lids_and_lips import LIDS, LIPS
+from engine.face_animation.lids_and_lips import INNER_LIP_PAIRS, LID_PAIRS
 from engine.face_animation.registration import register_track
 from engine.face_animation.rig import rig_target
 from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, observe_driver, refine_tracking
 from engine.media.limits import Limits
-from engine.perception.face_track.face_crop import CROP, crop_place
+from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 from engine.portrait.options import PortraitOptions
@@ -58,7 +58,7 @@ def test_a_frame_that_was_looked_at_loses_its_share_of_what_was_amiss() -> None:
     """The two faces are far apart, so that each weight is what was amiss over 1 + the ridge."""
     residuals = fit_residuals(FACES, amiss(0.02, -0.01))
     found = corrected(residuals, FACES[1], OPEN)[CHIN]
-    assert found == pytest.approx(-CORRECTED_SHARE / (1 + RIDGE) * 60 * np.array([0.02, -0.01]), abs=0.02)
+    assert found == pytest.approx(-CORRECTED_SHARE / (1 + REGRESSION_RIDGE) * 60 * np.array([0.02, -0.01]), abs=0.02)
     assert np.abs(corrected(residuals, FACES[0], REST)).max() < 0.02
 
 
@@ -78,7 +78,7 @@ def test_corrections_are_upright_and_as_large_as_the_face() -> None:
 
 def test_no_more_is_believed_than_a_tracker_can_tell() -> None:
     found = corrected(fit_residuals(FACES, amiss(10 * MAX_RESIDUAL, 0)), FACES[1], OPEN)[CHIN]
-    assert found == pytest.approx((-CORRECTED_SHARE / (1 + RIDGE) * 60 * MAX_RESIDUAL, 0), abs=0.02)
+    assert found == pytest.approx((-CORRECTED_SHARE / (1 + REGRESSION_RIDGE) * 60 * MAX_RESIDUAL, 0), abs=0.02)
 
 
 def test_frames_are_corrected_together_as_each_by_itself() -> None:
@@ -94,7 +94,7 @@ def test_nothing_known_corrects_nothing() -> None:
     assert not corrected(no_residuals(), FACES[1], OPEN).any()
 
 
-@pytest.mark.parametrize("pairs", [LIPS, LIDS], ids=["lips", "lids"])
+@pytest.mark.parametrize("pairs", [INNER_LIP_PAIRS, LID_PAIRS], ids=["lips", "lids"])
 def test_what_is_closed_stays_closed(pairs) -> None:
     """A tracker that finds closed lips or lids apart moves both by the same; on open ones each by its own."""
     top, bottom = np.array(pairs).T
@@ -106,9 +106,11 @@ def test_what_is_closed_stays_closed(pairs) -> None:
     still = corrected(residuals, FACES[1], closed)
     np.testing.assert_allclose(still[top], still[bottom], atol=1e-6)
     moved = corrected(residuals, FACES[1], OPEN)
-    middle = len(top) // 2 if pairs is LIPS else 3
-    share = CORRECTED_SHARE_AT_LIPS if pairs is LIPS else CORRECTED_SHARE
-    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(2 * share / (1 + RIDGE) * 1.2, abs=0.1)
+    middle = len(top) // 2 if pairs is INNER_LIP_PAIRS else 3
+    share = CORRECTED_SHARE_AT_LIPS if pairs is INNER_LIP_PAIRS else CORRECTED_SHARE
+    assert (moved[bottom[middle]] - moved[top[middle]])[1] == pytest.approx(
+        2 * share / (1 + REGRESSION_RIDGE) * 1.2, abs=0.1
+    )
 
 
 def test_the_neutral_frame_is_glanced_at_first_and_the_others_differ(tmp_path: Path) -> None:
@@ -146,7 +148,7 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
                 if frame in observations.frames[1:]:
                     continue
                 picture = animation.draw(motion, ratios.ratio(frame))
-                crop = cv2.warpAffine(picture, place, CROP[::-1], borderMode=cv2.BORDER_REPLICATE)
+                crop = cv2.warpAffine(picture, place, CROP_SHAPE[::-1], borderMode=cv2.BORDER_REPLICATE)
                 ours, theirs = tracker(np.asarray(crop, np.uint8))[0], tracker(track.crop(frame))[0]
                 carried = meant[frame] @ place[:, :2].T + place[:, 2]
                 apart.append((ours[:, :2] - carried) - (theirs[:, :2] - track.in_crop(frame)))

@@ -11,17 +11,17 @@ from made_face import driver, in_crop, painted, placed, shut
 from numpy.typing import NDArray
 
 from engine.face_animation.driver import track_driver
-from engine.face_animation.lids_and_lips import LID_SKIN, LIDS, lid_ratio
+from engine.face_animation.lids_and_lips import LID_PAIRS, LID_SKIN, lid_ratio
 from engine.face_animation.registration import register_track
 from engine.face_animation.unseen_blinks import eye_contrast
 from engine.media.limits import Limits
-from engine.perception.face_track.face_crop import CROP, CROP_EYES
+from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
 
 FACE = placed(70, (100, 100))
-OPEN = painted(in_crop(FACE), CROP[::-1])
-SHUT = painted(in_crop(shut(FACE)), CROP[::-1])
-HALF = CROP[1] // 2
+OPEN = painted(in_crop(FACE), CROP_SHAPE[::-1])
+SHUT = painted(in_crop(shut(FACE)), CROP_SHAPE[::-1])
+HALF = CROP_SHAPE[1] // 2
 
 
 def ratios(folder: Path, pictures: list[NDArray[np.uint8]]) -> NDArray[np.float64]:
@@ -65,22 +65,24 @@ def test_eyes_that_never_had_contrast_are_left_to_the_tracker(tmp_path: Path) ->
 
 def test_the_contrast_of_an_eye_by_hand() -> None:
     """Openings of 60 in skin of 200 and 100: 1 - 60/200, 1 - 60/100. Of a ramp of 2 a pixel: 2 by the skin's 200."""
-    grey, face = np.full(CROP, 200, np.uint8), in_crop(FACE)[:, :2]
+    grey, face = np.full(CROP_SHAPE, 200, np.uint8), in_crop(FACE)[:, :2]
     grey[:, HALF:] = 100
     for eye in (RIGHT_EYE, LEFT_EYE):
         cv2.fillPoly(grey, [np.round(face[list(eye)]).astype(np.int32)], 60)
     assert eye_contrast(grey, face, face)[:, 0] == pytest.approx([0.7, 0.4], abs=0.03)
-    ramp = np.tile(np.clip(200 + 2 * (np.arange(CROP[1]) - CROP_EYES[0][0]), 0, 255), (CROP[0], 1)).astype(np.uint8)
+    ramp = np.tile(np.clip(200 + 2 * (np.arange(CROP_SHAPE[1]) - CROP_EYES[0][0]), 0, 255), (CROP_SHAPE[0], 1)).astype(
+        np.uint8
+    )
     assert eye_contrast(ramp, face, face)[0, 1] == pytest.approx(0.01, rel=0.05)
 
 
 def test_an_eye_out_of_sight_has_no_contrast() -> None:
     face = in_crop(FACE)[:, :2]
-    assert not eye_contrast(np.full(CROP, 100, np.uint8), face - (400, 0), face).any()
+    assert not eye_contrast(np.full(CROP_SHAPE, 100, np.uint8), face - (400, 0), face).any()
 
 
 def test_lids_and_their_skin_are_paired_in_the_same_order() -> None:
-    assert [edge for _, edge in LID_SKIN] == [upper for upper, _ in LIDS]
+    assert [edge for _, edge in LID_SKIN] == [upper for upper, _ in LID_PAIRS]
 
 
 def test_a_blink_that_the_tracker_misses(media) -> None:

@@ -8,9 +8,9 @@ import pytest
 
 from engine.imaging.patchmatch import (
     MAX_SHIFT,
-    RADIUS,
+    PATCH_RADIUS,
+    PATCH_SIDE,
     SHIFT_COST,
-    SIDE,
     PatchField,
     colour_image,
     colour_planes,
@@ -27,7 +27,7 @@ def noise(seed: int = 0) -> np.ndarray:
 
 
 def patch(image: np.ndarray, y: int, x: int) -> np.ndarray:
-    return image[y - RADIUS : y + RADIUS + 1, x - RADIUS : x + RADIUS + 1]
+    return image[y - PATCH_RADIUS : y + PATCH_RADIUS + 1, x - PATCH_RADIUS : x + PATCH_RADIUS + 1]
 
 
 def distance(image: np.ndarray, weight: np.ndarray, one: tuple[int, int], other: tuple[int, int]) -> float:
@@ -56,7 +56,7 @@ def test_centres_are_those_whose_whole_patch_is_usable() -> None:
     found = valid_centres(usable)
     for y in range(HEIGHT):
         for x in range(WIDTH):
-            whole = RADIUS <= y < HEIGHT - RADIUS and RADIUS <= x < WIDTH - RADIUS
+            whole = PATCH_RADIUS <= y < HEIGHT - PATCH_RADIUS and PATCH_RADIUS <= x < WIDTH - PATCH_RADIUS
             assert found[y, x] == (whole and patch(usable, y, x).all())
 
 
@@ -65,7 +65,7 @@ def test_a_distance_is_what_is_left_after_a_shift_of_colour_that_costs_some(brig
     image = noise()
     image[:, 15:] += brighter
     weight = np.random.default_rng(2).uniform(0.1, 1, (HEIGHT, WIDTH)).astype(np.float32)
-    target = np.zeros((4, SIDE, 8), np.float32)
+    target = np.zeros((4, PATCH_SIDE, 8), np.float32)
     planes = colour_planes(image)
     for one, other in (((5, 6), (17, 24)), ((12, 4), (9, 22)), ((8, 8), (8, 9))):
         mass = take_target(planes, weight, *one, target)

@@ -13,7 +13,7 @@ from footage import write_clip
 
 from engine.media.tone_mapping import pq_code, srgb_light, tone_map
 from engine.media.video import probe_video, read_video
-from engine.media.ycbcr import BT601, BT709, BT2020, FULL, LIMITED, Coding, frame_from_rgb, rgb_from_frame
+from engine.media.ycbcr import BT601, BT709, BT2020, FULL_RANGE, LIMITED_RANGE, Coding, frame_from_rgb, rgb_from_frame
 
 CHART = np.array(
     [
@@ -80,7 +80,7 @@ def test_matrix_and_range_tags_are_respected(
         [chart()] * 2,
         layout=layout,
         options={"crf": "1"},
-        dress=tagged(tag, FULL if full else None),
+        dress=tagged(tag, FULL_RANGE if full else None),
         convert=planar(matrix, full, 10 if "10" in layout else 8, layout),
     )
     for frame in read_video(path):
@@ -151,7 +151,7 @@ def test_hdr_keeps_faces_and_rolls_off_highlights(tmp_path: Path, name: str, cod
         options={"crf": "2", "x265-params": "log-level=error:frame-threads=1:bframes=0"}
         if codec == "libx265"
         else {"crf": "4", "preset": "8"},
-        dress=tagged(9, LIMITED, transfer, 9),
+        dress=tagged(9, LIMITED_RANGE, transfer, 9),
         convert=planar(BT2020, False, 10, "yuv420p10le"),
     )
     assert probe_video(path).hdr == name
@@ -194,7 +194,7 @@ def test_wide_gamut_of_ordinary_range(tmp_path: Path) -> None:
         tmp_path / "clip.mp4",
         [np.clip(code, 0, 1)] * 2,
         options={"crf": "1"},
-        dress=tagged(1, LIMITED, 13, 12),
+        dress=tagged(1, LIMITED_RANGE, 13, 12),
         convert=planar(BT709, False, 8, "yuv420p"),
     )
     assert probe_video(path).hdr is None
@@ -202,21 +202,21 @@ def test_wide_gamut_of_ordinary_range(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("matrix", [BT601, BT709, BT2020])
-@pytest.mark.parametrize("range_", [LIMITED, FULL])
+@pytest.mark.parametrize("range_", [LIMITED_RANGE, FULL_RANGE])
 def test_coding_inverts(matrix: int, range_: int) -> None:
     coding = Coding(matrix, range_)
     rgb = np.random.default_rng(0).uniform(0, 255, (100, 3))
     encode = coding.encode()
     codes = rgb @ encode[:, :3].T
     assert codes @ coding.decode().T == pytest.approx(rgb)
-    assert (encode @ [255, 255, 255, 1])[0] == pytest.approx(235 if range_ == LIMITED else 255)
+    assert (encode @ [255, 255, 255, 1])[0] == pytest.approx(235 if range_ == LIMITED_RANGE else 255)
 
 
 def test_our_frames_come_back() -> None:
     picture = chart()
     frame = frame_from_rgb(picture)
     assert (frame.colorspace, frame.color_range, frame.format.name) == (1, 1, "yuv420p")
-    assert np.abs(cells(rgb_from_frame(frame, Coding(BT709, LIMITED))) - CHART).max() <= 2
+    assert np.abs(cells(rgb_from_frame(frame, Coding(BT709, LIMITED_RANGE))) - CHART).max() <= 2
 
 
 def test_our_frames_are_what_swscale_reads() -> None:
@@ -238,7 +238,7 @@ def test_our_frames_are_what_swscale_reads() -> None:
     difference = back.astype(int) - picture
     assert np.abs(difference.mean(axis=(0, 1))).max() < 0.4
     assert np.abs(difference).mean() < 2
-    ours = rgb_from_frame(frame_from_rgb(picture), Coding(BT709, LIMITED)).astype(int)
+    ours = rgb_from_frame(frame_from_rgb(picture), Coding(BT709, LIMITED_RANGE)).astype(int)
     assert np.abs(ours - picture).mean() < 2
 
 

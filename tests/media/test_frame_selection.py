@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.media.clip import Clip
 from engine.media.frame_selection import (
-    NEIGHBOURHOOD,
+    NEIGHBOURHOOD_FRAMES,
     equal_movement,
     measure_movement,
     neighbourhoods,
@@ -140,5 +140,5 @@ def test_no_more_of_the_video_is_read_than_a_frame_s_neighbourhood(
     monkeypatch.setattr(Clip, "frames", counted)
     chosen = [20, 60, 100]
     seen = [(one.index, read) for one in read_selected(path, chosen)]
-    assert [count for _, count in seen] == [frame + NEIGHBOURHOOD // 2 + 1 for frame in chosen]
-    assert all(abs(index - frame) <= NEIGHBOURHOOD // 2 for (index, _), frame in zip(seen, chosen, strict=True))
+    assert [count for _, count in seen] == [frame + NEIGHBOURHOOD_FRAMES // 2 + 1 for frame in chosen]
+    assert all(abs(index - frame) <= NEIGHBOURHOOD_FRAMES // 2 for (index, _), frame in zip(seen, chosen, strict=True))

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.perception.body import LANDMARKS, MIXAMO_JOINTS, Body, BodyTracker, find_body
+from engine.perception.body import BODY_LANDMARKS, MIXAMO_JOINTS, Body, BodyTracker, find_body
 
 Media = Callable[[str], Path]
 
@@ -63,7 +63,7 @@ def test_world_is_upright_in_metres_and_faces_the_viewer(standing: tuple[np.ndar
     assert head[1] > 0.4 > hips[1] > foot[1]
     assert 1.2 < head[1] - foot[1] < 1.9
     np.testing.assert_allclose(hips, 0, atol=0.02)
-    nose, ears = body.world[LANDMARKS.index("Nose")], body.joint("Head")[1]
+    nose, ears = body.world[BODY_LANDMARKS.index("Nose")], body.joint("Head")[1]
     assert nose[2] > ears[2]
     assert body.joint("LeftToeBase")[1][2] > foot[2]
 
@@ -95,8 +95,8 @@ def test_tracking_follows_a_moving_picture(standing: tuple[np.ndarray, Body]) ->
 def test_every_weight_of_a_joint_sums_to_one() -> None:
     for name, parts in MIXAMO_JOINTS.items():
         assert abs(sum(share for _, share in parts) - 1) < 1e-9, name
-        assert all(landmark in LANDMARKS for landmark, _ in parts)
-    assert len(LANDMARKS) == 33
+        assert all(landmark in BODY_LANDMARKS for landmark, _ in parts)
+    assert len(BODY_LANDMARKS) == 33
 
 
 def test_nobody_there() -> None:

@@ -7,7 +7,7 @@ import pytest
 from made_face import in_crop, opened, painted, placed, smiling
 from numpy.typing import NDArray
 
-from engine.perception.face_track.face_crop import CROP, FaceCrop, between, crop_face, crop_place
+from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, between, crop_face, crop_place
 
 REST = placed(60, (150, 120))
 OTHER = opened(smiling(placed(72, (190, 140), roll=12)), 0.35)
@@ -16,7 +16,7 @@ INSIDE = (slice(60, 250), slice(70, 220))
 
 
 def look(mesh: NDArray[np.float32]) -> FaceCrop:
-    return FaceCrop(mesh, crop_place(mesh), painted(in_crop(mesh), CROP[::-1]))
+    return FaceCrop(mesh, crop_place(mesh), painted(in_crop(mesh), CROP_SHAPE[::-1]))
 
 
 def test_a_face_is_cut_out_upright_by_its_eyes() -> None:
@@ -39,7 +39,7 @@ def test_on_the_way_features_lie_where_the_mesh_between_has_them(share: float) -
     """Two drawings of one face make a third one of it, no double exposure."""
     seen = between(look(REST), look(OTHER), share)
     np.testing.assert_allclose(seen.mesh, (1 - share) * REST + share * OTHER, atol=1e-3)
-    drawn = painted(in_crop(seen.mesh), CROP[::-1])
+    drawn = painted(in_crop(seen.mesh), CROP_SHAPE[::-1])
     assert np.abs(seen.crop[INSIDE].astype(int) - drawn[INSIDE]).mean() < 1.5
     faded = (1 - share) * look(REST).crop.astype(float) + share * look(OTHER).crop
     assert np.abs(faded[INSIDE] - drawn[INSIDE]).mean() > 2.5

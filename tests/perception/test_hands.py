@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from engine.perception.body import find_body
-from engine.perception.hands import JOINTS, HandTracker, find_hands
+from engine.perception.hands import HAND_JOINTS, HandTracker, find_hands
 
 Media = Callable[[str], Path]
 
@@ -67,10 +67,10 @@ def test_tracking_keeps_a_still_hand_still(media: Media) -> None:
 
 
 def test_names_of_the_joints() -> None:
-    assert len(JOINTS) == 21
-    assert JOINTS[0] == ""
-    assert JOINTS[4] == "Thumb4"
-    assert JOINTS[17] == "Pinky1"
+    assert len(HAND_JOINTS) == 21
+    assert HAND_JOINTS[0] == ""
+    assert HAND_JOINTS[4] == "Thumb4"
+    assert HAND_JOINTS[17] == "Pinky1"
 
 
 def test_no_hands_there() -> None:

@@ -10,7 +10,13 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.perception.head_pose import FOCAL, canonical_face, head_pose, mesh_from_fiducials, mirror_vertices
+from engine.perception.head_pose import (
+    FOCAL_LENGTH_SIDES,
+    canonical_face,
+    head_pose,
+    mesh_from_fiducials,
+    mirror_vertices,
+)
 from engine.perception.landmarks import MESH_SIZE, fiducials
 
 SIZE = (640, 480)
@@ -28,7 +34,7 @@ def seen(
     about_x = np.array([[1, 0, 0], [0, np.cos(p), -np.sin(p)], [0, np.sin(p), np.cos(p)]])
     about_z = np.array([[np.cos(r), -np.sin(r), 0], [np.sin(r), np.cos(r), 0], [0, 0, 1]])
     points = canonical_face().astype(float) @ (about_y @ about_x @ about_z).T
-    focal = FOCAL * max(SIZE)
+    focal = FOCAL_LENGTH_SIDES * max(SIZE)
     distance = focal / unit
     points = points + np.array([*(np.array(centre) / unit), distance])
     middle = (np.array(SIZE) - 1) / 2
@@ -66,7 +72,7 @@ def test_signs_as_a_viewer_sees_them() -> None:
 def test_pose_is_against_the_line_of_sight(unit: float, centre: tuple[float, float]) -> None:
     """Whatever the size; a face that looks along the camera's axis from beside it is seen from the side."""
     pose = head_pose(seen(15, -10, 5, unit, centre), SIZE)
-    sight = np.rad2deg(np.arctan(np.array(centre) / (FOCAL * max(SIZE))))
+    sight = np.rad2deg(np.arctan(np.array(centre) / (FOCAL_LENGTH_SIDES * max(SIZE))))
     assert np.rad2deg([pose.yaw, pose.pitch]) == pytest.approx(np.array([15, -10]) + sight, abs=0.1)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from engine.geometry.surface import triangulate
-from engine.performances.eyes import CORNEA, IRIS, RADIUS, build_eyeball, colour_of_eye, profile
+from engine.performances.eyes import CORNEA_RADIUS, EYEBALL_RADIUS, IRIS_RADIUS, build_eyeball, colour_of_eye, profile
 from engine.performances.figure import Figure, Pose, build_figure, pose_figure, rigid_motion
 from engine.render.rasteriser import rasterise
 
@@ -84,16 +84,16 @@ def test_rigid_motions_are_found_again() -> None:
 
 
 def test_the_cornea_bulges_by_as_much_as_its_curvature_says() -> None:
-    assert profile(np.array([0.5]))[0] == RADIUS
-    rim = np.sqrt(RADIUS**2 - IRIS**2)
-    height = rim + CORNEA - np.sqrt(CORNEA**2 - IRIS**2)
+    assert profile(np.array([0.5]))[0] == EYEBALL_RADIUS
+    rim = np.sqrt(EYEBALL_RADIUS**2 - IRIS_RADIUS**2)
+    height = rim + CORNEA_RADIUS - np.sqrt(CORNEA_RADIUS**2 - IRIS_RADIUS**2)
     assert profile(np.array([1.0]))[0] == pytest.approx(height)
     cosines = np.linspace(0.3, 1, 500)
     assert np.abs(np.diff(profile(cosines))).max() < 1e-4  # no step at the rim
 
 
 def test_the_pupil_is_black_and_the_white_is_white() -> None:
-    front = np.array([[0, 0, float(profile(np.array([1.0]))[0])], [0.010, 0, np.sqrt(RADIUS**2 - 0.010**2)]])
+    front = np.array([[0, 0, float(profile(np.array([1.0]))[0])], [0.010, 0, np.sqrt(EYEBALL_RADIUS**2 - 0.010**2)]])
     albedo, cornea = colour_of_eye(front, np.tile([0.0, 0.0, 1.0], (2, 1)))
     assert albedo[0].max() < 0.02 and cornea[0] == 1
     assert albedo[1].min() > 0.35 and cornea[1] == 0

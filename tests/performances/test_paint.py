@@ -30,12 +30,12 @@ def figure() -> Figure:
 
 
 def at(field: np.ndarray, u: float, v: float) -> np.ndarray:
-    row, column = int((chart.TOP - v) * chart.TEXELS), int((u - chart.LEFT) * chart.TEXELS)
+    row, column = int((chart.TOP - v) * chart.TEXELS_PER_METRE), int((u - chart.LEFT) * chart.TEXELS_PER_METRE)
     return field[row - 8 : row + 9, column - 8 : column + 9].mean((0, 1))
 
 
 def test_chart_coordinates_are_metres_along_the_cylinder() -> None:
-    point = np.array([[0.1 * np.sin(0.3), 0.8, chart.AXIS + 0.1 * np.cos(0.3)]])
+    point = np.array([[0.1 * np.sin(0.3), 0.8, chart.AXIS_DEPTH + 0.1 * np.cos(0.3)]])
     np.testing.assert_allclose(chart.coordinates(point), [[0.03, 0.8]], atol=1e-6)
     corners = np.array([[chart.LEFT, chart.TOP], [chart.RIGHT, chart.BOTTOM]])
     np.testing.assert_allclose(chart.texture_coordinates(corners), [[0, 0], [1, 1]], atol=1e-6)
@@ -81,7 +81,10 @@ def test_units_press_in_their_own_furrows(
     wrinkles: Wrinkles, units: dict[str, float], place: tuple[float, float]
 ) -> None:
     relief = pressed(wrinkles, units) - pressed(wrinkles, {})
-    row, column = int((chart.TOP - place[1]) * chart.TEXELS), int((place[0] - chart.LEFT) * chart.TEXELS)
+    row, column = (
+        int((chart.TOP - place[1]) * chart.TEXELS_PER_METRE),
+        int((place[0] - chart.LEFT) * chart.TEXELS_PER_METRE),
+    )
     assert relief[row - 3 : row + 4, column - 3 : column + 4].min() < -1.5e-4
     assert np.isfinite(relief).all()
 

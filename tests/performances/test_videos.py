@@ -22,7 +22,7 @@ from engine.performances import catalogue, names, performance, poster, video
 from engine.performances.actor import Actor, build_actor, stage
 from engine.performances.catalogue import FPS, POSTER_SIDE
 from engine.performances.figure import Pose
-from engine.performances.filming import CHANGES, FURTHEST_APART, carry, key_frames
+from engine.performances.filming import FURTHEST_APART, MAX_POSE_CHANGES, carry, key_frames
 from engine.performances.lighting import lamps
 from engine.performances.score import SCORES
 from engine.performances.studio import HAIR_LAMPS, expose, finish, photograph
@@ -333,7 +333,7 @@ def test_key_frames_stand_where_much_changes() -> None:
     turning = [Pose(head=(0.0, 2.0 * i, 0.0)) for i in range(20)]
     keys = key_frames(turning)
     assert keys[0] == 0 and keys[-1] == 19
-    assert max(np.diff(keys)) * 2.0 <= CHANGES["head"] + 2.0
+    assert max(np.diff(keys)) * 2.0 <= MAX_POSE_CHANGES["head"] + 2.0
 
 
 def test_skin_is_lit_from_the_sitters_right(watched: dict[str, Watched]) -> None:

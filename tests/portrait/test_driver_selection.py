@@ -22,7 +22,7 @@ from engine.media.video import read_video
 from engine.perception.faces import find_faces
 from engine.performances import names, performance, video
 from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
-from engine.portrait.driver_selection import WEIGHTS, choose_driver, fit, library_appearances
+from engine.portrait.driver_selection import CRITERION_WEIGHTS, choose_driver, fit, library_appearances
 from engine.run import Run
 from galatea import animate
 
@@ -100,9 +100,11 @@ def test_a_driver_that_turns_too_far_for_a_turned_face_loses() -> None:
 def test_scores_are_shares_and_their_weighted_mean() -> None:
     one, other = library_appearances()["idle"], library_appearances()["happy"]
     scores = fit(replace(one, expressions=one.expressions[:1]), other)
-    assert set(scores) == {*WEIGHTS, "total"} and all(0 <= score <= 1 for score in scores.values())
-    assert sum(WEIGHTS.values()) == pytest.approx(1)
-    assert scores["total"] == pytest.approx(sum(WEIGHTS[key] * scores[key] for key in WEIGHTS), abs=1e-3)
+    assert set(scores) == {*CRITERION_WEIGHTS, "total"} and all(0 <= score <= 1 for score in scores.values())
+    assert sum(CRITERION_WEIGHTS.values()) == pytest.approx(1)
+    assert scores["total"] == pytest.approx(
+        sum(CRITERION_WEIGHTS[key] * scores[key] for key in CRITERION_WEIGHTS), abs=1e-3
+    )
 
 
 CLIPS = ("man_smile_d9", "man_mouth_open_d18", "woman_funny_faces_d6", "man_talk_tps")

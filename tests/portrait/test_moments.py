@@ -26,7 +26,7 @@ from engine.portrait.moments.gestures import swings
 from engine.portrait.moments.pipeline import Moment, work
 from engine.portrait.moments.rest import own_rest, unrest
 from engine.portrait.moments.segments import MAX_UNREST, Segment, find_segments
-from engine.portrait.moments.watching import FPS, watch
+from engine.portrait.moments.watching import WATCHED_FPS, watch
 from engine.run import Run
 
 Mesh = NDArray[np.floating]
@@ -64,7 +64,7 @@ def test_segments_begin_and_end_at_rest_and_do_not_overlap(
     watched = watch(joined[0], Limits())
     unresting = unrest(watched.values - own_rest(watched.values[watched.found]))
     for moment in found:
-        first, last = round(moment.start * FPS), round(moment.end * FPS) - 1
+        first, last = round(moment.start * WATCHED_FPS), round(moment.end * WATCHED_FPS) - 1
         assert max(unresting[first], unresting[min(last, len(unresting) - 1)]) <= 1, moment
         assert moment.start <= moment.apex <= moment.end <= watched.seconds
         assert moment.seconds == pytest.approx(moment.end - moment.start) and 0 < moment.score <= 1
@@ -184,15 +184,19 @@ def turned(mesh: Mesh, yaw: float = 0.0, pitch: float = 0.0) -> Mesh:
 def film(acting: Callable[[Mesh, float], Mesh], seconds: float, height: float = 1.0, noise: float = 0.0) -> Mesh:
     """Two seconds of rest, something that comes and goes within `seconds`, two seconds of rest: (N, 478, 3) pixels."""
     rest = canonical_face().astype(float)
-    frames = int(seconds * FPS)
-    course = [*[0.0] * int(2 * FPS), *(height * np.sin(np.pi * np.arange(frames) / frames)), *[0.0] * int(2 * FPS)]
+    frames = int(seconds * WATCHED_FPS)
+    course = [
+        *[0.0] * int(2 * WATCHED_FPS),
+        *(height * np.sin(np.pi * np.arange(frames) / frames)),
+        *[0.0] * int(2 * WATCHED_FPS),
+    ]
     meshes = np.array([acting(rest, float(much)) for much in course]) * 80 + (200, 220, 0)
     return meshes + noise * np.random.default_rng(5).normal(size=meshes.shape)
 
 
 def told(meshes: Mesh) -> list[Segment]:
     values = measure(meshes)
-    return find_segments(values, np.ones(len(values), bool), own_rest(values), FPS)
+    return find_segments(values, np.ones(len(values), bool), own_rest(values), WATCHED_FPS)
 
 
 ACTED = {"happy": smile, "surprise": startle, "anger": frown, "sadness": mourn, "fear": dread, "wink": wink}
@@ -203,8 +207,10 @@ def test_a_movement_by_known_lengths_is_told(state: str) -> None:
     meshes = film(ACTED[state], 1.5)
     found = [one for one in told(meshes) if one.state != "idle"]
     assert [one.state for one in found] == [state]
-    assert found[0].first / FPS == pytest.approx(2.0, abs=0.4) and found[0].last / FPS == pytest.approx(3.5, abs=0.4)
-    assert found[0].apex / FPS == pytest.approx(2.75, abs=0.3)
+    assert found[0].first / WATCHED_FPS == pytest.approx(2.0, abs=0.4) and found[0].last / WATCHED_FPS == pytest.approx(
+        3.5, abs=0.4
+    )
+    assert found[0].apex / WATCHED_FPS == pytest.approx(2.75, abs=0.3)
     mirrored = meshes[:, mirror_vertices()] * (-1, 1, 1)
     assert [(o.state, o.first, o.last) for o in told(mirrored)] == [(o.state, o.first, o.last) for o in told(meshes)]
 
@@ -223,7 +229,7 @@ def test_a_blink_is_no_wink_and_a_jaw_that_drops_no_sadness() -> None:
 @pytest.mark.parametrize(("state", "axis"), [("nod", "pitch"), ("shake", "yaw")])
 def test_to_and_fro_three_times_is_a_gesture_and_once_slowly_is_none(state: str, axis: str) -> None:
     def sway(times: float, seconds: float) -> list[str]:
-        frames = int(seconds * FPS)
+        frames = int(seconds * WATCHED_FPS)
         angle = [*[0.0] * 24, *(0.16 * np.sin(2 * np.pi * times * np.arange(frames) / frames)), *[0.0] * 24]
         meshes = np.array([turned(canonical_face().astype(float), **{axis: one}) for one in angle]) * 80
         return [one.state for one in told(meshes) if one.state != "idle"]
@@ -251,11 +257,13 @@ def test_rest_is_what_the_face_comes_back_to_though_it_smiles_for_longer() -> No
 def test_a_segment_ends_where_the_face_is_lost() -> None:
     values = measure(film(smile, 1.5, height=1.4))
     seen = np.ones(len(values), bool)
-    seen[int(3.9 * FPS) : int(4.3 * FPS)] = False
-    (found,) = (one for one in find_segments(values, seen, own_rest(values), FPS) if one.state == "happy")
+    seen[int(3.9 * WATCHED_FPS) : int(4.3 * WATCHED_FPS)] = False
+    (found,) = (one for one in find_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy")
     assert seen[found.first : found.last + 1].all()
-    seen[int(2.9 * FPS) : int(4.3 * FPS)] = False
-    assert [one.state for one in find_segments(values, seen, own_rest(values), FPS) if one.state == "happy"] == []
+    seen[int(2.9 * WATCHED_FPS) : int(4.3 * WATCHED_FPS)] = False
+    assert [
+        one.state for one in find_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy"
+    ] == []
 
 
 def test_swings_of_a_known_curve() -> None:

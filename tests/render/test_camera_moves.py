@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from engine.geometry.camera import Camera
-from engine.render.camera_moves import MOVES, ORBIT_DEGREES, PERIOD_SECONDS, camera_at
+from engine.render.camera_moves import CAMERA_MOVES, ORBIT_DEGREES, PERIOD_SECONDS, camera_at
 
 START = Camera(eye=(0.2, 1.5, 3.0), focal=800, centre=(319.5, 200.0), size=(480, 640))
 TARGET = (0.1, 0.9, 0.0)
 
 
-@pytest.mark.parametrize("move", MOVES)
+@pytest.mark.parametrize("move", CAMERA_MOVES)
 def test_every_move_starts_from_the_pictures_camera(move: str) -> None:
     start = camera_at(move, START, TARGET, 0.0)
     np.testing.assert_allclose(start.eye, START.eye)

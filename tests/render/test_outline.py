@@ -10,7 +10,7 @@ from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
 from engine.render.multisampling import choose, draw_samples, sample_offsets
 from engine.render.outline import facings, mark_outline
-from engine.render.rasteriser import SUBPIXELS, draw_into, rasterise
+from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into, rasterise
 
 EVERYWHERE = choose(np.ones((48, 64), np.bool_))
 
@@ -20,13 +20,13 @@ EVERYWHERE = choose(np.ones((48, 64), np.bool_))
 def test_a_sample_sees_what_the_centre_of_a_shifted_picture_sees(samples: int, cull: bool) -> None:
     rng = np.random.default_rng(samples)
     points = rng.uniform((-20, -20, 1), (84, 68, 9), (150, 3)).astype(np.float32)
-    points[:, :2] = np.round(points[:, :2] * SUBPIXELS) / SUBPIXELS
+    points[:, :2] = np.round(points[:, :2] * SUBPIXEL_STEPS) / SUBPIXEL_STEPS
     faces = np.arange(150, dtype=np.int32).reshape(-1, 3)
     offsets = sample_offsets(samples)
     assert len(offsets) == samples**2 and np.abs(offsets.sum(0)).max() == 0
     seen = draw_samples(points, faces, facings(points, faces), cull, *EVERYWHERE, offsets)
     rows, columns = EVERYWHERE.places.T
-    for k, (dx, dy) in enumerate(offsets / SUBPIXELS):
+    for k, (dx, dy) in enumerate(offsets / SUBPIXEL_STEPS):
         shifted = points - np.array([dx, dy, 0], np.float32)
         expected = rasterise(shifted, faces, (48, 64), perspective=True, cull=cull).triangle
         assert (seen[:, k] == expected[rows, columns]).mean() > 0.999  # depths alike within rounding

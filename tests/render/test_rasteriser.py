@@ -5,14 +5,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-from engine.render.rasteriser import MAX_COORDINATE, SUBPIXELS, depth_map, rasterise
+from engine.render.rasteriser import MAX_COORDINATE, SUBPIXEL_STEPS, depth_map, rasterise
 
 
 def reference(vertices: NDArray, triangles: NDArray, size: tuple[int, int], cull: bool = False):
     """Nearest triangle and depth by brute force, in Python integers and double precision."""
-    ys, xs = np.mgrid[: size[0], : size[1]] * SUBPIXELS
+    ys, xs = np.mgrid[: size[0], : size[1]] * SUBPIXEL_STEPS
     ids, depths = np.full(size, -1), np.full(size, np.inf)
-    points = np.floor(vertices[:, :2].astype(np.float32) * np.float32(SUBPIXELS) + 0.5).astype(np.int64)
+    points = np.floor(vertices[:, :2].astype(np.float32) * np.float32(SUBPIXEL_STEPS) + 0.5).astype(np.int64)
     for t, face in enumerate(triangles):
         p, z = points[face], vertices[face, 2].astype(np.float64)
         (dx, dy), (ex, ey) = p[1] - p[0], p[2] - p[0]

@@ -9,7 +9,7 @@ import pytest
 from pydantic import BaseModel
 
 from engine.character.options import CharacterOptions
-from engine.face_animation.acting_options import PARTS
+from engine.face_animation.acting_options import ACTING_PARTS
 from engine.portrait.options import PortraitOptions
 from shell.option_flags import DEST, flag_of, form_of, given_options, option_flags
 
@@ -26,7 +26,7 @@ def test_every_option_has_a_flag_but_those_that_are_taken(options: type[BaseMode
         (PortraitOptions, "strength", "0.8", 0.8),
         (PortraitOptions, "follow", "eyes,mouth", ("eyes", "mouth")),
         (PortraitOptions, "follow", "head", ("head",)),
-        (PortraitOptions, "follow", "all", PARTS),
+        (PortraitOptions, "follow", "all", ACTING_PARTS),
         (PortraitOptions, "follow", '["brows"]', ("brows",)),
         (PortraitOptions, "crop", "bust", "bust"),
         (PortraitOptions, "crop", "10,20,300,400.5", (10, 20, 300, 400.5)),

@@ -7,30 +7,35 @@ import numpy as np
 from engine.motion.clip import Clip
 from engine.motion.library.curves import through, thrown
 from engine.motion.library.posture import Arm, Foot, Posture, embody
-from engine.motion.library.standing import FEET
+from engine.motion.library.standing import STANDING_FEET
 from engine.motion.skeleton import Skeleton
 
-OFF, LANDING, END = 0.78, 1.2, 2.2
+TAKE_OFF_SECONDS, LANDING_SECONDS, END_SECONDS = 0.78, 1.2, 2.2
 """Seconds: when the feet leave the ground and touch it again; the end of the clip."""
 
-SPEED = 2.4
+TAKE_OFF_LEG_LENGTHS_PER_SECOND = 2.4
 """Leg lengths a second at which the body leaves the ground: what gravity makes of the time in the air."""
 
 
 def jump(skeleton: Skeleton, fps: float) -> Clip:
     """Crouch with the arms back, leap with the arms up, land softly; begins and ends standing."""
-    frames = round(END * fps) + 1
+    frames = round(END_SECONDS * fps) + 1
     time = np.arange(frames) / fps
-    flight = np.clip((time - OFF) / (LANDING - OFF), 0, 1)
-    rise = SPEED * (LANDING - OFF) * flight * (1 - flight)
+    flight = np.clip((time - TAKE_OFF_SECONDS) / (LANDING_SECONDS - TAKE_OFF_SECONDS), 0, 1)
+    rise = TAKE_OFF_LEG_LENGTHS_PER_SECOND * (LANDING_SECONDS - TAKE_OFF_SECONDS) * flight * (1 - flight)
     height = thrown(
         time,
         (
-            *((0.1, -0.006, 0.0), (0.52, -0.29, 0.0), (OFF, 0.08, SPEED), (LANDING, 0.03, -SPEED)),
+            *(
+                (0.1, -0.006, 0.0),
+                (0.52, -0.29, 0.0),
+                (TAKE_OFF_SECONDS, 0.08, TAKE_OFF_LEG_LENGTHS_PER_SECOND),
+                (LANDING_SECONDS, 0.03, -TAKE_OFF_LEG_LENGTHS_PER_SECOND),
+            ),
             *((1.38, -0.23, 0.0), (1.95, -0.006, 0.0)),
         ),
     )
-    height = np.where((time > OFF) & (time < LANDING), rise + 0.08 - 0.05 * flight, height)
+    height = np.where((time > TAKE_OFF_SECONDS) & (time < LANDING_SECONDS), rise + 0.08 - 0.05 * flight, height)
     lean = through(time, ((0.1, 0.0), (0.5, 1.0), (0.76, -0.05), (1.1, 0.1), (1.36, 0.85), (1.95, 0.0)))
     arms = through(
         time, ((0.05, 2.0), (0.42, -44.0), (0.86, 138.0), (1.0, 146.0), (1.3, 40.0), (1.55, 12.0), (2.0, 2.0))
@@ -45,10 +50,12 @@ def jump(skeleton: Skeleton, fps: float) -> Clip:
         shrug=through(time, ((0.5, 0.0), (0.85, 10.0), (1.3, 0.0))),
         curl=20.0,
     )
-    pitch = through(time, ((0.55, 0.0), (0.68, 16.0), (OFF, 52.0), (0.95, 42.0), (LANDING, 20.0), (1.27, 0.0)))
+    pitch = through(
+        time, ((0.55, 0.0), (0.68, 16.0), (TAKE_OFF_SECONDS, 52.0), (0.95, 42.0), (LANDING_SECONDS, 20.0), (1.27, 0.0))
+    )
     feet = {
         side: Foot(aside=foot.aside, up=rise * 1.02, ahead=0.0, pitch=pitch, yaw=foot.yaw)
-        for side, foot in FEET.items()
+        for side, foot in STANDING_FEET.items()
     }
     posture = Posture(
         frames=frames,

@@ -26,7 +26,7 @@ Value = float | Array
 Turn = tuple[Value, Value, Value]
 """Pitch (forwards), yaw (to the left) and roll (towards the right), degrees."""
 
-ELBOW = {"Left": (0.0, -1.0, 0.0), "Right": (0.0, 1.0, 0.0)}
+ELBOW_AXES = {"Left": (0.0, -1.0, 0.0), "Right": (0.0, 1.0, 0.0)}
 """Elbows bend about these axes: a positive turn brings the forearm forward."""
 
 
@@ -201,7 +201,7 @@ def _lay_hand(world: Array, skeleton: Skeleton, side: str, arm: Arm, root: Array
     limb = (places[:, upper], places[:, lower], places[:, hand])
     old = world[:, hand].copy()
     before = world[:, lower].copy()
-    world[:, upper], world[:, lower], _ = two_bones(limb, (world[:, upper], world[:, lower]), target, ELBOW[side])
+    world[:, upper], world[:, lower], _ = two_bones(limb, (world[:, upper], world[:, lower]), target, ELBOW_AXES[side])
     carried = rotation.multiply(rotation.multiply(world[:, lower], rotation.inverse(before)), old)
     sign = 1 if side == "Left" else -1
     along = np.arctan2(-thigh[:, 2], sign * thigh[:, 0]) * sign

@@ -7,7 +7,7 @@ import numpy as np
 from engine.motion.clip import Clip
 from engine.motion.library.curves import ease, through
 from engine.motion.library.posture import Arm, Foot, Posture, embody
-from engine.motion.library.standing import FEET
+from engine.motion.library.standing import STANDING_FEET
 from engine.motion.skeleton import Skeleton
 
 
@@ -33,6 +33,6 @@ def sit(skeleton: Skeleton, fps: float) -> Clip:
         spine=(0.8 + 16.0 * lean + 3.0 * down, 0.0, 0.0),
         head=(1.0 + 14.0 * lean, 0.0, 0.0),
         arms={"Left": arm, "Right": arm},
-        feet={side: Foot(aside=foot.aside, yaw=foot.yaw) for side, foot in FEET.items()},
+        feet={side: Foot(aside=foot.aside, yaw=foot.yaw) for side, foot in STANDING_FEET.items()},
     )
     return embody(posture, skeleton, "sit", fps)

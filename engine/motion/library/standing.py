@@ -12,10 +12,10 @@ from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
-FEET = {"Left": Foot(aside=0.02, yaw=9.0), "Right": Foot(aside=-0.02, yaw=9.0)}
+STANDING_FEET = {"Left": Foot(aside=0.02, yaw=9.0), "Right": Foot(aside=-0.02, yaw=9.0)}
 """How a person stands who waits: every clip that begins or ends standing, does so like this."""
 
-ARM = Arm(swing=2.0, lift=9.0, twist=-8.0, elbow=14.0, palm=-6.0, curl=20.0)
+HANGING_ARM = Arm(swing=2.0, lift=9.0, twist=-8.0, elbow=14.0, palm=-6.0, curl=20.0)
 
 
 def idle(skeleton: Skeleton, fps: float) -> Clip:
@@ -44,7 +44,7 @@ def idle(skeleton: Skeleton, fps: float) -> Clip:
         spine=(0.8 - 1.3 * breath, -2.0 * weight, -2.6 * weight),
         head=(1.0 + 1.0 * np.sin(2 * turn + 1.5), look, 0.8 * np.sin(turn)),
         arms=arms,
-        feet=FEET,
+        feet=STANDING_FEET,
     )
     return embody(posture, skeleton, "idle", fps, loops=True)
 
@@ -74,7 +74,7 @@ def wave(skeleton: Skeleton, fps: float) -> Clip:
         spine=(0.8, -2.0 * up, -5.0 * up + 0.8 * swings),
         head=(1.0 - 2.0 * up, 3.0 * up, -6.0 * up),
         arms={"Left": other, "Right": arm},
-        feet=FEET,
+        feet=STANDING_FEET,
     )
     return embody(posture, skeleton, "wave", fps)
 
@@ -100,6 +100,6 @@ def bow(skeleton: Skeleton, fps: float) -> Clip:
         spine=(0.8 + 26.0 * down, 0.0, 0.0),
         head=(1.0 + 62.0 * head, 0.0, 0.0),
         arms={"Left": arm, "Right": arm},
-        feet=FEET,
+        feet=STANDING_FEET,
     )
     return embody(posture, skeleton, "bow", fps)

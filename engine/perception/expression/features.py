@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face, mirror_vertices
-from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID, eye_distance, eye_opening, mouth_opening
+from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, eye_distance, eye_opening, mouth_opening
 
-EXPRESSION = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
+EXPRESSION_FEATURES = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up", "outer_brows_up", "eyes_open")
 """What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over
 their own width."""
 
@@ -18,7 +18,7 @@ AT_ONCE = 256
 
 
 def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
-    """`EXPRESSION` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
+    """`EXPRESSION_FEATURES` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
     return np.concatenate([_expressed(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
 
 
@@ -56,7 +56,7 @@ def lopsided(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """Meshes (N, 478, 3) turned to the front, the eye distance 1."""
-    chosen = list(RIGID)
+    chosen = list(RIGID_VERTICES)
     scale, rotation, shift = fit_similarities(
         canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen))
     )

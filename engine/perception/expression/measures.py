@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.geometry.rigid import fit_similarities
 from engine.perception.expression.features import frontal
 from engine.perception.head_pose import canonical_face
-from engine.perception.landmarks import RIGID, eye_opening
+from engine.perception.landmarks import RIGID_VERTICES, eye_opening
 
 MEASURES = (
     *("mouth_open", "mouth_wide", "right_corner_up", "left_corner_up"),
@@ -18,14 +18,14 @@ MEASURES = (
 """Lengths are in eye distances of the face turned to the front; the eyes' opening is over their own width; angles in
 radians: `yaw` > 0 turns the face to the picture's right, `pitch` > 0 upwards, `roll` > 0 clockwise as seen."""
 
-MOUTH, LIDS, FACE = slice(0, 4), slice(7, 9), slice(0, 9)
+MOUTH_MEASURES, LID_MEASURES, FACE_MEASURES = slice(0, 4), slice(7, 9), slice(0, 9)
 """Which of them are the mouth's, the lids', and the face's own, without the head's turn."""
 
-SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
+REST_SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
 """By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
 varies by while people wait (from the idle performances and the quiet stretches of the clips in `benchmarks/moments`)."""
 
-USUAL = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
+SPREAD_BETWEEN_PEOPLE = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
 """By how much the measures at rest differ between people."""
 
 USUAL_BELOW = np.array([0.03, 0.10, 0.04, 0.04, 0.05, 0.05, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
@@ -70,12 +70,14 @@ def general_rest() -> NDArray[np.float32]:
 def lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) by which share of how far they are `usual`ly open (2,) the lids of measures (N, 12) are lowered, beyond what these
     vary by."""
-    return np.asarray(np.clip(1 - LIDS_VARY - values[:, LIDS] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float)
+    return np.asarray(
+        np.clip(1 - LIDS_VARY - values[:, LID_MEASURES] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float
+    )
 
 
 def _angles(meshes: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Yaw, pitch and roll, (N,) each, of the rigid vertices against the canonical face."""
-    chosen = list(RIGID)
+    chosen = list(RIGID_VERTICES)
     _, turn, _ = fit_similarities(canonical_face()[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))
     yaw = np.arctan2(-turn[:, 0, 2], turn[:, 2, 2])
     pitch = np.arctan2(turn[:, 1, 2], turn[:, 2, 2])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.perception.expression.measures import MEASURES
 
-CLEAR: Mapping[str, float] = {
+CLEAR_MOVEMENTS: Mapping[str, float] = {
     "corners_up": 0.085,
     "corners_down": 0.05,
     "mouth_wider": 0.08,
@@ -34,11 +34,11 @@ CLEAR: Mapping[str, float] = {
 shares of how far they are open at rest. They lie at about two thirds of what the normal built-in performances reach at
 their height, and above what talking, nodding and waiting people reach in the clips of `benchmarks/moments`."""
 
-GAPING, PARTED = 0.45, 0.05
+GAPING_EYE_DISTANCES, PARTED_EYE_DISTANCES = 0.45, 0.05
 """Eye distances: a mouth that is open wider than the first shouts or yawns, whatever its corners do; up to the second
 it counts as closed."""
 
-POUTING = 0.06
+MAX_POUT_EYE_DISTANCES = 0.06
 """Eye distances by which a mouth may be narrower in sadness; beyond, it purses its lips or speaks."""
 
 WHOLE_BROW, MOUTH_DRAWN, BROWS_PARTED = 0.015, 0.06, 0.02
@@ -58,7 +58,7 @@ Course = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Movements:
-    """What a face does, frame by frame: 1 is clearly. Fields that `CLEAR` does not name are in eye distances, `yaw` in
+    """What a face does, frame by frame: 1 is clearly. Fields that `CLEAR_MOVEMENTS` does not name are in eye distances, `yaw` in
     radians; `like_surprise` is above 0 where raised brows and wide eyes are rather those of surprise than of fear."""
 
     corners_up: Course
@@ -98,21 +98,21 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
     inner, outer, apart = of["inner_brows_up"], of["outer_brows_up"], of["brows_apart"]
     eyes = [MEASURES.index("right_eye_open"), MEASURES.index("left_eye_open")]
     lids = moved[:, eyes].T / np.maximum(rest[eyes], 0.1)[:, None]
-    shut = np.sort(-lids, axis=0) / CLEAR["eye_shut"]
+    shut = np.sort(-lids, axis=0) / CLEAR_MOVEMENTS["eye_shut"]
     brow = (outer - 0.7 * inner) / WHOLE_BROW
     return Movements(
-        corners_up=corners.min(axis=0) / CLEAR["corners_up"],
-        corners_down=-corners.max(axis=0) / CLEAR["corners_down"],
-        mouth_wider=of["mouth_wide"] / CLEAR["mouth_wider"],
-        jaw_dropped=of["mouth_open"] / CLEAR["jaw_dropped"],
-        brows_raised=np.minimum(inner, outer) / CLEAR["brows_raised"],
-        brows_lowered=-(inner + outer) / 2 / CLEAR["brows_lowered"],
-        brows_drawn=-apart / CLEAR["brows_drawn"],
-        inner_brows=inner / CLEAR["inner_brows"],
-        brows_oblique=(inner - outer) / CLEAR["brows_oblique"],
+        corners_up=corners.min(axis=0) / CLEAR_MOVEMENTS["corners_up"],
+        corners_down=-corners.max(axis=0) / CLEAR_MOVEMENTS["corners_down"],
+        mouth_wider=of["mouth_wide"] / CLEAR_MOVEMENTS["mouth_wider"],
+        jaw_dropped=of["mouth_open"] / CLEAR_MOVEMENTS["jaw_dropped"],
+        brows_raised=np.minimum(inner, outer) / CLEAR_MOVEMENTS["brows_raised"],
+        brows_lowered=-(inner + outer) / 2 / CLEAR_MOVEMENTS["brows_lowered"],
+        brows_drawn=-apart / CLEAR_MOVEMENTS["brows_drawn"],
+        inner_brows=inner / CLEAR_MOVEMENTS["inner_brows"],
+        brows_oblique=(inner - outer) / CLEAR_MOVEMENTS["brows_oblique"],
         # The tracker sees one eye wider than the other.
-        eyes_wider=(lids.min(axis=0) + lids.mean(axis=0)) / 2 / CLEAR["eyes_wider"],
-        eyes_narrower=-lids.mean(axis=0) / CLEAR["eyes_narrower"],
+        eyes_wider=(lids.min(axis=0) + lids.mean(axis=0)) / 2 / CLEAR_MOVEMENTS["eyes_wider"],
+        eyes_narrower=-lids.mean(axis=0) / CLEAR_MOVEMENTS["eyes_narrower"],
         one_eye_shut=shut[1],
         other_eye_shut=np.maximum(shut[0], 0),
         like_surprise=brow - of["mouth_wide"] / MOUTH_DRAWN + apart / BROWS_PARTED,
@@ -124,7 +124,7 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
 
 def happy(done: Movements) -> Course:
     """Both corners of the mouth go up and apart (AU 12); a mouth that gapes is no smile."""
-    return _all(done.corners_up, done.mouth_wider, 1 + (GAPING - done.mouth_open) / 0.1)
+    return _all(done.corners_up, done.mouth_wider, 1 + (GAPING_EYE_DISTANCES - done.mouth_open) / 0.1)
 
 
 def surprise(done: Movements) -> Course:
@@ -148,7 +148,7 @@ def sadness(done: Movements) -> Course:
     """The brows become oblique (AU 1 and 4), the lids sink, the corners of the closed mouth go down (AU 15)."""
     oblique = _all(done.brows_oblique, done.inner_brows)
     both = (oblique + np.minimum(done.corners_down, 1.5)) / 1.3
-    mouth = np.minimum(2 - done.mouth_open / PARTED, 2 - done.mouth_narrower / POUTING)
+    mouth = np.minimum(2 - done.mouth_open / PARTED_EYE_DISTANCES, 2 - done.mouth_narrower / MAX_POUT_EYE_DISTANCES)
     return _unless(_all(both, oblique, done.corners_down / 0.2, done.eyes_narrower, mouth), done.corners_up)
 
 

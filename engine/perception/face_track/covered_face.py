@@ -16,16 +16,16 @@ from numpy.typing import NDArray
 from engine.perception.face_track.face_crop import FaceCrop
 from engine.perception.faces import MIN_CONFIDENCE, FaceTracker
 
-LOOK = (80, 72)
+COMPARED_SIZE = (80, 72)
 """Height and width at which faces are compared, pixels."""
-FACE = (slice(14, 66), slice(10, 62))
+FACE_REGION = (slice(14, 66), slice(10, 62))
 """Rows and columns of such a picture in which the face is, from the brows to the chin."""
-FINE, COARSE = 1.0, 8.0
+FINE_SIGMA_PIXELS, COARSE_SIGMA_PIXELS = 1.0, 8.0
 """Pixels: structure between these two counts. Finer is noise, coarser is light."""
 SAME_FACE_CORRELATION = 0.3
 """Correlation above which it is the same face: of what covers faces 0.13 at most was seen, of faces that speak 0.4, that
 turn 0."""
-AROUND = 1.0
+SEARCH_MARGIN_FACE_SIZES = 1.0
 """How far around the middle of a face a detector looks, in the face's size."""
 
 
@@ -56,7 +56,7 @@ class CoveredFace:
         if self._detector is None:
             self._detector = FaceTracker(confidence=MIN_CONFIDENCE, alone=True)
         low, high = seen.mesh[:, :2].min(axis=0), seen.mesh[:, :2].max(axis=0)
-        middle, reach = (low + high) / 2, AROUND * float((high - low).max())
+        middle, reach = (low + high) / 2, SEARCH_MARGIN_FACE_SIZES * float((high - low).max())
         x0, y0 = np.maximum(middle - reach, 0).astype(int)
         x1, y1 = np.minimum(middle + reach, rgb.shape[1::-1]).astype(int)
         return min(x1 - x0, y1 - y0) >= 8 and bool(self._detector(rgb[y0:y1, x0:x1]))
@@ -64,7 +64,9 @@ class CoveredFace:
 
 def _structure(crop: NDArray[np.uint8]) -> NDArray[np.float32]:
     """What stands out of the light in a face's crop, of mean 0 and deviation 1; nothing where hardly anything does."""
-    grey = cv2.cvtColor(cv2.resize(crop, LOOK[::-1], interpolation=cv2.INTER_AREA), cv2.COLOR_RGB2GRAY)
+    grey = cv2.cvtColor(cv2.resize(crop, COMPARED_SIZE[::-1], interpolation=cv2.INTER_AREA), cv2.COLOR_RGB2GRAY)
     light = grey.astype(np.float32)
-    band = (cv2.GaussianBlur(light, (0, 0), FINE) - cv2.GaussianBlur(light, (0, 0), COARSE))[FACE]
+    band = (cv2.GaussianBlur(light, (0, 0), FINE_SIGMA_PIXELS) - cv2.GaussianBlur(light, (0, 0), COARSE_SIGMA_PIXELS))[
+        FACE_REGION
+    ]
     return np.asarray((band - band.mean()) / max(float(band.std()), 1.0), np.float32)

@@ -13,12 +13,13 @@ from engine.imaging.delaunay import delaunay
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import LIPS_INNER
 
-CROP = (320, 288)
+CROP_SHAPE = (320, 288)
 """Height and width of the kept appearance of the face, pixels: about 20 kB a frame."""
 CROP_EYES = ((96.0, 116.0), (192.0, 116.0))
 """Where the eyes' centres lie in it."""
-EDGE = np.array(
-    [(x * (CROP[1] - 1), y * (CROP[0] - 1)) for x in (0, 0.5, 1) for y in (0, 0.5, 1) if x * y != 0.25], np.float32
+EDGE_POINTS = np.array(
+    [(x * (CROP_SHAPE[1] - 1), y * (CROP_SHAPE[0] - 1)) for x in (0, 0.5, 1) for y in (0, 0.5, 1) if x * y != 0.25],
+    np.float32,
 )
 """(8, 2) points of the crop that stay where they are when the face in it moves."""
 
@@ -45,7 +46,7 @@ def crop_place(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
 def crop_face(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> FaceCrop:
     """The face at `mesh` in a frame (H, W, 3)."""
     place = crop_place(mesh)
-    crop = cv2.warpAffine(rgb, place, CROP[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    crop = cv2.warpAffine(rgb, place, CROP_SHAPE[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     return FaceCrop(mesh, place, np.asarray(crop, np.uint8))
 
 
@@ -54,15 +55,15 @@ def between(one: FaceCrop, other: FaceCrop, share: float) -> FaceCrop:
     and faded into each other. The inside of the mouth is of the one who opens it more."""
     mesh = (one.mesh + np.float32(share) * (other.mesh - one.mesh)).astype(np.float32)
     place = crop_place(mesh)
-    lands = np.concatenate([mesh[:468, :2] @ place[:, :2].T + place[:, 2], EDGE]).astype(np.float32)
+    lands = np.concatenate([mesh[:468, :2] @ place[:, :2].T + place[:, 2], EDGE_POINTS]).astype(np.float32)
     triangles = delaunay(lands)
 
     warped = []
     for look in (one, other):
-        origin = inverse_map(lands, np.concatenate([look.in_crop()[:468], EDGE]), triangles, CROP)
+        origin = inverse_map(lands, np.concatenate([look.in_crop()[:468], EDGE_POINTS]), triangles, CROP_SHAPE)
         there = cv2.remap(look.crop, origin[..., 0], origin[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         warped.append(there.astype(np.float32))
-    mouth = np.zeros(CROP, np.float32)
+    mouth = np.zeros(CROP_SHAPE, np.float32)
     cv2.fillPoly(mouth, [lands[list(LIPS_INNER)].round().astype(np.int32)], 1.0)
     open_one, open_other = (1 - share) * _opening(one), share * _opening(other)
     inside = open_other / (open_one + open_other) if open_one + open_other > 0 else share

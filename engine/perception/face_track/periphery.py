@@ -15,14 +15,14 @@ WORKING_HEIGHT = 360
 """Frames are tracked at about this height; points outside the face need no more."""
 FORWARD_BACKWARD = 1.0
 """A point that does not come back to within this many working pixels is not trusted in that frame."""
-ANCHOR = 3.0
+MAX_DRIFT_PIXELS = 3.0
 """How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
 FOUND_AGAIN = 12.0
 """The same after frames without a face, from where the face would carry it."""
-WINDOW = (21, 21)
+FLOW_WINDOW = (21, 21)
 TRACKING_PYRAMID_LEVELS, ANCHOR_PYRAMID_LEVELS = 2, 1
 """Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
-FADE = 17
+FADE_FRAMES = 17
 """Frames over which a point that is lost, or found again, loses or gains its say."""
 MATCH_TERMINATION = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
 """A match is found after so many steps, or when a step is shorter than so many working pixels."""
@@ -100,7 +100,7 @@ class PeripheryTracker:
         moved[self._broken] = carry(self._start[self._broken])
         # against the first frame, from where the track is now: takes the drift out
         anchored, sound = _match(self._first, grey, self._start, moved, ANCHOR_PYRAMID_LEVELS)
-        sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(self._broken, FOUND_AGAIN, ANCHOR)
+        sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(self._broken, FOUND_AGAIN, MAX_DRIFT_PIXELS)
         sound &= _comes_back(self._first, grey, self._start, anchored, ANCHOR_PYRAMID_LEVELS)
         self._broken &= ~sound
         loose = ~sound
@@ -122,9 +122,9 @@ def easing(points: NDArray[np.float32], tracked: NDArray[np.bool_]) -> NDArray[n
 
 
 def fading(tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """(N, K) in [0, 1]: whether each point is tracked, averaged over `FADE` frames around: what comes or goes, does so
+    """(N, K) in [0, 1]: whether each point is tracked, averaged over `FADE_FRAMES` frames around: what comes or goes, does so
     without a jump."""
-    box = np.ones((FADE, 1), np.float32) / FADE
+    box = np.ones((FADE_FRAMES, 1), np.float32) / FADE_FRAMES
     return np.asarray(cv2.filter2D(tracked.astype(np.float32), -1, box, borderType=cv2.BORDER_REPLICATE), np.float32)
 
 
@@ -137,7 +137,7 @@ def _match(
         b,
         points[:, None],
         guess[:, None].copy(),
-        winSize=WINDOW,
+        winSize=FLOW_WINDOW,
         maxLevel=levels,
         criteria=MATCH_TERMINATION,
         flags=cv2.OPTFLOW_USE_INITIAL_FLOW,

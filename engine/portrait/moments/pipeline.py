@@ -15,12 +15,12 @@ from engine.export.still import write_thumbnail
 from engine.kind import Given
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.expression.measures import SPREAD
+from engine.perception.expression.measures import REST_SPREAD
 from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
 from engine.portrait.moments.rest import own_rest
 from engine.portrait.moments.segments import Segment, find_segments
-from engine.portrait.moments.watching import FPS, LONGEST_SIDE, Watched, watch
+from engine.portrait.moments.watching import LONGEST_SIDE, WATCHED_FPS, Watched, watch
 from engine.run import Run, write_report
 
 STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
@@ -81,17 +81,17 @@ def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
             run.tick((done + 1) / len(wanted))
     write_moments(out / "moments.json", moments, watched)
     seen = float(watched.found.mean())
-    inputs_ = {"seconds": round(watched.seconds, 3), "fps": FPS, "frames": len(watched.found)}
+    inputs_ = {"seconds": round(watched.seconds, 3), "fps": WATCHED_FPS, "frames": len(watched.found)}
     write_report(out / "report.json", "moments", run, inputs_, {"driver_face_share": seen})
 
 
 def moments_of(watched: Watched) -> Moments:
     """The moments of a video that was watched."""
     rest = own_rest(watched.values[watched.found])
-    apart = np.linalg.norm((watched.values - rest) / SPREAD, axis=1)
-    segments = find_segments(watched.values, watched.found, rest, FPS)
+    apart = np.linalg.norm((watched.values - rest) / REST_SPREAD, axis=1)
+    segments = find_segments(watched.values, watched.found, rest, WATCHED_FPS)
     at_rest = int(np.argmin(np.where(watched.found, apart, np.inf)))
-    return Moments(at_rest / FPS, tuple(_named(segments, watched.seconds)))
+    return Moments(at_rest / WATCHED_FPS, tuple(_named(segments, watched.seconds)))
 
 
 def write_moments(path: Path, moments: Moments, watched: Watched) -> None:
@@ -103,9 +103,9 @@ def write_moments(path: Path, moments: Moments, watched: Watched) -> None:
 
 def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArray[np.uint8]:
     """The face at a time of the video and as much around it as there is, (256, 256, 3)."""
-    place = min(round(time * FPS), len(watched.found) - 1)
-    span = (max(time - 0.25 / FPS, 0.0), time + 1 / FPS)
-    frame = next(iter(read_video(path, fps=FPS, trim=span, limits=limits, longest_side=LONGEST_SIDE))).rgb
+    place = min(round(time * WATCHED_FPS), len(watched.found) - 1)
+    span = (max(time - 0.25 / WATCHED_FPS, 0.0), time + 1 / WATCHED_FPS)
+    frame = next(iter(read_video(path, fps=WATCHED_FPS, trim=span, limits=limits, longest_side=LONGEST_SIDE))).rgb
     left, top, right, bottom = watched.boxes[place]
     half = (np.array(frame.shape[1::-1]) - 1) / 2
     reach = min((0.5 + POSTER_MARGIN_SHARE) * max(right - left, bottom - top), *half)
@@ -128,9 +128,9 @@ def _named(segments: list[Segment], seconds: float) -> list[Moment]:
                 name=one.state if number == 1 else f"{one.state}-{number}",
                 state=one.state,
                 strength=one.strength,
-                start=round(one.first / FPS, 3),
-                end=round(min((one.last + 1) / FPS, seconds), 3),
-                apex=round(one.apex / FPS, 3),
+                start=round(one.first / WATCHED_FPS, 3),
+                end=round(min((one.last + 1) / WATCHED_FPS, seconds), 3),
+                apex=round(one.apex / WATCHED_FPS, 3),
                 score=round(one.score, 3),
             )
         )

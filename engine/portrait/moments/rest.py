@@ -6,7 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
-from engine.perception.expression.measures import FACE, LIDS, MEASURES, SPREAD, USUAL, general_rest, lowered
+from engine.perception.expression.measures import (
+    FACE_MEASURES,
+    LID_MEASURES,
+    MEASURES,
+    REST_SPREAD,
+    SPREAD_BETWEEN_PEOPLE,
+    general_rest,
+    lowered,
+)
 
 UNLIKE_REST_WEIGHT = 0.3
 """How much being unlike a resting face in general counts, against being unlike most of what this person shows."""
@@ -19,7 +27,7 @@ NEIGHBOUR_SHARE = 0.04
 
 MIN_NEIGHBOURS = 5
 
-_STILL = np.delete(np.arange(len(MEASURES)), LIDS)
+_MEASURES_BUT_LIDS = np.delete(np.arange(len(MEASURES)), LID_MEASURES)
 
 
 def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -34,17 +42,17 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     (`benchmarks/moments`).
     """
     neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOUR_SHARE * len(values))), len(values) - 1)
-    apart = np.sort(cdist(values / SPREAD, values / SPREAD), axis=1)[:, : neighbours + 1]
-    unlike = np.sqrt(np.mean(((values - general_rest()) / USUAL)[:, FACE] ** 2, axis=1))
-    blinking = lowered(values, np.quantile(values[:, LIDS], 0.7, axis=0))
+    apart = np.sort(cdist(values / REST_SPREAD, values / REST_SPREAD), axis=1)[:, : neighbours + 1]
+    unlike = np.sqrt(np.mean(((values - general_rest()) / SPREAD_BETWEEN_PEOPLE)[:, FACE_MEASURES] ** 2, axis=1))
+    blinking = lowered(values, np.quantile(values[:, LID_MEASURES], 0.7, axis=0))
     best = int(np.argmin(apart.mean(axis=1) + UNLIKE_REST_WEIGHT * unlike + LOWERED_LIDS_WEIGHT * blinking))
-    nearest = np.argsort(np.linalg.norm((values - values[best]) / SPREAD, axis=1))[: neighbours + 1]
+    nearest = np.argsort(np.linalg.norm((values - values[best]) / REST_SPREAD, axis=1))[: neighbours + 1]
     return np.asarray(np.median(values[nearest], axis=0), float)
 
 
 def unrest(moved: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far from rest each frame is, from differences (N, 12): up to 1 it counts as calm. A blink is no unrest."""
-    share = np.abs(moved) / SPREAD
-    blink = moved[:, LIDS].max(axis=1) < 0
-    lids = np.where(blink, 0.0, share[:, LIDS].max(axis=1))
-    return np.asarray(np.maximum(share[:, _STILL].max(axis=1), lids), float)
+    share = np.abs(moved) / REST_SPREAD
+    blink = moved[:, LID_MEASURES].max(axis=1) < 0
+    lids = np.where(blink, 0.0, share[:, LID_MEASURES].max(axis=1))
+    return np.asarray(np.maximum(share[:, _MEASURES_BUT_LIDS].max(axis=1), lids), float)

@@ -15,7 +15,7 @@ from engine.media.video import probe_video, read_video
 from engine.perception.expression.measures import MEASURES, measure
 from engine.perception.one_face import OneFace
 
-FPS = 12.0
+WATCHED_FPS = 12.0
 """Frames a second that are looked at: a wink has three of them, a syllable two."""
 
 LONGEST_SIDE = 640
@@ -27,7 +27,7 @@ BLOCK_FRAMES = 120
 
 @dataclass(frozen=True)
 class Watched:
-    """A video's face, frame by frame at `FPS`.
+    """A video's face, frame by frame at `WATCHED_FPS`.
 
     seconds : how long the video is. values : (N, 12) float32, `MEASURES`. found : (N,) whether there is a face.
     boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `LONGEST_SIDE`.
@@ -47,7 +47,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
     InputError : `no_face_in_driver` where less than a second shows a face, and what reading the video may raise.
     """
     info = probe_video(path, limits)
-    expected = max(1.0, info.seconds * FPS)
+    expected = max(1.0, info.seconds * WATCHED_FPS)
     found: list[bool] = []
     values: list[NDArray[np.float32]] = []
     boxes: list[NDArray[np.float32]] = []
@@ -61,7 +61,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             block.clear()
 
     with OneFace() as follow:
-        for frame in read_video(path, fps=FPS, limits=limits, longest_side=LONGEST_SIDE):
+        for frame in read_video(path, fps=WATCHED_FPS, limits=limits, longest_side=LONGEST_SIDE):
             tick(min(len(found) / expected, 1.0))
             mesh = follow(frame.rgb)
             found.append(mesh is not None)
@@ -70,7 +70,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             if len(block) == BLOCK_FRAMES:
                 measure_block()
     measure_block()
-    if sum(found) < FPS:
+    if sum(found) < WATCHED_FPS:
         raise InputError(
             "no_face_in_driver",
             "No face was found in the driving video: use one that shows a face from the front.",

@@ -19,15 +19,15 @@ EXIT_TOLERANCE = 0.4
 """How far an exit may be from the frames that use it, against the longest step between two frames of its clip."""
 MIN_PACE = 0.5
 """Share of the longest step in all clips that a clip's own longest step counts for at least there."""
-UNSEEN = (0.25, 0.8)
+UNSEEN_PIXELS = (0.25, 0.8)
 """Pixels by which it may be off in any case, of the head and of the furthest point: nobody sees less."""
-TAPER = 0.5
+TAPER_SHARE = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
 CALM_STEP = 0.5
 """The longest step of a bridge against the longest in all clips: a head that goes back to rest does not snap back."""
-SHORTEST, LONGEST = 3, 12
+MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES = 3, 12
 """Frames of a bridge."""
-HOLD = 2
+HOLD_FRAMES = 2
 """Frames of rest after each bridge, which cost next to nothing: a player that stops late shows nothing else."""
 MAX_FRAMES_PER_KEYFRAME = 32
 """Bridges are coded one after another from one whole picture on, the one at rest, as long as no more frames than these
@@ -53,7 +53,7 @@ class Stride:
 
 @dataclass(frozen=True)
 class Segment:
-    """A bridge in its file: the `start` of its frames, and how many (`length`) lead to rest. `HOLD` frames at rest
+    """A bridge in its file: the `start` of its frames, and how many (`length`) lead to rest. `HOLD_FRAMES` frames at rest
     follow; where it is the first after a whole picture, that one comes before it (`opens`)."""
 
     start: int
@@ -75,11 +75,11 @@ class Exits:
         placed: list[Segment] = []
         end, room = 0, 0
         for length in self.lengths:
-            opens = room < length + HOLD
+            opens = room < length + HOLD_FRAMES
             if opens:
                 end, room = end + 1, MAX_FRAMES_PER_KEYFRAME
             placed.append(Segment(end, length, opens))
-            end, room = end + length + HOLD, room - length - HOLD
+            end, room = end + length + HOLD_FRAMES, room - length - HOLD_FRAMES
         return placed
 
 
@@ -99,8 +99,8 @@ def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
     step : the longest of the clip itself; pace : the longest of all clips of the profile.
     """
     step = Stride(
-        max(step.head, MIN_PACE * pace.head, UNSEEN[0] / EXIT_TOLERANCE),
-        max(step.furthest, MIN_PACE * pace.furthest, UNSEEN[1] / EXIT_TOLERANCE),
+        max(step.head, MIN_PACE * pace.head, UNSEEN_PIXELS[0] / EXIT_TOLERANCE),
+        max(step.furthest, MIN_PACE * pace.furthest, UNSEEN_PIXELS[1] / EXIT_TOLERANCE),
     )
     offsets = [pose.motion.offsets for pose in poses]
     resting = [Stride.between(one).against(step) <= EXIT_TOLERANCE for one in offsets]
@@ -116,8 +116,8 @@ def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
         last = _furthest(offsets, resting, chosen, chosen, step)
         at += [len(frames) - 1] * (last - first + 1)
     far = [Stride.between(offsets[frame]).against(pace) for frame in frames]
-    steps = [one / (CALM_STEP * (1 - TAPER / 2)) for one in far]
-    lengths = tuple(int(np.clip(np.ceil(one) - 1, SHORTEST, LONGEST)) for one in steps)
+    steps = [one / (CALM_STEP * (1 - TAPER_SHARE / 2)) for one in far]
+    lengths = tuple(int(np.clip(np.ceil(one) - 1, MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES)) for one in steps)
     return Exits(tuple(frames), lengths, tuple(at))
 
 
@@ -141,7 +141,7 @@ def bridge(pose: Pose, segment: Segment, rest: NDArray[np.float32]) -> Iterator[
         yield pose.eased(0.0, rest)
     for weight in 1 - glide(np.arange(1, segment.length + 1) / (segment.length + 1)):
         yield pose.eased(float(weight), rest)
-    for _ in range(HOLD):
+    for _ in range(HOLD_FRAMES):
         yield pose.eased(0.0, rest)
 
 
@@ -150,6 +150,6 @@ def glide(t: NDArray[np.floating]) -> NDArray[np.float64]:
     (the integral of a cosine-tapered window)."""
     late = t > 0.5
     u = np.where(late, 1 - t, t)
-    begins = 0.5 * (u - TAPER / (2 * np.pi) * np.sin(2 * np.pi * u / TAPER))
-    way = np.where(u < TAPER / 2, begins, u - TAPER / 4) / (1 - TAPER / 2)
+    begins = 0.5 * (u - TAPER_SHARE / (2 * np.pi) * np.sin(2 * np.pi * u / TAPER_SHARE))
+    way = np.where(u < TAPER_SHARE / 2, begins, u - TAPER_SHARE / 4) / (1 - TAPER_SHARE / 2)
     return np.asarray(np.where(late, 1 - way, way), float)

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion import ControlMotion
 
-STIRS = 0.05
+STIR_SHARE = 0.05
 """A performance begins and ends where this share of its furthest offset is passed: what comes before is waiting."""
-LEAD = 3
+LEAD_FRAMES = 3
 """Frames kept before that, over which the face sets out from rest."""
 SETTLE_SECONDS = 0.3
 """Over this long it comes to rest at the end; a looping one also sets out over as long."""
@@ -44,7 +44,7 @@ def excursion(motions: Sequence[ControlMotion], rest: NDArray[np.float32], fps: 
     """
     first, last = (0, len(motions) - 1) if loops else _stirring(motions)
     settle = max(2, round(SETTLE_SECONDS * fps))
-    lead = settle if loops else LEAD
+    lead = settle if loops else LEAD_FRAMES
     count = last - first + 1
     index = np.arange(count)
     left = count - index if loops else count - 1 - index
@@ -61,7 +61,7 @@ def smooth(t: NDArray[np.floating]) -> NDArray[np.float64]:
 def _stirring(motions: Sequence[ControlMotion]) -> tuple[int, int]:
     """The first and the last frame of what happens, with room to set out and to come back."""
     far = np.array([np.linalg.norm(motion.offsets, axis=1).max() for motion in motions])
-    stirred = np.flatnonzero(far > STIRS * far.max())
+    stirred = np.flatnonzero(far > STIR_SHARE * far.max())
     if not len(stirred):
         return 0, len(motions) - 1
-    return max(0, int(stirred[0]) - LEAD), min(len(motions) - 1, int(stirred[-1]) + LEAD)
+    return max(0, int(stirred[0]) - LEAD_FRAMES), min(len(motions) - 1, int(stirred[-1]) + LEAD_FRAMES)

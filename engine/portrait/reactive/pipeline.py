@@ -32,11 +32,11 @@ from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, first_impression, write_landmarks
-from engine.portrait.reactive.bridges import HOLD, Exits, Stride, bridge, find_exits, longest_step
+from engine.portrait.reactive.bridges import HOLD_FRAMES, Exits, Stride, bridge, find_exits, longest_step
 from engine.portrait.reactive.bundle import player, write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
 from engine.portrait.reactive.excursion import Pose, excursion
-from engine.portrait.reactive.states import IDLE, State, choose_states, default_triggers
+from engine.portrait.reactive.states import IDLE_STATE, State, choose_states, default_triggers
 from engine.portrait.target import in_pixels, look_for_face
 from engine.run import Run, write_report
 
@@ -181,10 +181,10 @@ def _draw(
                 name = out / clip_name(act.state)
                 clip = files.enter_context(VideoWriter(name, size, fps, entries=(0,), synthetic=mark))
                 segments = act.exits.segments()
-                total = len(act.poses) + sum(one.opens + one.length + HOLD for one in segments)
+                total = len(act.poses) + sum(one.opens + one.length + HOLD_FRAMES for one in segments)
                 done = 0
                 for frame in draw_in_order(animation, _with_ratios(act.poses, ratios)):
-                    if done == 0 and act.state.name == IDLE:
+                    if done == 0 and act.state.name == IDLE_STATE:
                         write_still(out / "poster.jpg", frame, mark)
                     clip.write(frame)
                     whole.write(frame)
@@ -230,13 +230,13 @@ def _describe(acts: Sequence[Act], target: TargetFace, fps: float) -> Profile:
             loops=state.loops,
         )
         transitions[state.name] = TransitionPart(
-            end=IDLE,
+            end=IDLE_STATE,
             bridges=bridges_name(state) if act.exits.frames else None,
             segments=[(one.start, one.length) for one in act.exits.segments()],
             at=list(act.exits.at),
         )
     triggers = [TriggerPart.model_validate(one) for one in default_triggers([act.state for act in acts])]
     return Profile(
-        size=target.size, fps=fps, poster="poster.jpg", initial=IDLE,
+        size=target.size, fps=fps, poster="poster.jpg", initial=IDLE_STATE,
         states=states, transitions=transitions, triggers=triggers,
     )  # fmt: skip

@@ -10,11 +10,11 @@ from engine.errors import InputError
 from engine.performances import Performance, catalogue, video
 from engine.portrait.options import PortraitOptions
 
-IDLE = "idle"
+IDLE_STATE = "idle"
 """The performance that a profile is in when nothing sets off another."""
 MAX_BY_DEFAULT = 5
 """States besides the idle one: a profile then has a few megabytes."""
-OWN = "driver"
+OWN_STATE = "driver"
 """The state that a driving video of the user's own becomes."""
 
 
@@ -41,7 +41,7 @@ def choose_states(options: PortraitOptions, driver: Path | None) -> tuple[State,
     """
     there = {one.name: one for one in catalogue() if _installed(one.name)}
     requested = options.reactive if isinstance(options.reactive, tuple) else default_states(tuple(there.values()))
-    names = tuple(dict.fromkeys((IDLE, *requested)))
+    names = tuple(dict.fromkeys((IDLE_STATE, *requested)))
     if missing := [name for name in names if name not in there]:
         offered = ", ".join(there)
         raise InputError(
@@ -50,7 +50,7 @@ def choose_states(options: PortraitOptions, driver: Path | None) -> tuple[State,
     states = [_built_in(there[name]) for name in names]
     if driver is not None and driver not in [state.video for state in states]:
         known = next((one for one in there.values() if video(one.name) == driver), None)
-        own = State(OWN, "Your own performance", "own", driver, options.neutral_frame, own=True)
+        own = State(OWN_STATE, "Your own performance", "own", driver, options.neutral_frame, own=True)
         states.append(own if known is None else _built_in(known))
     return tuple(states)
 
@@ -60,12 +60,12 @@ def default_states(there: Sequence[Performance]) -> tuple[str, ...]:
     first: dict[str, str] = {}
     for one in there:
         first.setdefault(one.state, one.name)
-    return tuple(name for name in first.values() if name != IDLE)[:MAX_BY_DEFAULT]
+    return tuple(name for name in first.values() if name != IDLE_STATE)[:MAX_BY_DEFAULT]
 
 
 def default_triggers(states: Sequence[State]) -> list[dict[str, str]]:
     """A smile for who comes near, a start for who pokes, and each state on a key of its own, 1 to 9."""
-    others = [state for state in states if state.name != IDLE]
+    others = [state for state in states if state.name != IDLE_STATE]
     if not others:
         return []
     happy = next((state for state in others if state.emotion == "happiness"), others[0])
@@ -75,7 +75,7 @@ def default_triggers(states: Sequence[State]) -> list[dict[str, str]]:
 
 
 def _built_in(one: Performance) -> State:
-    loops = one.name == IDLE
+    loops = one.name == IDLE_STATE
     return State(one.name, one.title, one.emotion, video(one.name), one.neutral_frame, loops)
 
 
