@@ -33,7 +33,7 @@ from engine.render import character as renderer
 
 FPS = 30.0
 """Frames a second of the film."""
-STAGES = {
+STAGE_FUNCTIONS = {
     "posed": ("skin",),
     "shadow": ("cast_on_ground",),
     "triangles": ("draw_into",),
@@ -49,7 +49,7 @@ END_FRAMES = 5
 @contextmanager
 def timed(spent: dict[str, list[float]]) -> Iterator[None]:
     """Adds the seconds of processor time that each call of the stages takes to `spent`."""
-    before = {name: getattr(renderer, name) for names in (*STAGES.values(), ("_draw_over",)) for name in names}
+    before = {name: getattr(renderer, name) for names in (*STAGE_FUNCTIONS.values(), ("_draw_over",)) for name in names}
 
     def counted(name: str) -> Callable[..., Any]:
         def call(*given: Any) -> Any:
@@ -111,7 +111,7 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
         ("last", slice(count - END_FRAMES, count)),
         ("mean", slice(None)),
     ):
-        stages = [sum(float(np.mean(spent[name][part])) for name in names) for names in STAGES.values()]
+        stages = [sum(float(np.mean(spent[name][part])) for name in names) for names in STAGE_FUNCTIONS.values()]
         total = stages[0] + stages[1] + float(np.mean(spent["_draw_over"][part]))
         encoded = worked / count if label == "mean" else float("nan")
         every = [*stages, total - sum(stages), total, encoded]
@@ -139,7 +139,9 @@ def main() -> None:
             costs += cost
             rates.append(rate)
     print(machine())
-    print(table("Processor time, milliseconds a frame", ["frames", *STAGES, "rest", "drawn", "encoded"], costs))
+    print(
+        table("Processor time, milliseconds a frame", ["frames", *STAGE_FUNCTIONS, "rest", "drawn", "encoded"], costs)
+    )
     head = ["picture", "size", "frames", "encoding alone", "all", "two free cores", "kB a frame"]
     print(table("Frames a second", head, rates))
 

@@ -29,9 +29,17 @@ from engine.render.character import draw_character, prepare
 
 ROW_HEIGHT = 420
 """Pixels of a row."""
-BACKDROP = np.array([150, 156, 162], np.uint8)
+BACKDROP_RGB = np.array([150, 156, 162], np.uint8)
 """RGB behind a drawn character."""
-FRAMES = (("walk", 0.0), ("walk", 0.25), ("walk", 0.5), ("walk", 0.75), ("dance", 0.3), ("dance", 0.6), ("wave", 0.5))
+SHOWN_MOMENTS = (
+    ("walk", 0.0),
+    ("walk", 0.25),
+    ("walk", 0.5),
+    ("walk", 0.75),
+    ("dance", 0.3),
+    ("dance", 0.6),
+    ("wave", 0.5),
+)
 """Clips, and how far along them they are shown, as a share."""
 
 
@@ -51,10 +59,12 @@ def row(woken: Woken, title: str) -> Row:
         eye = middle + 3 * high * np.array([np.sin(turn), 0.1, np.cos(turn)])
         size = (ROW_HEIGHT, ROW_HEIGHT * 5 // 8)
         plain = Camera((0, 0, 0), 2.7 * ROW_HEIGHT, ((size[1] - 1) / 2, (size[0] - 1) / 2), size)
-        return draw_character(subject, posed, plain.aimed(eye, middle), np.tile(BACKDROP, (*size, 1)), shading=0.25).rgb
+        return draw_character(
+            subject, posed, plain.aimed(eye, middle), np.tile(BACKDROP_RGB, (*size, 1)), shading=0.25
+        ).rgb
 
     panels += [view(character.pictured, 0, degrees) for degrees in (0, 90, 180)]
-    for name, share in FRAMES:
+    for name, share in SHOWN_MOMENTS:
         clip = in_place(built_in(name, character.mesh.skeleton))
         panels.append(view(clip, int(share * len(clip.rotations)), 25))
     return Row(panels, title)

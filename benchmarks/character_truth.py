@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
-from benchmarks.dressed_template import LOOKS, dress
-from benchmarks.known_person import SIZE, KnownPicture, Person, draw_into
+from benchmarks.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
 from benchmarks.known_places import places
 from benchmarks.scanned_bodies import read_scan
 from benchmarks.shared_media import media
@@ -53,7 +53,7 @@ BODY_METRES = 1.8
 """Metres of height to which bodies are scaled before distances are taken."""
 TURN_DEGREES = 25.0
 """By which some people are turned from the camera."""
-TRIANGLES = 60_000
+CHARACTER_TRIANGLES = 60_000
 """Triangles of a character, as it is written unless asked for otherwise."""
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 """As the names of their joints have them."""
@@ -92,7 +92,7 @@ def people() -> Iterator[tuple[Person, str]]:
     soldier = read_scan(media("scans3d/body_soldier/soldier.glb"), -1)
     yield from ((man, "garage"), (man.turned(TURN_DEGREES), "street"))
     yield from ((soldier, "street"), (soldier.turned(-TURN_DEGREES), "yard"), (soldier, "garage door"))
-    dressed = [dress(look) for look in LOOKS]
+    dressed = [dress(look) for look in DRESSED_LOOKS]
     yield from zip(dressed, ("garage", "street", "garage door", "yard", "garage"), strict=True)
     yield dressed[0].turned(-TURN_DEGREES), "street"
 
@@ -136,7 +136,7 @@ def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
     mesh = build_mesh(figure, silhouette, fitted, labels)
-    character = make_character(figure, silhouette, fitted, labels, mesh, TRIANGLES, "mirror")
+    character = make_character(figure, silhouette, fitted, labels, mesh, CHARACTER_TRIANGLES, "mirror")
     with patch.object(layers, "part_surface", warped_depth):
         by_depth = build_mesh(figure, silhouette, fitted, labels)
     bare = pose_template(fitted, fitted.picture_camera(), load_human())
@@ -208,7 +208,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="people whose name contains this")
     parser.add_argument("--sheet", type=Path, help="write the pictures, with both surfaces from the side, here")
     asked = parser.parse_args()
-    backgrounds, results = places(SIZE), []
+    backgrounds, results = places(PICTURE_SIZE), []
     for person, place in people():
         if asked.only not in person.name:
             continue

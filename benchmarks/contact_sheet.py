@@ -15,11 +15,11 @@ from engine.media.image import write_image
 Picture = NDArray[np.uint8]
 """(h, w, 3) uint8."""
 
-GAP = 4
+GAP_PIXELS = 4
 """Pixels of paper between cells and between rows."""
-TITLE_HEIGHT, BASELINE = 22, 15
+TITLE_PIXELS, BASELINE_PIXELS = 22, 15
 """Pixels of a title's line, and from its top to the letters' feet."""
-PAPER, INK = 235, 20
+PAPER_GREY_LEVEL, INK_GREY_LEVEL = 235, 20
 """Grey levels."""
 
 
@@ -31,7 +31,7 @@ class Row(NamedTuple):
 
 
 def contact_sheet(
-    rows: Sequence[Row], cell: tuple[int, int] | None = None, gap: int = GAP, max_width: int | None = None
+    rows: Sequence[Row], cell: tuple[int, int] | None = None, gap: int = GAP_PIXELS, max_width: int | None = None
 ) -> Picture:
     """The rows (H, W, 3) one under the other; what is narrower or lower than its place is on paper.
 
@@ -49,7 +49,7 @@ def contact_sheet(
             lines.append(_paper(gap, width))
         if row.title:
             lines.append(_title(row.title, width))
-        lines.append(np.pad(strip, ((0, 0), (0, width - strip.shape[1]), (0, 0)), constant_values=PAPER))
+        lines.append(np.pad(strip, ((0, 0), (0, width - strip.shape[1]), (0, 0)), constant_values=PAPER_GREY_LEVEL))
     sheet = np.concatenate(lines)
     if max_width is None or width <= max_width:
         return sheet
@@ -91,15 +91,19 @@ def _side_by_side(pictures: Sequence[Picture], gap: int) -> Picture:
     for picture in pictures:
         if parts:
             parts.append(_paper(height, gap))
-        parts.append(np.pad(picture, ((0, height - picture.shape[0]), (0, 0), (0, 0)), constant_values=PAPER))
+        parts.append(
+            np.pad(picture, ((0, height - picture.shape[0]), (0, 0), (0, 0)), constant_values=PAPER_GREY_LEVEL)
+        )
     return np.concatenate(parts, 1)
 
 
 def _title(title: str, width: int) -> Picture:
-    line = _paper(TITLE_HEIGHT, width)
-    cv2.putText(line, title, (GAP, BASELINE), cv2.FONT_HERSHEY_SIMPLEX, 0.5, (INK,) * 3, 1, cv2.LINE_AA)
+    line = _paper(TITLE_PIXELS, width)
+    cv2.putText(
+        line, title, (GAP_PIXELS, BASELINE_PIXELS), cv2.FONT_HERSHEY_SIMPLEX, 0.5, (INK_GREY_LEVEL,) * 3, 1, cv2.LINE_AA
+    )
     return line
 
 
 def _paper(height: int, width: int) -> Picture:
-    return np.full((height, width, 3), PAPER, np.uint8)
+    return np.full((height, width, 3), PAPER_GREY_LEVEL, np.uint8)

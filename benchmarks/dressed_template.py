@@ -23,7 +23,7 @@ from engine.render.rasteriser import Raster
 Turns = Mapping[str, tuple[float, float, float]]
 """Degrees about x, y and z, in this order, by joint."""
 
-CLOTHES = {
+CLOTH_CENTIMETRES = {
     "Hips": 2.5,
     "Spine": 2.5,
     "Shoulder": 2.0,
@@ -40,15 +40,15 @@ FOLDS_CENTIMETRES = 1.0
 """By which cloth waves about its distance from the body, each way."""
 SMOOTHING_ROUNDS = 12
 """Rounds of smoothing in which offsets become their neighbours' mean."""
-EYE, HAIRLINE, NAPE = 0.0, 0.055, -0.09
+EYE_HEIGHT, HAIRLINE_HEIGHT, NAPE_HEIGHT = 0.0, 0.055, -0.09
 """Metres above the eyes at which the forehead ends, and to which hair hangs behind, on the average body."""
-WHITE, IRIS = (225, 220, 215), (70, 50, 40)
+EYE_WHITE_RGB, IRIS_RGB = (225, 220, 215), (70, 50, 40)
 """RGB of the eyes."""
 
 
 @dataclass(frozen=True)
 class Look:
-    """Somebody: who, how they stand, what they wear. `clothes`: how much of `CLOTHES` it is (0: bare)."""
+    """Somebody: who, how they stand, what they wear. `clothes`: how much of `CLOTH_CENTIMETRES` it is (0: bare)."""
 
     name: str
     phenotype: Phenotype
@@ -75,7 +75,7 @@ HAND_ON_HIP: Turns = {
     "Spine1": (0, 0, -4),
     "RightUpLeg": (0, 0, -7),
 }
-WALKING: Turns = {
+WALKING_POSE: Turns = {
     **ARMS_DOWN,
     "LeftUpLeg": (-24, 0, 0),
     "LeftLeg": (8, 0, 0),
@@ -85,8 +85,8 @@ WALKING: Turns = {
     "RightArm": (0, 22, 68),
     "RightForeArm": (0, 30, 0),
 }
-WAVING: Turns = {**ARMS_DOWN, "RightArm": (0, 0, -10), "RightForeArm": (0, 10, -75), "Head": (0, 0, -5)}
-APART: Turns = {
+WAVING_POSE: Turns = {**ARMS_DOWN, "RightArm": (0, 0, -10), "RightForeArm": (0, 10, -75), "Head": (0, 0, -5)}
+LIMBS_APART_POSE: Turns = {
     "LeftArm": (0, 0, -35),
     "RightArm": (0, 0, 40),
     "LeftUpLeg": (0, 0, 9),
@@ -95,14 +95,26 @@ APART: Turns = {
     "RightFoot": (0, -12, 0),
 }
 
-LOOKS = (
+DRESSED_LOOKS = (
     Look("average, arms down", Phenotype(gender=0.5), ARMS_DOWN, (70, 110, 170), (60, 58, 66)),
-    Look("heavy man, legs apart", Phenotype(0.6, 1, 0.5, 0.85), APART, (150, 60, 52), (70, 84, 110), hair=(50, 44, 40)),
+    Look(
+        "heavy man, legs apart",
+        Phenotype(0.6, 1, 0.5, 0.85),
+        LIMBS_APART_POSE,
+        (150, 60, 52),
+        (70, 84, 110),
+        hair=(50, 44, 40),
+    ),
     Look("slim woman, hand on hip", Phenotype(0.5, 0, 0.5, 0.3, 0.6), HAND_ON_HIP, (226, 220, 206), (52, 74, 60)),
     Look(
-        "tall man, walking", Phenotype(0.5, 1, 0.65, 0.45, 0.75), WALKING, (58, 62, 72), (168, 150, 118), (146, 98, 74)
+        "tall man, walking",
+        Phenotype(0.5, 1, 0.65, 0.45, 0.75),
+        WALKING_POSE,
+        (58, 62, 72),
+        (168, 150, 118),
+        (146, 98, 74),
     ),
-    Look("child, waving", Phenotype(0.3, 0.4), WAVING, (214, 170, 60), (60, 84, 140)),
+    Look("child, waving", Phenotype(0.3, 0.4), WAVING_POSE, (214, 170, 60), (60, 84, 140)),
 )
 
 
@@ -146,7 +158,7 @@ def _hair(
     scale = height / 1.7
     up = (rest[:, 1] - rest[eye, 1].mean()) / scale
     behind = (rest[eye, 2].mean() - rest[:, 2]) / scale
-    return (moved == "Head") & ((up > HAIRLINE) | ((behind > 0.075) & (up > NAPE)))
+    return (moved == "Head") & ((up > HAIRLINE_HEIGHT) | ((behind > 0.075) & (up > NAPE_HEIGHT)))
 
 
 def _offsets(
@@ -158,7 +170,7 @@ def _offsets(
 ) -> NDArray[np.float64]:
     """(V,) centimetres along the normals."""
     away = np.zeros(len(rest))
-    for kind, thick in CLOTHES.items():
+    for kind, thick in CLOTH_CENTIMETRES.items():
         wave = np.sin(rest @ [23.0, 31.0, 19.0]) + np.sin(rest @ [-17.0, 11.0, 29.0] + 1.0)
         worn = np.char.startswith(moved, kind)
         away[worn] = look.clothes * (thick + (0.5 * FOLDS_CENTIMETRES * wave[worn] if kind != "Foot" else 0))
@@ -190,5 +202,5 @@ def _colours(
         eye = template.vertices_of(f"{side}_eye")
         middle = rest[eye].mean(0)
         seen = np.hypot(rest[eye, 0] - middle[0], rest[eye, 1] - middle[1]) < 0.45 * np.ptp(rest[eye, 1]) / 2
-        colours[eye] = np.where((seen & (rest[eye, 2] > middle[2]))[:, None], IRIS, WHITE)
+        colours[eye] = np.where((seen & (rest[eye, 2] > middle[2]))[:, None], IRIS_RGB, EYE_WHITE_RGB)
     return colours

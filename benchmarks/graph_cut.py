@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from engine.geometry.graph_cut import PairCost, energy, expansion_moves
 
-SAMPLES = 6
+SAMPLES_PER_EDGE = 6
 """Of an edge, at which views are compared."""
-FARTHEST = np.cos(np.pi / 4)
+MIN_VIEW_COSINE = np.cos(np.pi / 4)
 """Views that look at a triangle under a smaller cosine do not count."""
-FOLDS = 0.1
+CLOTH_FOLD_SIGMA = 0.1
 """Of cloth: by how much normals are off, as unit vectors."""
-SEAMS = 4.0
+SEAM_WEIGHT = 4.0
 """What seams weigh against data."""
 
 
@@ -50,14 +50,14 @@ def seam_cost(middles: NDArray, labels: int, random: np.random.Generator) -> Pai
     shifted, smoothly over the surface."""
     waves, phases = random.normal(0, 6, (labels, 3)), random.uniform(0, 2 * np.pi, (labels, 3))
     smooth = np.sin((middles @ waves.T)[:, :, None] + phases)
-    colours = np.empty((len(middles), labels, SAMPLES, 3), np.uint8)
+    colours = np.empty((len(middles), labels, SAMPLES_PER_EDGE, 3), np.uint8)
     for label in range(labels):
-        noise = random.normal(0, 3, (len(middles), SAMPLES, 3))
+        noise = random.normal(0, 3, (len(middles), SAMPLES_PER_EDGE, 3))
         colours[:, label] = np.clip(128 + random.normal(0, 4) + 15 * smooth[:, label, None] + noise, 0, 255)
 
     def cost(which: NDArray[np.intp], first: NDArray[np.intp], second: NDArray[np.intp]) -> NDArray:
         apart = colours[which, first].astype(np.float32) - colours[which, second]
-        return SEAMS * np.sqrt((apart**2).sum(2)).mean(1) / 255
+        return SEAM_WEIGHT * np.sqrt((apart**2).sum(2)).mean(1) / 255
 
     return cost
 
@@ -71,9 +71,9 @@ def main() -> None:
     asked = arguments.parse_args()
     normals, edges, middles = surface(asked.nodes)
     random = np.random.default_rng(1)
-    normals += random.normal(0, FOLDS, normals.shape)
+    normals += random.normal(0, CLOTH_FOLD_SIGMA, normals.shape)
     seen = normals / np.linalg.norm(normals, axis=1, keepdims=True) @ views(asked.labels).T
-    unary = np.where(seen > FARTHEST, 1 - seen, np.inf)
+    unary = np.where(seen > MIN_VIEW_COSINE, 1 - seen, np.inf)
     unary[~np.isfinite(unary).any(1)] = 1.0
     cost = seam_cost(middles, asked.labels, random)
     best_view = unary.argmin(1)

@@ -20,14 +20,14 @@ from engine.render.rasteriser import rasterise
 SUPERSAMPLING = 3
 CAMERA_DISTANCE = 8.0
 """Heights of the scan from the camera to the head: a portrait lens."""
-LIGHT = np.array([0.25, 0.45, 0.85])
+LIGHT_DIRECTION = np.array([0.25, 0.45, 0.85])
 """Where the light comes from; it stays where it is when the head turns."""
-AMBIENT = 0.55
+AMBIENT_SHARE = 0.55
 """Share of the light that comes from everywhere."""
-BACKGROUND = (150, 160, 170)
+BACKGROUND_RGB = (150, 160, 170)
 AIM_HEIGHT = 0.17
 """Heights of the scan above its middle at which the camera looks."""
-NECK = (-0.28, -0.08)
+NECK_HEIGHTS = (-0.28, -0.08)
 """Heights of the scan above its middle between which the neck twists: the shoulders below do not turn."""
 
 
@@ -76,17 +76,17 @@ def render_head(
     covered = raster.triangle >= 0
     colours = sample_texture(scan.texture, interpolate(scan.uv, scan.triangles, raster), covered)
     normals = interpolate(vertex_normals(vertices, scan.triangles), scan.triangles, raster)
-    lamp = np.clip(normals @ (LIGHT / np.linalg.norm(LIGHT)).astype(np.float32), 0, 1)
-    shaded = colours * (AMBIENT + (1 - AMBIENT) * lamp[..., None])
+    lamp = np.clip(normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32), 0, 1)
+    shaded = colours * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
     alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
     premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
-    behind = np.asarray(BACKGROUND if background is None else background, np.float32)
+    behind = np.asarray(BACKGROUND_RGB if background is None else background, np.float32)
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return np.clip(picture + 0.5, 0, 255).astype(np.uint8), np.asarray(alpha, np.float32)
 
 
 def _turned(vertices: NDArray[np.float64], yaw: float, height: float, shoulders: bool) -> NDArray[np.float64]:
-    t = np.clip((vertices[:, 1] / height - NECK[0]) / (NECK[1] - NECK[0]), 0, 1)
+    t = np.clip((vertices[:, 1] / height - NECK_HEIGHTS[0]) / (NECK_HEIGHTS[1] - NECK_HEIGHTS[0]), 0, 1)
     angle = yaw * (np.ones_like(t) if shoulders else t * t * (3 - 2 * t))
     c, s = np.cos(angle), np.sin(angle)
     x, y, z = vertices.T

@@ -23,8 +23,8 @@ from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.library import built_in
 
 FRAMES, REPEATS = 100, 5
-GOAL, MEGABYTES = "0.3 s", "40 MB"
-COMPONENTS = (1, 5, 10, 20, 30, 40)
+GOAL_TIME, GOAL_SIZE = "0.3 s", "40 MB"
+COMPONENT_COUNTS = (1, 5, 10, 20, 30, 40)
 
 
 def speed() -> None:
@@ -42,9 +42,9 @@ def speed() -> None:
         "load: phenotypes and local shapes too": lambda: (load_rig(HUMAN_RIG), load_body_space(), load_shape_space()),
         f"skin {len(body)} vertices x {FRAMES} frames": lambda: skin(*bound, transforms),
     }
-    rows = [[name, f"{_least(work):.3f} s", GOAL] for name, work in cases.items()]
+    rows = [[name, f"{_least(work):.3f} s", GOAL_TIME] for name, work in cases.items()]
     files = (cache_folder() / "template").glob(f"*-{makehuman.version()}-{CACHE_FORMAT}.npz")
-    rows.append(["cache on the disk", f"{sum(file.stat().st_size for file in files) / 1e6:.0f} MB", MEGABYTES])
+    rows.append(["cache on the disk", f"{sum(file.stat().st_size for file in files) / 1e6:.0f} MB", GOAL_SIZE])
     print(table("Template", ["", "measured", "goal"], rows))
 
 
@@ -52,7 +52,7 @@ def variance() -> None:
     """Print how much of the sampled bodies' variance the first components of the space of shapes hold."""
     held = load_body_space().variance_held
     rest = (held - held[0]) / (1 - held[0])
-    rows = [[f"{n}", f"{100 * held[n - 1]:.2f} %", f"{100 * rest[n - 1]:.1f} %"] for n in COMPONENTS]
+    rows = [[f"{n}", f"{100 * held[n - 1]:.2f} %", f"{100 * rest[n - 1]:.1f} %"] for n in COMPONENT_COUNTS]
     print(table("Variance that the space of shapes holds", ["components", "of all", "of what is not size"], rows))
     print("\nThe first component is size, from children to tall adults.")
 

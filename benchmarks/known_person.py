@@ -16,7 +16,7 @@ from engine.render.film import shrink
 from engine.render.rasteriser import Raster, rasterise
 
 SUPERSAMPLING = 3
-SIZE = (960, 720)
+PICTURE_SIZE = (960, 720)
 """(height, width) of the pictures."""
 FOCAL_LENGTH = 1.6
 """Focal length in picture heights. What is measured assumes another one, as it must with any photograph."""
@@ -24,7 +24,7 @@ PERSON_SHARE = 0.8
 """Share of the picture's height that the person takes, and at most of its width."""
 EYE_HEIGHT = 1.3
 """Metres of the level camera above the ground, for somebody of 1.8 m."""
-LIGHT, AMBIENT = np.array([0.35, 0.6, 0.72]), 0.5
+LIGHT_DIRECTION, AMBIENT_SHARE = np.array([0.35, 0.6, 0.72]), 0.5
 CONTACT_SHADE = 0.45
 """Share of the light that is missing on the ground beneath the feet."""
 
@@ -74,8 +74,10 @@ def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True
     raster = rasterise(large.project(person.vertices), person.triangles, large.size, perspective=True)
     covered = raster.triangle >= 0
     normals = interpolate(vertex_normals(person.vertices, person.triangles), person.triangles, raster)
-    lamp = np.abs(normals @ (LIGHT / np.linalg.norm(LIGHT)).astype(np.float32))  # cloth is a single sheet at times
-    shaded = person.paint(raster) * (AMBIENT + (1 - AMBIENT) * lamp[..., None])
+    lamp = np.abs(
+        normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32)
+    )  # cloth is a single sheet at times
+    shaded = person.paint(raster) * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
     alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
     premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
     behind = background * _shadow(person, camera)[..., None] if shadow else background

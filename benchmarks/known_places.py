@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from engine.media.image import read_image
 
-HORIZON = 0.72
+HORIZON_SHARE = 0.72
 """Where wall and ground meet, as a share of the picture's height."""
-BRICK, PLASTER, STONE, LAWN = (172, 124, 106), (206, 202, 192), (176, 168, 156), (122, 140, 88)
+BRICK_RGB, PLASTER_RGB, STONE_RGB, LAWN_RGB = (172, 124, 106), (206, 202, 192), (176, 168, 156), (122, 140, 88)
 """The surfaces were photographed without colour: how light shows in them."""
 
 
@@ -21,9 +21,9 @@ def places(size: tuple[int, int]) -> dict[str, NDArray[np.uint8]]:
     """Pictures (height, width, 3) without anybody, by name. They are files of the installed package: none is fetched."""
     return {
         "garage": _cropped("motorcycle_left.png", size, 0.8),
-        "street": _street("brick.png", BRICK, "gravel.png", STONE, size),
+        "street": _street("brick.png", BRICK_RGB, "gravel.png", STONE_RGB, size),
         "garage door": _cropped("motorcycle_left.png", size, 0.0),
-        "yard": _street("brick.png", PLASTER, "grass.png", LAWN, size),
+        "yard": _street("brick.png", PLASTER_RGB, "grass.png", LAWN_RGB, size),
     }
 
 
@@ -52,7 +52,7 @@ def _street(
     side = max(height, width)
     picture = np.ascontiguousarray(cv2.resize(upright, (side, side), interpolation=cv2.INTER_CUBIC)[:height, :width])
     flat = np.tile(_tinted(_photo(ground), ground_colour), (2, 2, 1))
-    top = round(HORIZON * height)
+    top = round(HORIZON_SHARE * height)
     far = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32) * np.array([flat.shape[1], flat.shape[0]], np.float32)
     near = np.array([[0, top], [width, top], [1.5 * width, height], [-0.5 * width, height]], np.float32)
     seen = cv2.warpPerspective(flat, cv2.getPerspectiveTransform(far, near), (width, height), flags=cv2.INTER_AREA)

@@ -37,13 +37,13 @@ ASKING_SECONDS = 0.2
 PATIENCE_SECONDS = 15.0
 """After this long without an answer the service counts as locked."""
 
-HEAD = b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: "
-BODY = (
+SLOW_HEAD = b"GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: "
+SLOW_BODY = (
     b"POST /v1/files HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 1000000\r\n"
     b"Content-Type: multipart/form-data; boundary=b\r\n\r\n"
     b'--b\r\nContent-Disposition: form-data; name="file"; filename="a.png"\r\n\r\n\x89PNG\r\n\x1a\n'
 )
-FOLLOW = "GET /v1/jobs/{job}/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
+FOLLOW_REQUEST = "GET /v1/jobs/{job}/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
 
 
 @dataclass
@@ -168,11 +168,11 @@ async def waiting_job(url: URL) -> str:
 
 
 async def run(url: URL, seconds: float) -> list[list[str]]:
-    follow = FOLLOW.format(job=await waiting_job(url)).encode()
+    follow = FOLLOW_REQUEST.format(job=await waiting_job(url)).encode()
     schedules = [
         ("600 half-open lines", 600, b"", None),
-        ("1200 heads without an end", 1200, HEAD, 5.0),
-        ("400 bodies, a byte each 5 s", 400, BODY, 5.0),
+        ("1200 heads without an end", 1200, SLOW_HEAD, 5.0),
+        ("400 bodies, a byte each 5 s", 400, SLOW_BODY, 5.0),
         ("400 followers of events", 400, follow, None),
     ]
     rows = []

@@ -35,8 +35,8 @@ from engine.portrait.moments.pipeline import Moment
 SEEDS = (1, 2, 3, 4)
 MIN_OVERLAP = 0.3
 """Share of two stretches of time together that they have in common, from which they are one."""
-JOINED = "Built-in performances, joined"
-LABELS = Path(__file__).with_suffix(".json")
+JOINED_TITLE = "Built-in performances, joined"
+LABELS_FILE = Path(__file__).with_suffix(".json")
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def judge(
 
 def labels() -> dict[str, tuple[list[Stretch], list[Stretch]]]:
     """What was seen in the real clips, by file name: what must be found, and what may be."""
-    document = json.loads(LABELS.read_text())
+    document = json.loads(LABELS_FILE.read_text())
     return {
         name: ([Stretch(*one) for one in seen["must"]], [Stretch(*one) for one in seen["may"]])
         for name, seen in document.items()
@@ -146,7 +146,7 @@ def labels() -> dict[str, tuple[list[Stretch], list[Stretch]]]:
 def main() -> None:
     head = ("state", "right", "wrong", "found", "missed", "precision", "recall")
     tables: dict[str, dict[str, Tally]] = {
-        title: {state: Tally() for state in STATES} for title in (JOINED, *ALTERATIONS)
+        title: {state: Tally() for state in STATES} for title in (JOINED_TITLE, *ALTERATIONS)
     }
     faults, seconds, spent = [], 0.0, 0.0
     with tempfile.TemporaryDirectory() as folder:
@@ -156,7 +156,7 @@ def main() -> None:
             started = perf_counter()
             moments = find_moments(path).moments
             spent, seconds = spent + perf_counter() - started, seconds + truth[-1].end
-            faults += [f"order {seed}: {fault}" for fault in judge(tables[JOINED], moments, truth)]
+            faults += [f"order {seed}: {fault}" for fault in judge(tables[JOINED_TITLE], moments, truth)]
         for title, alter in ALTERATIONS.items():
             for name, (must, may) in labels().items():
                 path = media(f"driving/{name}")
@@ -170,7 +170,7 @@ def main() -> None:
             *(sum(getattr(t, one) for t in tallies.values()) for one in ("right", "wrong", "found", "missed"))
         )
         rows = [tally.row(state) for state, tally in tallies.items() if tally != Tally()]
-        print(table(title if title == JOINED else f"Real clips, {title}", head, [*rows, every.row("all")]))
+        print(table(title if title == JOINED_TITLE else f"Real clips, {title}", head, [*rows, every.row("all")]))
     print("\n" + "\n".join(faults))
     print(f"\n{seconds / spent:.1f} seconds of video in a second. {machine()}")
 

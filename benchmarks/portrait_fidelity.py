@@ -27,27 +27,27 @@ from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_E
 from engine.perception.segmentation import believed_person
 from engine.portrait.options import PortraitOptions
 
-FRAMES, STEP = 240, 8
+MAX_FRAMES, FRAME_STEP = 240, 8
 """As the yardsticks were taken: every 8th of the first 240 frames."""
 REGIONS = ("face", "mouth", "eyes", "hair", "background")
 """`hair` is the person outside the face: hair, ears, neck and shoulders."""
-WARP = Parts(layers=False, hidden=False, details=False, eyes=False)
-PLANE, SPACE = False, True
+WARP_ALONE = Parts(layers=False, hidden=False, details=False, eyes=False)
+IN_PLANE, IN_SPACE = False, True
 """Whether heads turn in 3D."""
 SMOOTHING = {"warp, no smoothing": "none", "warp, constant smoothing": "constant"}
-FULL = "+ full ratio image"
-ALL = "+ second look (all)"
+FULL_RATIO_TITLE = "+ full ratio image"
+ALL_TITLE = "+ second look (all)"
 ABLATIONS: tuple[tuple[str, Parts, bool], ...] = (
-    ("warp, no smoothing", WARP, PLANE),
-    ("warp, constant smoothing", WARP, PLANE),
-    ("warp, confidence-aware", WARP, PLANE),
-    ("+ hidden regions", replace(WARP, hidden=True), PLANE),
-    (FULL, replace(WARP, hidden=True, details=True), PLANE),
-    ("+ refined ratio image", replace(WARP, hidden=True, details=True), PLANE),
-    ("+ layers", replace(WARP, hidden=True, details=True, layers=True), PLANE),
-    ("+ eyes", Parts(), PLANE),
-    ("+ 3D head", Parts(), SPACE),
-    (ALL, Parts(), SPACE),
+    ("warp, no smoothing", WARP_ALONE, IN_PLANE),
+    ("warp, constant smoothing", WARP_ALONE, IN_PLANE),
+    ("warp, confidence-aware", WARP_ALONE, IN_PLANE),
+    ("+ hidden regions", replace(WARP_ALONE, hidden=True), IN_PLANE),
+    (FULL_RATIO_TITLE, replace(WARP_ALONE, hidden=True, details=True), IN_PLANE),
+    ("+ refined ratio image", replace(WARP_ALONE, hidden=True, details=True), IN_PLANE),
+    ("+ layers", replace(WARP_ALONE, hidden=True, details=True, layers=True), IN_PLANE),
+    ("+ eyes", Parts(), IN_PLANE),
+    ("+ 3D head", Parts(), IN_SPACE),
+    (ALL_TITLE, Parts(), IN_SPACE),
 )
 
 
@@ -57,18 +57,18 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             true, acting, own = _prepared(path, Path(folder), with_self=True)
-            kept = true[::STEP]
+            kept = true[::FRAME_STEP]
             bare = _bare_warp(acting)
-            made = list(acting.frames(step=STEP))
+            made = list(acting.frames(step=FRAME_STEP))
             still, warp, ours = (_measures(kept, f) for f in ([kept[0]] * len(kept), bare, made))
-            itself = _measures(kept, list(own.frames(step=STEP)))
+            itself = _measures(kept, list(own.frames(step=FRAME_STEP)))
             regions = _regional(kept, made)
         values = [*still, *warp, *ours, *(regions[r] for r in ("face", "hair", "background")), *itself]
         figures.append(values)
         compared.append((warp, ours))
-        rows.append([path.stem, *_shown(values, DIGITS)])
+        rows.append([path.stem, *_shown(values, COLUMN_DIGITS)])
         _save(pictures, f"fidelity-{path.stem}", kept, bare, made)
-    rows.append(mean_row("mean", figures, DIGITS))
+    rows.append(mean_row("mean", figures, COLUMN_DIGITS))
     head = ["clip", "still L1", "px", "SSIM", "warp L1", "px", "SSIM", "ours L1", "px", "SSIM", "face", "hair", "backgr.", "self L1", "px", "SSIM"]  # fmt: skip
     print(table("Fidelity: a clip's first frame driven by the disguised clip, against the clip", head, rows))
     print("\nL1 in [0, 1]; px: mean distance of 68 points at 256 px; face, hair, backgr.: ours' L1 split.")
@@ -78,7 +78,7 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
 
 SHEET_COLUMNS, SHEET_WIDTH = 8, 2400
 """Moments side by side on a contact sheet at most, and pixels of its width."""
-DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
+COLUMN_DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
 
 
 def ablations(names: Sequence[str], pictures: Path | None) -> None:
@@ -87,12 +87,12 @@ def ablations(names: Sequence[str], pictures: Path | None) -> None:
     for path in driving_clips(names):
         with TemporaryDirectory() as folder:
             true, acting, _ = _prepared(path, Path(folder), with_self=False)
-            kept = true[::STEP]
+            kept = true[::FRAME_STEP]
             for label, parts, head_3d in ABLATIONS:
                 rig = rig_target(acting.target, acting.layers, smoothing=SMOOTHING.get(label, "confidence"))
                 options = replace(acting.options, head_3d=head_3d)
-                varied = replace(acting, rig=rig, options=options, looked=label == ALL)
-                made = list(varied.frames(parts, refined=label != FULL, step=STEP))
+                varied = replace(acting, rig=rig, options=options, looked=label == ALL_TITLE)
+                made = list(varied.frames(parts, refined=label != FULL_RATIO_TITLE, step=FRAME_STEP))
                 regions = _regional(kept, made)
                 figures[label].append([*_measures(kept, made), *(regions[r] for r in REGIONS)])
                 _save(pictures, f"ablation-{path.stem}-{label.strip('+ ').replace(' ', '_')}", kept, made)
@@ -124,7 +124,7 @@ def pair(pictures: Path | None) -> None:
 def _prepared(path: Path, folder: Path, with_self: bool) -> tuple[list[NDArray[np.uint8]], Acting, Acting]:
     """The true frames; the first one with the disguised clip; and with the clip itself where asked for."""
     measures = tool("face_measures")
-    true = measures.frames(path, FRAMES)
+    true = measures.frames(path, MAX_FRAMES)
     height, width = (side - side % 2 for side in true[0].shape[:2])
     true = [np.ascontiguousarray(frame[:height, :width]) for frame in true]
     disguised = tool("disguise").disguise(true, measures.Landmarker()(true[0]))
@@ -144,7 +144,7 @@ def _bare_warp(acting: Acting) -> list[NDArray[np.uint8]]:
     height, width = rgb.shape[:2]
     xs, ys = np.linspace(0, width - 1, 9), np.linspace(0, height - 1, 9)
     border = np.array([(x, y) for x in xs for y in ys if x in (xs[0], xs[-1]) or y in (ys[0], ys[-1])])
-    meshes = acting.track.meshes[::STEP]
+    meshes = acting.track.meshes[::FRAME_STEP]
     neutral = acting.track.meshes[acting.neutral]
     moved = carry_fiducials(align(neutral, acting.target.mesh), meshes, neutral, acting.target.mesh)[:, :468]
     points = np.concatenate([rest, border]).astype(np.float32)

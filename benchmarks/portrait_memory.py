@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.portrait_speed import CLIP, SIZE, portrait
+from benchmarks.portrait_speed import PICTURE_SIZE, SMALL_CLIP, portrait
 from benchmarks.shared_media import ROOT, media
 from benchmarks.tables import table
 from engine.export.video import VideoWriter
@@ -23,7 +23,7 @@ CLIP_SECONDS = (5, 180)
 """Lengths of the two clips that are compared."""
 MAX_GROWTH_MB = 100.0
 """Megabytes by which the peak of the longer clip may lie above the shorter one's."""
-SHELL = """
+SHELL_PROGRAM = """
 import re
 from pathlib import Path
 from shell.main import main
@@ -41,10 +41,10 @@ def memory(seconds: Sequence[float] = CLIP_SECONDS) -> None:
         folder = Path(name)
         image = portrait(folder)
         for length in seconds:
-            clip, frames = looped(media(CLIP), length, folder / f"{length:g}.mp4")
+            clip, frames = looped(media(SMALL_CLIP), length, folder / f"{length:g}.mp4")
             peaks.append(_peak(image, clip, folder))
             rows.append([f"{length:g} s", f"{frames}", f"{peaks[-1]:.0f}", f"{peaks[-1] - peaks[0]:+.0f}"])
-    title = f"Memory: a whole process, both new, {SIZE[0]}x{SIZE[1]}; the most that is resident, MB"
+    title = f"Memory: a whole process, both new, {PICTURE_SIZE[0]}x{PICTURE_SIZE[1]}; the most that is resident, MB"
     print(table(title, ["driver", "frames", "peak", "more than the first"], rows))
     print(f"\nGoal: at most {MAX_GROWTH_MB:.0f} more.")
 
@@ -67,7 +67,17 @@ def _there_and_back(frames: list[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint
 
 def _peak(image: Path, clip: Path, folder: Path) -> float:
     """Megabytes."""
-    command = [sys.executable, "-c", SHELL, "portrait", str(image), "--driver", str(clip), "-o", str(folder / "out")]
+    command = [
+        sys.executable,
+        "-c",
+        SHELL_PROGRAM,
+        "portrait",
+        str(image),
+        "--driver",
+        str(clip),
+        "-o",
+        str(folder / "out"),
+    ]
     environment = {**os.environ, "GALATEA_DATA_DIR": str(folder / clip.stem)}
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
     if done.returncode:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.contact_sheet import PAPER, Row, contact_sheet, fitted, write_sheet
+from benchmarks.contact_sheet import PAPER_GREY_LEVEL, Row, contact_sheet, fitted, write_sheet
 from benchmarks.shared_media import driving_clips, media
 from benchmarks.tables import machine
 from engine.errors import InputError
@@ -32,7 +32,7 @@ CLIPS = ("woman_funny_faces_d6", "woman_frown_surprise_d3", "man_talk_tps")
 OPTIONS: Mapping[str, Any] = {"crop": "bust", "size": (640, 640)}
 """Near enough to see lids and lips, far enough to see shoulders and walls."""
 ACTED_BY = "photo_woman_white"
-BESIDE = (
+COMPARED_PERFORMANCES = (
     ("happy", "man_grimace_d0", (0.0, 3.1)),
     ("happy-strong", "man_smile_d9", (1.5, 4.5)),
     ("surprise", "man_mouth_open_d18", (1.8, 3.5)),
@@ -40,9 +40,9 @@ BESIDE = (
     ("idle", "woman_frown_surprise_d3", (2.0, 3.5)),
 )
 """Performances, and the clips and seconds that `moments.json` marks as the same."""
-MOMENTS = 6
+SHOWN_FRAMES = 6
 """Frames that are shown of each video."""
-CELL = (220, 220)
+CELL_SIZE = (220, 220)
 """Height and width of a picture, pixels."""
 Part = tuple[float, float] | None
 """Seconds of a video; None is the whole."""
@@ -59,7 +59,7 @@ def drivers(out: Path, clips: Sequence[str], portraits: Sequence[str], options: 
                     rows.append(_acted(picture, clip, options, Path(cache)))
                 except InputError as error:
                     print(f"{picture.stem} by {clip.stem}: {error.code}")
-            write_sheet(out / f"{clip.stem}.png", contact_sheet(rows, CELL))
+            write_sheet(out / f"{clip.stem}.png", contact_sheet(rows, CELL_SIZE))
 
 
 def performances(out: Path, options: Mapping[str, Any]) -> None:
@@ -67,16 +67,16 @@ def performances(out: Path, options: Mapping[str, Any]) -> None:
     (picture,) = media("portraits").glob(f"{ACTED_BY}.*")
     rows = []
     with TemporaryDirectory() as cache:
-        for name, clip, part in BESIDE:
+        for name, clip, part in COMPARED_PERFORMANCES:
             real = media(f"driving/{clip}.mp4")
             rows += [_driven(f"built in: {name}", video(name)), _acted(picture, video(name), options, Path(cache))]
             rows.append(_driven(f"real: {clip}, {part[0]} to {part[1]} s", real, part))
             rows.append(_acted(picture, real, options, Path(cache), part))
-    write_sheet(out / "performances.png", contact_sheet(rows, CELL))
+    write_sheet(out / "performances.png", contact_sheet(rows, CELL_SIZE))
 
 
 def _driven(label: str, driver: Path, part: Part = None) -> Row:
-    return Row([np.full((1, 1, 3), PAPER, np.uint8), *_moments(driver, part)], label)
+    return Row([np.full((1, 1, 3), PAPER_GREY_LEVEL, np.uint8), *_moments(driver, part)], label)
 
 
 def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
@@ -88,9 +88,9 @@ def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path,
 
 
 def _moments(path: Path, part: Part) -> list[NDArray[np.uint8]]:
-    """`MOMENTS` frames of a part of a video, evenly spread."""
-    frames = [fitted(frame.rgb, CELL) for frame in read_video(path, trim=part)]
-    return [frames[int((k + 0.5) * len(frames) / MOMENTS)] for k in range(MOMENTS)]
+    """`SHOWN_FRAMES` frames of a part of a video, evenly spread."""
+    frames = [fitted(frame.rgb, CELL_SIZE) for frame in read_video(path, trim=part)]
+    return [frames[int((k + 0.5) * len(frames) / SHOWN_FRAMES)] for k in range(SHOWN_FRAMES)]
 
 
 def main() -> None:

@@ -22,7 +22,7 @@ from engine.portrait.options import PortraitOptions
 
 SENSOR_SIGMA = 2.0
 """Standard deviation of the sensor's noise, grey levels: a phone indoors."""
-REPEATS = 60
+STILL_FRAMES = 60
 """Frames of the still driver."""
 TARGET = "portraits/photo_woman_white.png"
 BLINK_OPENING_SHARE = 0.6
@@ -45,7 +45,7 @@ def stillness(names: Sequence[str]) -> None:
             rng = np.random.default_rng(0)
             noisy = (
                 np.clip(first + rng.normal(0, SENSOR_SIGMA, first.shape) + 0.5, 0, 255).astype(np.uint8)
-                for _ in range(REPEATS)
+                for _ in range(STILL_FRAMES)
             )
             track, neutral = read_driver(write_clip(Path(folder) / "still.mp4", noisy), target, None)
             frames = list(Acting(track, neutral, target, layers, rig, options.acting()).frames())
@@ -54,7 +54,7 @@ def stillness(names: Sequence[str]) -> None:
             jitter = track.meshes[..., :2].std(axis=0).mean()
             figures = (deviation.mean(), np.quantile(deviation, 0.99), inner.mean(), jitter)
             rows.append([path.stem, *(f"{value:.{2 + (k == 3)}f}" for k, value in enumerate(figures))])
-    title = f"Stillness: one frame {REPEATS} times, noise of {SENSOR_SIGMA:g} levels; deviation inside the face, grey levels"
+    title = f"Stillness: one frame {STILL_FRAMES} times, noise of {SENSOR_SIGMA:g} levels; deviation inside the face, grey levels"
     print(table(title, ["driver", "mean", "99 %", "without the ends", "mesh, px"], rows))
     print("\nGoal: mean <= 0.5. The target's face is that of the portrait at its own size.")
 

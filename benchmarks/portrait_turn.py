@@ -17,8 +17,8 @@ from benchmarks.tables import table
 from engine.face_animation.layers import Layers
 from engine.portrait.options import PortraitOptions
 
-SIZE = (480, 576)
-ZOOM = 1.5
+PICTURE_SIZE = (480, 576)
+HEAD_ZOOM = 1.5
 MAX_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
 REST_FRAMES = 6
 """Frames at rest in the beginning: the target and the neutral frame are of them."""
@@ -34,8 +34,8 @@ def turn(pictures: Path | None) -> None:
         + list(np.linspace(0, -MAX_DEGREES, 11)[1:])
         + list(np.linspace(-MAX_DEGREES, MAX_DEGREES, 21)[1:])
     )
-    background = np.repeat(wall(SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
-    rendered = [render_head(scan, angle, SIZE, background, ZOOM) for angle in angles]
+    background = np.repeat(wall(PICTURE_SIZE[::-1])[..., None], 3, axis=2).astype(np.uint8)
+    rendered = [render_head(scan, angle, PICTURE_SIZE, background, HEAD_ZOOM) for angle in angles]
     true = [picture for picture, _ in rendered]
     at = [
         REST_FRAMES - 1 + int(np.abs(np.subtract(angles[REST_FRAMES - 1 :], degrees)).argmin())

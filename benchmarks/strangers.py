@@ -13,7 +13,7 @@ from io import BytesIO
 
 from PIL import Image
 
-NAMELESS = "00000000-0000-7000-8000-000000000000"
+UNKNOWN_ID = "00000000-0000-7000-8000-000000000000"
 """An id that nothing has."""
 
 
@@ -66,7 +66,7 @@ def picture() -> bytes:
 def forms() -> Iterator[Sent]:
     """Multipart bodies."""
     png = picture()
-    for path in ("/v1/jobs", "/v1/files", "/v1/drivers", f"/v1/jobs/{NAMELESS}/revisions"):
+    for path in ("/v1/jobs", "/v1/files", "/v1/drivers", f"/v1/jobs/{UNKNOWN_ID}/revisions"):
         yield form(f"30,000 fields to {path}", [part(f'name="f{i}"') for i in range(30_000)], path)
     yield form("30,000 fields of one name", [part('name="f"') for _ in range(30_000)])
     yield form("30,000 files", [part('name="image"; filename="a.png"', png[:9]) for _ in range(30_000)])
@@ -101,8 +101,8 @@ def documents() -> Iterator[Sent]:
     some = {f"u{i}": i for i in range(3000)}
     for method, path in (
         ("POST", "/v1/jobs"), ("POST", "/v1/webhooks"), ("POST", "/v1/keys"), ("POST", "/v1/drivers"),
-        ("POST", "/v1/motions"), ("POST", "/v1/session"), ("POST", f"/v1/jobs/{NAMELESS}/links"),
-        ("POST", f"/v1/jobs/{NAMELESS}/revisions"), ("PATCH", f"/v1/webhooks/{NAMELESS}"),
+        ("POST", "/v1/motions"), ("POST", "/v1/session"), ("POST", f"/v1/jobs/{UNKNOWN_ID}/links"),
+        ("POST", f"/v1/jobs/{UNKNOWN_ID}/revisions"), ("PATCH", f"/v1/webhooks/{UNKNOWN_ID}"),
     ):  # fmt: skip
         yield document(f"60,000 unknown names to {path}", many, path, method)
         yield document(f"3,000 unknown names to {path}", some, path, method)
@@ -148,7 +148,7 @@ def options() -> Iterator[Sent]:
     }  # fmt: skip
     for kind, media, offered in (("portrait", "image", portrait), ("character", "photo", character)):
         for name, value in offered.items():
-            asked = {"kind": kind, "inputs": {media: NAMELESS}, "options": {name: value}}
+            asked = {"kind": kind, "inputs": {media: UNKNOWN_ID}, "options": {name: value}}
             text = json.dumps(asked).replace("Infinity", "1e999")
             yield document(f"{kind}: {name[:40]}", text.encode())
         asked = {"kind": kind, "options": {f"strngth{i}": 1 for i in range(40_000)}}
@@ -163,7 +163,7 @@ def options() -> Iterator[Sent]:
         "an address of 900 kB": {"image": "https://" + "a." * 450_000 + "example"},
         "an address of 900 kB without dots": {"image": "https://" + "a" * 900_000},
         "a name of 900 kB": {"image": "a" * 900_000},
-        "slashes": {"image": NAMELESS, "driver": "a/" * 400_000},
+        "slashes": {"image": UNKNOWN_ID, "driver": "a/" * 400_000},
     }
     for what, given in inputs.items():
         yield document(what, {"kind": "portrait", "inputs": given})
@@ -173,14 +173,14 @@ def options() -> Iterator[Sent]:
         "metadata with a number of 4,000 digits": {"a": 10**4000},
         "metadata with lines": {"a": [1] * 300_000},
     }.items():
-        yield document(what, {"kind": "portrait", "inputs": {"image": NAMELESS}, "metadata": notes})
+        yield document(what, {"kind": "portrait", "inputs": {"image": UNKNOWN_ID}, "metadata": notes})
     yield document("metadata with an infinite number", b'{"kind": "portrait", "metadata": {"a": -1e999}}')
     yield document("100,000 events", {"kind": "portrait", "webhook_events": ["job.succeeded"] * 50_000})
 
 
 def corrections() -> Iterator[Sent]:
     """Revisions."""
-    path = f"/v1/jobs/{NAMELESS}/revisions"
+    path = f"/v1/jobs/{UNKNOWN_ID}/revisions"
     yield document("60,000 corrections", {"corrections": {f"c{i}": 1 for i in range(60_000)}}, path)
     yield document("a correction 400 deep", {"corrections": {"joints": nested(400)}}, path)
     yield document("a correction's name with a NUL", b'{"corrections": {"a\\u0000": 1}}', path)
@@ -254,7 +254,7 @@ def pieces() -> Iterator[Sent]:
     ):  # fmt: skip
         yield Sent(f"{name}: {value[:20]!r}", "POST", "/v1/uploads", (), {**tus, name: value})
     yield Sent(
-        "Upload-Offset of 60,000 digits", "PATCH", f"/v1/uploads/{NAMELESS}", (b"a",),
+        "Upload-Offset of 60,000 digits", "PATCH", f"/v1/uploads/{UNKNOWN_ID}", (b"a",),
         {**tus, "Upload-Offset": "9" * 60_000, "Content-Type": "application/offset+octet-stream"},
     )  # fmt: skip
     yield Sent(

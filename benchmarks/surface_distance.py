@@ -12,13 +12,13 @@ from trimesh.triangles import closest_point
 from engine.geometry.rigid import Similarity, fit_similarity
 from engine.render.rasteriser import depth_map
 
-SAMPLES = 40_000
+SURFACE_SAMPLES = 40_000
 """Points drawn on a surface."""
 ALIGNMENT_SAMPLES, ALIGNMENT_ROUNDS = 4_000, 40
 """Points by which two surfaces are aligned, and rounds of it."""
 VIEW_PIXELS, SURFACE_TOLERANCE = 500, 0.006
 """Pixels of the views that tell what lies outside, and metres (of a body 1.8 m high) that still count as the surface."""
-CANDIDATES = 6
+CANDIDATE_TRIANGLES = 6
 """Triangles, of the nearest samples, in which the nearest point of a surface is looked for."""
 
 
@@ -53,8 +53,8 @@ def sample_outside(vertices: NDArray[np.floating], triangles: NDArray[np.integer
     corners = np.asarray(vertices, np.float64)[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     areas = np.linalg.norm(cross, axis=1)
-    at = random.choice(len(corners), SAMPLES, p=areas / areas.sum())
-    a, b = np.sqrt(random.random(SAMPLES)), random.random(SAMPLES)
+    at = random.choice(len(corners), SURFACE_SAMPLES, p=areas / areas.sum())
+    a, b = np.sqrt(random.random(SURFACE_SAMPLES)), random.random(SURFACE_SAMPLES)
     weights = np.stack([1 - a, a * (1 - b), a * b], 1)
     points = np.einsum("nk,nkd->nd", weights, corners[at])
     towards = _towards_views(np.asarray(vertices, np.float64), triangles, points)
@@ -118,10 +118,10 @@ def compare(made: Sampled, truth: Sampled) -> Distances:
 
 def _to_surface(samples: Sampled, surface: Sampled) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """From each point the distance to the nearest of the surface's triangles, and the angle of the normals there."""
-    near = np.asarray(cKDTree(surface.points).query(samples.points, k=CANDIDATES)[1])
+    near = np.asarray(cKDTree(surface.points).query(samples.points, k=CANDIDATE_TRIANGLES)[1])
     away = np.stack([
         np.linalg.norm(closest_point(surface.triangles[near[:, k]], samples.points) - samples.points, axis=1)
-        for k in range(CANDIDATES)
+        for k in range(CANDIDATE_TRIANGLES)
     ])  # fmt: skip
     best: NDArray[np.intp] = np.argmin(away, axis=0)
     each = np.arange(len(best))

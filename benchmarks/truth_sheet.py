@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 CELL_HEIGHT, CELL_METRES = 360, 2.1
 """Pixels and metres of a cell's height."""
-VIEWS = (90.0, 35.0)
+VIEW_DEGREES = (90.0, 35.0)
 """Degrees by which the surfaces are turned."""
-MISSED, TOO_MUCH, BOTH = (230, 60, 50), (50, 90, 230), (210, 210, 210)
+MISSED_RGB, EXCESS_RGB, SHARED_RGB = (230, 60, 50), (50, 90, 230), (210, 210, 210)
 """RGB of what the mask lacks, of what it has beyond the truth, and of what both have."""
 
 
@@ -35,12 +35,12 @@ def _row(result: Result) -> Row:
     known, surfaces = result.known, result.surfaces
     found, true = result.mask > 0.5, known.alpha > 0.5
     mask = np.full((*true.shape, 3), 30, np.uint8)
-    for region, colour in ((found & true, BOTH), (true & ~found, MISSED), (found & ~true, TOO_MUCH)):
+    for region, colour in ((found & true, SHARED_RGB), (true & ~found, MISSED_RGB), (found & ~true, EXCESS_RGB)):
         mask[region] = colour
     cells = [at_height(picture, CELL_HEIGHT) for picture in (known.rgb, mask)]
     person = known.person
     truth = person.vertices * (1.8 / person.height)
-    for degrees in VIEWS:
+    for degrees in VIEW_DEGREES:
         for vertices, triangles in (
             (truth, person.triangles),
             (result.aligned[0], surfaces.made[1]),

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.skeleton import Skeleton
 
-TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
-WIDTHS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
+COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
+COMPONENT_COUNTS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
 SUPERSAMPLING, FRACTION_BITS = 8, 4
 """How many times larger an outline is drawn, and the bits of OpenCV's fractions of a pixel."""
 FILL_OVERHANG = 0.5 / SUPERSAMPLING
@@ -91,7 +91,7 @@ class _Glb:
     def array(self, index: int) -> NDArray[Any]:
         accessor = self.json["accessors"][index]
         view = self.json["bufferViews"][accessor["bufferView"]]
-        kind, width = TYPES[accessor["componentType"]], WIDTHS[accessor["type"]]
+        kind, width = COMPONENT_TYPES[accessor["componentType"]], COMPONENT_COUNTS[accessor["type"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         found: NDArray[Any] = np.frombuffer(self._binary, kind, accessor["count"] * width, start).reshape(-1, width)
         return found / np.iinfo(kind).max if accessor.get("normalized") else found

@@ -8,16 +8,16 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-UNUSED = [name for name in ("coverage", "yaml") if name not in sys.modules]
+UNUSED_MODULES = [name for name in ("coverage", "yaml") if name not in sys.modules]
 """What numba loads only because it is there; its settings come from the environment here, not from a file."""
 
-for name in UNUSED:
+for name in UNUSED_MODULES:
     sys.modules[name] = None  # type: ignore[assignment]
 import numba
 from numba.core.caching import FunctionCache
 from numba.core.runtime.nrt import rtsys
 
-for name in UNUSED:
+for name in UNUSED_MODULES:
     del sys.modules[name]
 
 

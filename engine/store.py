@@ -25,7 +25,7 @@ from engine.errors import Notice
 
 T = TypeVar("T")
 
-IN_USE = 3600.0
+IN_USE_SECONDS = 3600.0
 """Seconds since its last use within which an output is not erased."""
 
 
@@ -97,7 +97,7 @@ class StageStore:
         """Erase what a killed process began to store; what another may just be storing stays."""
         for draft in self.folder.glob(".draft-*"):
             with suppress(FileNotFoundError):
-                if draft.stat().st_mtime < time.time() - IN_USE:
+                if draft.stat().st_mtime < time.time() - IN_USE_SECONDS:
                     shutil.rmtree(draft, ignore_errors=True)
 
     def _publish(self, draft: Path, key: str) -> None:
@@ -116,7 +116,7 @@ def trim(stores: Iterable[Path], most: float) -> None:
     """
     entries = sorted(_entries(stores))
     total = sum(size for _, size, _ in entries)
-    limit = time.time() - IN_USE
+    limit = time.time() - IN_USE_SECONDS
     for used, size, folder in entries:
         draft = folder.name.startswith(".draft-")
         if used > limit or (total <= most and not draft):

@@ -16,14 +16,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 STANDARD_ERROR = 2
-NOISE = re.compile(
+NOISE_PATTERN = re.compile(
     rb"[IWE]\d{4} [\d:. ]+ +\d+ \S+\.(?:cc|cpp|h):\d+\] |(?:INFO: )?Created TensorFlow Lite |WARNING: All log mess"
 )
-MAYBE = re.compile(
+NOISE_BEGINNING = re.compile(
     rb"(?:[IWE]\d{0,4}|[IWE]\d{4} .*|INFO: Cre.*|WARNING: All.*|I|IN|INF|INFO:?|INFO: (?:C|Cr)?|W|WA|WAR)$"
 )
 """A line's beginning that may yet turn out to be theirs."""
-PIECE = 1 << 16
+PIECE_BYTES = 1 << 16
 
 
 class _Sieve:
@@ -97,7 +97,7 @@ def _pass_on(source: int, target: int, wake: int, passed: threading.Event) -> No
                 selector.register(descriptor, selectors.EVENT_READ)
             while True:
                 ready = {key.fd for key, _ in selector.select(0 if ending else None)}
-                text = os.read(source, PIECE) if source in ready else b""
+                text = os.read(source, PIECE_BYTES) if source in ready else b""
                 rest = sift(rest + text, target)
                 if source in ready and not text:
                     break
@@ -116,7 +116,7 @@ def _pass_on(source: int, target: int, wake: int, passed: threading.Event) -> No
 
 def _told(rest: bytes, target: int) -> bytes:
     """Pass on what was held back, unless it is noise; nothing is then."""
-    if not NOISE.match(rest):
+    if not NOISE_PATTERN.match(rest):
         _write(target, rest)
     return b""
 
@@ -124,8 +124,8 @@ def _told(rest: bytes, target: int) -> bytes:
 def sift(text: bytes, target: int) -> bytes:
     """Pass on all but noise; returns the beginning of a line of which that cannot be told yet."""
     *lines, rest = text.split(b"\n")
-    kept = b"".join(line + b"\n" for line in lines if not NOISE.match(line))
-    held = MAYBE.match(rest)
+    kept = b"".join(line + b"\n" for line in lines if not NOISE_PATTERN.match(line))
+    held = NOISE_BEGINNING.match(rest)
     _write(target, kept if held else kept + rest)
     return rest if held else b""
 

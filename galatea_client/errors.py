@@ -88,7 +88,7 @@ class JobFailed(GalateaError):
         super().__init__(f"{self.code}: {self.detail}")
 
 
-CLASSES: dict[int, type[ApiError]] = {
+STATUS_CLASSES: dict[int, type[ApiError]] = {
     **dict.fromkeys((400, 405, 413, 415, 416, 422), InvalidRequest),
     **dict.fromkeys((401, 403), NotAllowed),
     **dict.fromkeys((404, 410), NotFound),
@@ -100,7 +100,7 @@ CLASSES: dict[int, type[ApiError]] = {
 def error_of(response: httpx.Response) -> ApiError:
     """The exception for an answer that has been read and is an error."""
     status = response.status_code
-    kind = CLASSES.get(status, Unavailable if status >= 500 else ApiError)
+    kind = STATUS_CLASSES.get(status, Unavailable if status >= 500 else ApiError)
     try:
         document = response.json()
         return kind(status, document["code"], document["detail"], document.get("errors"), document.get("request_id"))

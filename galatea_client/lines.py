@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 import httpx
 
 T = TypeVar("T")
-END: Any = object()
+END_OF_LINES: Any = object()
 
 OnSent = Callable[[], None]
 """Called whenever a piece of a request's body is about to be sent."""
@@ -150,7 +150,7 @@ class _ReadAside(httpx.AsyncByteStream):
 
     async def __aiter__(self) -> AsyncIterator[bytes]:
         pieces = iter(self._body)
-        while (piece := await asyncio.to_thread(next, pieces, END)) is not END:
+        while (piece := await asyncio.to_thread(next, pieces, END_OF_LINES)) is not END_OF_LINES:
             self._sent()
             yield piece
 
@@ -170,13 +170,13 @@ def each(items: AsyncGenerator[T]) -> Generator[T]:
     """What an asynchronous generator over a blocking line yields."""
 
     async def following() -> T:
-        return await anext(items, END)
+        return await anext(items, END_OF_LINES)
 
     async def close() -> None:
         await items.aclose()
 
     try:
-        while (item := run(following())) is not END:
+        while (item := run(following())) is not END_OF_LINES:
             yield item
     finally:
         run(close())

@@ -16,7 +16,7 @@ from galatea_client.errors import DownloadBroken, Unreachable
 from galatea_client.lines import Line
 from galatea_client.transport import Transport
 
-PIECE = 1 << 16
+PIECE_BYTES = 1 << 16
 PAUSE_SECONDS = 0.5
 
 Upload = str | Path | bytes | bytearray | BinaryIO
@@ -98,7 +98,7 @@ async def _write(
 ) -> None:
     with part.open("ab") as file:
         file.truncate(start)
-        async for piece in line.pieces(response, PIECE):
+        async for piece in line.pieces(response, PIECE_BYTES):
             await line.aside(file.write, piece)
             if progress is not None:
                 progress(file.tell(), size)

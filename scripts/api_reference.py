@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent))  # mkdocs runs hooks from 
 
 from scripts.openapi import document as openapi
 
-METHODS = ("get", "head", "options", "post", "put", "patch", "delete")
+HTTP_METHODS = ("get", "head", "options", "post", "put", "patch", "delete")
 Document = Mapping[str, Any]
 
 
@@ -38,7 +38,7 @@ def reference(document: Document) -> dict[str, str]:
     """Every page by its name, in Markdown."""
     tags: dict[str, list[str]] = {}
     for path, item in document["paths"].items():
-        for method in METHODS:
+        for method in HTTP_METHODS:
             if method in item:
                 operation = item[method]
                 tag = operation.get("tags", ["other"])[0]
@@ -58,7 +58,7 @@ def _overview(document: Document) -> str:
         "| --- | --- | --- |",
     ]
     for path, item in document["paths"].items():
-        for method in METHODS:
+        for method in HTTP_METHODS:
             if method in item:
                 operation = item[method]
                 page = f"{operation.get('tags', ['other'])[0]}.md#{operation['operationId']}"
@@ -128,11 +128,11 @@ def _type(schema: Document) -> str:
     if isinstance(schema.get("additionalProperties"), dict) and "properties" not in schema:
         return f"object of {_type(schema['additionalProperties'])}"
     known = schema.get("type", "anything" if schema else "")
-    bounds = [f"{word} {schema[key]}" for key, word in BOUNDS.items() if key in schema]
+    bounds = [f"{word} {schema[key]}" for key, word in BOUND_SIGNS.items() if key in schema]
     return " ".join([known, *([f"({schema['format']})"] if "format" in schema else []), *bounds])
 
 
-BOUNDS = {
+BOUND_SIGNS = {
     "minimum": "≥",
     "exclusiveMinimum": ">",
     "maximum": "≤",

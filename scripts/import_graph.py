@@ -18,9 +18,9 @@ from pathlib import Path
 from statistics import median
 
 PACKAGES = ("engine", "service", "worker", "shell")
-PAGE = Path("web", "src")
+PAGE_FOLDER = Path("web", "src")
 
-GENERATED = re.compile("not to be edited")
+GENERATED_HEADER = re.compile("not to be edited")
 """How a file begins that nobody has written."""
 
 PAGE_IMPORT = re.compile(r"""(\bfrom\s+|\bimport\s*\(?)\s*["'](\.[^"']*)["']""")
@@ -70,7 +70,7 @@ def page_files(folder: Path) -> list[File]:
     files = []
     for name, path in paths.items():
         text = path.read_text()
-        if GENERATED.search(text[:200]):
+        if GENERATED_HEADER.search(text[:200]):
             continue
         loaded, fetched = set[str](), set[str]()
         for how, given in PAGE_IMPORT.findall(text):
@@ -159,7 +159,7 @@ def row(name: str, files: list[File], order: list[tuple[frozenset[str], bool]]) 
     return "| " + " | ".join(map(str, [name, *numbers])) + " |"
 
 
-HEAD = """\
+TABLE_HEAD = """\
 | | files | rooms | imports between rooms | circles | arrows up | file, median | longest | function, median | longest |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"""
 
@@ -206,8 +206,8 @@ def main() -> None:
     parser.add_argument("--root", type=Path, default=Path(), help="the checkout")
     given = parser.parse_args()
     houses = {package: python_files(given.root, package) for package in PACKAGES}
-    houses["page"] = page_files(given.root / PAGE)
-    print(HEAD)
+    houses["page"] = page_files(given.root / PAGE_FOLDER)
+    print(TABLE_HEAD)
     for name, files in houses.items():
         print(row(name, files, layers(given.root, name)))
     for name, files in houses.items() if given.arrows else ():

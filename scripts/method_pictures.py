@@ -27,26 +27,26 @@ from engine.performances import video
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 
-OUT = Path(__file__).parent.parent / "docs" / "pictures"
-PERFORMANCE, SECONDS = "surprise", 1.25
-SIDE = 440
-INK, DOT = (20, 90, 200), (230, 60, 40)
-QUALITY = 78
+OUT_FOLDER = Path(__file__).parent.parent / "docs" / "pictures"
+SHOWN_PERFORMANCE, SHOWN_SECONDS = "surprise", 1.25
+SIDE_PIXELS = 440
+INK_RGB, DOT_RGB = (20, 90, 200), (230, 60, 40)
+JPEG_QUALITY = 78
 
 Picture = NDArray[np.uint8]
 
 
 def main() -> None:
     """Write every picture."""
-    options = PortraitOptions(crop="bust", size=(SIDE, SIDE))
+    options = PortraitOptions(crop="bust", size=(SIDE_PIXELS, SIDE_PIXELS))
     target = find_target_face(_portrait(), options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
     rig = rig_target(target, layers)
-    track = track_driver(video(PERFORMANCE), None, (0.0, SECONDS + 0.5), Limits())
+    track = track_driver(video(SHOWN_PERFORMANCE), None, (0.0, SHOWN_SECONDS + 0.5), Limits())
     neutral = choose_neutral_frame(track, target.mesh, None).frame
     register_track(track, neutral)
     ratios = list(keep_ratio_images(track, neutral))
-    frame = round(SECONDS * track.fps)
+    frame = round(SHOWN_SECONDS * track.fps)
 
     def drawn(parts: Parts) -> Picture:
         animation = FaceAnimation(target, layers, rig, track, neutral, options.acting(), parts=parts)
@@ -80,7 +80,7 @@ def _portrait() -> Path:
 def _write(name: str, *pictures: Picture) -> None:
     gap = np.full((pictures[0].shape[0], 8, 3), 255, np.uint8)
     row = [one for picture in pictures for one in (picture, gap)][:-1]
-    Image.fromarray(np.hstack(row)).save(OUT / f"{name}.jpg", quality=QUALITY, optimize=True)
+    Image.fromarray(np.hstack(row)).save(OUT_FOLDER / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)
 
 
 def _faded(rgb: Picture) -> Picture:
@@ -93,15 +93,15 @@ def _dots(target: TargetFace, rig: Rig, offsets: NDArray[np.float32]) -> Picture
     for start, offset, usable in zip(rig.control.points, offsets, rig.control.usable, strict=True):
         if usable:
             end = start + offset
-            cv2.line(picture, _pixel(start), _pixel(end), INK, 1, cv2.LINE_AA, 3)
-            cv2.circle(picture, _pixel(end), 10, DOT, -1, cv2.LINE_AA, 3)
+            cv2.line(picture, _pixel(start), _pixel(end), INK_RGB, 1, cv2.LINE_AA, 3)
+            cv2.circle(picture, _pixel(end), 10, DOT_RGB, -1, cv2.LINE_AA, 3)
     return picture
 
 
 def _wires(target: TargetFace, rig: Rig, offsets: NDArray[np.float32]) -> Picture:
     picture = _faded(target.rgb)
     points = np.round((rig.mesh.vertices + offsets) * 8).astype(np.int32)
-    cv2.polylines(picture, list(points[rig.mesh.triangles]), True, INK, 1, cv2.LINE_AA, 3)
+    cv2.polylines(picture, list(points[rig.mesh.triangles]), True, INK_RGB, 1, cv2.LINE_AA, 3)
     return picture
 
 

@@ -12,15 +12,15 @@ from pydantic import BaseModel
 from engine.character import CharacterOptions
 from engine.portrait import PortraitOptions
 
-OUT = Path(__file__).parent.parent / "galatea" / "options.py"
-HEAD = '''"""The options of the calls, for a type checker. `python -m scripts.option_types` draws them from the engine's models."""
+OUT_FILE = Path(__file__).parent.parent / "galatea" / "options.py"
+FILE_HEAD = '''"""The options of the calls, for a type checker. `python -m scripts.option_types` draws them from the engine's models."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict
 '''
-CALLS: Mapping[str, tuple[type[BaseModel], tuple[str, ...]]] = {
+CALL_OPTIONS: Mapping[str, tuple[type[BaseModel], tuple[str, ...]]] = {
     "PortraitOptions": (PortraitOptions, ()),
     "CharacterOptions": (CharacterOptions, ("motion",)),  # an argument of its own, which may be a file
 }
@@ -56,8 +56,8 @@ def _quoted(value: object) -> str:
 
 def written() -> str:
     """The text of the file."""
-    parts = [HEAD]
-    for name, (model, apart) in CALLS.items():
+    parts = [FILE_HEAD]
+    for name, (model, apart) in CALL_OPTIONS.items():
         parts.append(f'\n\nclass {name}(TypedDict, total=False):\n    """{(model.__doc__ or "").split(";")[0]}."""\n\n')
         parts += [
             f"    {option}: {spelled(field.annotation)}\n"
@@ -68,4 +68,4 @@ def written() -> str:
 
 
 if __name__ == "__main__":
-    OUT.write_text(written())
+    OUT_FILE.write_text(written())

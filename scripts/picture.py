@@ -15,12 +15,12 @@ from engine.media.video import probe_video, read_video
 from engine.performances import video
 from galatea import animate
 
-OUT = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
-MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
+OUT_FILE = Path(__file__).parent.parent / "docs" / "pictures" / "portrait.jpg"
+SHOWN_MOMENTS = (("happy", 0.8), ("happy", 1.9), ("surprise", 1.25), ("surprise", 1.85))
 """Performance, and seconds into it."""
-SIDE = 250
+SIDE_PIXELS = 250
 """Of one frame, pixels; the portrait itself is twice as large."""
-QUALITY = 85
+JPEG_QUALITY = 85
 
 
 def main() -> None:
@@ -31,23 +31,25 @@ def main() -> None:
     above, below = [], []
     with TemporaryDirectory() as folder:
         made = {
-            name: _frames(animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE, 2 * SIDE)).path)
-            for name in {name for name, _ in MOMENTS}
+            name: _frames(
+                animate(portrait, name, Path(folder) / name, crop="bust", size=(2 * SIDE_PIXELS, 2 * SIDE_PIXELS)).path
+            )
+            for name in {name for name, _ in SHOWN_MOMENTS}
         }
-        for name, seconds in MOMENTS:
+        for name, seconds in SHOWN_MOMENTS:
             index = round(seconds * probe_video(video(name)).fps)
             above.append(_square(_frames(video(name))[index]))
             below.append(_square(made[name][index]))
-        still = _square(made["happy"][0], 2 * SIDE)
-    OUT.parent.mkdir(parents=True, exist_ok=True)
-    write_image(OUT, np.hstack([still, np.vstack([np.hstack(above), np.hstack(below)])]), quality=QUALITY)
+        still = _square(made["happy"][0], 2 * SIDE_PIXELS)
+    OUT_FILE.parent.mkdir(parents=True, exist_ok=True)
+    write_image(OUT_FILE, np.hstack([still, np.vstack([np.hstack(above), np.hstack(below)])]), quality=JPEG_QUALITY)
 
 
 def _frames(path: Path) -> list[NDArray[np.uint8]]:
     return [frame.rgb.copy() for frame in read_video(path)]
 
 
-def _square(rgb: NDArray[np.uint8], width: int = SIDE) -> NDArray[np.uint8]:
+def _square(rgb: NDArray[np.uint8], width: int = SIDE_PIXELS) -> NDArray[np.uint8]:
     side = min(rgb.shape[:2])
     left = (rgb.shape[1] - side) // 2
     part = np.ascontiguousarray(rgb[:side, left : left + side])

@@ -19,12 +19,12 @@ from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
 
 Colour = tuple[int, int, int]
-SIZE = (1920, 1440)
+CANVAS_SIZE = (1920, 1440)
 """Height and width while it is drawn and painted, pixels; then it is made half as large."""
-SOLE = (224, 216, 204)
-HEM, EDGE = 0.34, 0.15
+SOLE_RGB = (224, 216, 204)
+HEM_SHARE, SOLE_SHARE = 0.34, 0.15
 """Shares of a foot's height that trousers cover and that the sole takes."""
-BRUSH, STEPS = 4, 1
+BRUSH_PIXELS, TONE_STEP = 4, 1
 """Radius of the brush in pixels, and how finely it tells tones apart (see `cv2.xphoto.oilPainting`)."""
 
 
@@ -40,7 +40,12 @@ class Figure:
     lips: Colour
 
 
-OPEN = ARMS_DOWN | {"LeftArm": (0, 0, -52), "RightArm": (0, 0, 52), "LeftUpLeg": (0, 0, 4), "RightUpLeg": (0, 0, -4)}
+OPEN_POSE = ARMS_DOWN | {
+    "LeftArm": (0, 0, -52),
+    "RightArm": (0, 0, 52),
+    "LeftUpLeg": (0, 0, 4),
+    "RightUpLeg": (0, 0, -4),
+}
 
 FIGURES = (
     Figure(
@@ -48,7 +53,7 @@ FIGURES = (
         Look(
             "woman",
             Phenotype(0.45, 0.0, 0.5, 0.27, 0.6),
-            OPEN,
+            OPEN_POSE,
             (176, 58, 62),
             (44, 58, 92),
             (226, 178, 148),
@@ -65,7 +70,7 @@ FIGURES = (
         Look(
             "man",
             Phenotype(0.5, 1.0, 0.55, 0.38, 0.65),
-            OPEN,
+            OPEN_POSE,
             (62, 112, 104),
             (92, 82, 70),
             (150, 104, 76),
@@ -87,24 +92,24 @@ def paint_figure(figure: Figure) -> NDArray[np.uint8]:
     camera = alone.camera
     drawn = draw_into(person, contact(behind(figure, person, camera), alone), shadow=False)
     picture = hairline(figure, replace(drawn, rgb=features(figure, shoes(figure, drawn))))
-    painted = cv2.xphoto.oilPainting(np.ascontiguousarray(picture[..., ::-1]), BRUSH, STEPS)[..., ::-1]
+    painted = cv2.xphoto.oilPainting(np.ascontiguousarray(picture[..., ::-1]), BRUSH_PIXELS, TONE_STEP)[..., ::-1]
     (x, y), tall = head(person, camera)
-    fine = np.zeros(SIZE, np.float32)  # a small brush for the face
+    fine = np.zeros(CANVAS_SIZE, np.float32)  # a small brush for the face
     cv2.ellipse(fine, (round(x), round(y)), (round(0.45 * tall), round(0.6 * tall)), 0, 0, 360, 1.0, -1)
     fine = cv2.GaussianBlur(fine, (0, 0), 0.08 * tall)[..., None]
     whole = np.ascontiguousarray(painted * (1 - fine) + picture * fine, np.float32)
-    small = cv2.resize(whole, (SIZE[1] // 2, SIZE[0] // 2), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(whole, (CANVAS_SIZE[1] // 2, CANVAS_SIZE[0] // 2), interpolation=cv2.INTER_AREA)
     return canvas(np.asarray(small, np.uint8))
 
 
 def room(figure: Figure) -> NDArray[np.uint8]:
     """A wall that is lit from the left, and a floor."""
-    y, x = np.mgrid[: SIZE[0], : SIZE[1]].astype(np.float32) / SIZE[0]
+    y, x = np.mgrid[: CANVAS_SIZE[0], : CANVAS_SIZE[1]].astype(np.float32) / CANVAS_SIZE[0]
     light = 0.8 + 0.28 * np.exp(-(((x - 0.3) / 0.45) ** 2 + ((y - 0.35) / 0.5) ** 2))
     wall = light[..., None] * np.array(figure.wall, np.float32)
     depth = np.clip((y - 0.8) / 0.2, 0, 1)
     floor = (0.82 + 0.25 * depth)[..., None] * np.array(figure.floor, np.float32)
-    edge = np.clip((y - 0.8) * SIZE[0] / 12 + 0.5, 0, 1)[..., None]
+    edge = np.clip((y - 0.8) * CANVAS_SIZE[0] / 12 + 0.5, 0, 1)[..., None]
     return np.clip(wall * (1 - edge) + floor * edge, 0, 255).astype(np.uint8)
 
 
@@ -138,7 +143,7 @@ def feet(drawn: KnownPicture) -> list[NDArray[np.uint8]]:
         skin = template.vertices_of("body")  # what else moves with a foot is no part of it
         foot = skin[np.char.startswith(moved[skin], f"{side}Foot") | np.char.startswith(moved[skin], f"{side}Toe")]
         outline = cv2.convexHull(np.rint(drawn.camera.project(drawn.person.vertices[foot])[:, :2]).astype(np.int32))
-        shape = np.zeros(SIZE, np.uint8)
+        shape = np.zeros(CANVAS_SIZE, np.uint8)
         cv2.fillPoly(shape, [outline], 255)
         shape = cv2.dilate(shape, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (13, 13)))
         shapes.append(np.where(cv2.GaussianBlur(shape, (0, 0), 7) > 127, 255, 0).astype(np.uint8))
@@ -147,7 +152,7 @@ def feet(drawn: KnownPicture) -> list[NDArray[np.uint8]]:
 
 def contact(floor: NDArray[np.uint8], drawn: KnownPicture) -> NDArray[np.uint8]:
     """The room with what light the feet keep from the floor right beside them: no further, so that it goes when they go."""
-    under = np.zeros(SIZE, np.uint8)
+    under = np.zeros(CANVAS_SIZE, np.uint8)
     for shape in feet(drawn):
         tall = int(np.ptp(np.nonzero(shape.any(1))[0]))
         shape[: int(np.nonzero(shape.any(1))[0].max()) - tall // 4] = 0  # the sole
@@ -163,13 +168,13 @@ def shoes(figure: Figure, drawn: KnownPicture) -> KnownPicture:
         rows, columns = np.nonzero(shape)
         top, bottom, middle = int(rows.min()), int(rows.max()), round(float(columns.mean()))
         tall, wide = bottom - top, int(np.ptp(columns))
-        share = np.clip((np.arange(SIZE[0]) - top) / tall, 0, 1)[:, None, None]
-        across = np.clip((np.arange(SIZE[1]) - middle) / (wide / 2), -1, 1)[None, :, None]
+        share = np.clip((np.arange(CANVAS_SIZE[0]) - top) / tall, 0, 1)[:, None, None]
+        across = np.clip((np.arange(CANVAS_SIZE[1]) - middle) / (wide / 2), -1, 1)[None, :, None]
         round_light = 1.12 - 0.45 * (across + 0.25) ** 2
         leather = round_light * (1.2 - 0.35 * share) * np.array(figure.look.shoes, np.float32)
         cloth = round_light * (0.95 - 0.5 * share) * np.array(figure.look.trousers, np.float32)
-        sole = (0.95 - 0.25 * across**2) * np.array(SOLE, np.float32)
-        parts = np.where(share < HEM, cloth, np.where(share > 1 - EDGE, sole, leather))
+        sole = (0.95 - 0.25 * across**2) * np.array(SOLE_RGB, np.float32)
+        parts = np.where(share < HEM_SHARE, cloth, np.where(share > 1 - SOLE_SHARE, sole, leather))
         picture = np.where(shape[..., None] > 0, np.clip(parts, 0, 255), picture).astype(np.uint8)
         seam = (middle, bottom - round(0.1 * tall)), (round(0.36 * wide), round(0.3 * tall))
         cap = tuple(int(0.7 * c) for c in figure.look.shoes)
@@ -218,7 +223,7 @@ def features(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
         cv2.LINE_AA,
     )
     mixed = cv2.addWeighted(picture, 0.3, over, 0.7, 0)
-    return np.asarray(cv2.resize(mixed, SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(mixed, CANVAS_SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def hairline(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
@@ -254,7 +259,7 @@ def hairline(figure: Figure, drawn: KnownPicture) -> NDArray[np.uint8]:
                     ]
                 )
                 hair(smooth(way) * [side, 1], 0.011)
-    return np.asarray(cv2.resize(picture, SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(picture, CANVAS_SIZE[::-1], interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def smooth(way: NDArray[np.float64], rounds: int = 3) -> NDArray[np.float64]:

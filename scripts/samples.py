@@ -22,15 +22,15 @@ from galatea import animate, wake_up
 from scripts.sample_figures import FIGURES, paint_figure
 from scripts.sample_portraits import painted_actor, rendered_actor
 
-OUT = Path(__file__).parent.parent / "web" / "public" / "samples"
-QUALITY = 90
-SMALL = 176
+OUT_FOLDER = Path(__file__).parent.parent / "web" / "public" / "samples"
+JPEG_QUALITY = 90
+THUMBNAIL_PIXELS = 176
 """Side of the small squares by which a sample is chosen, pixels: twice what they measure on the page."""
-TALL = 600
+CROPPED_HEIGHT = 600
 """Height of a picture of which a part is taken, pixels: faces are to be seen well."""
 SMALL_FIGURE = (176, 235)
 """Width and height of those of whole figures, pixels: they are as small, and show all of the picture."""
-CLIP, FIGURE_CLIP = (400, 480), (400, 532)
+CLIP_SIZE, FIGURE_CLIP_SIZE = (400, 480), (400, 532)
 """Width and height of the clips on the start pages."""
 CLIP_CRF = 25
 
@@ -54,7 +54,7 @@ class Found:
             return whole
         left, top, width, height = self.part
         part = np.ascontiguousarray(whole[top : top + height, left : left + width])
-        size = (round(width * TALL / height), TALL)
+        size = (round(width * CROPPED_HEIGHT / height), CROPPED_HEIGHT)
         return np.asarray(cv2.resize(part, size, interpolation=cv2.INTER_LANCZOS4), np.uint8)
 
 
@@ -62,29 +62,29 @@ PORTRAITS = (
     Found("grace-hopper", "matplotlib", "mpl-data/sample_data/grace_hopper.jpg", (0.5, 0.33, 0.66)),
     Found("eileen-collins", "skimage", "data/astronaut.png", (0.5, 0.33, 0.66), (54, 0, 340, 400)),
 )
-MOVING = ("grace-hopper", "happy")
+MOVING_PORTRAIT = ("grace-hopper", "happy")
 """The portrait that moves on arrival, and what it acts out."""
-WALKING = ("woman-in-red", "walk")
+WALKING_FIGURE = ("woman-in-red", "walk")
 """The figure that does, and its motion."""
 
 
 def main() -> None:
     """Write all of it."""
-    OUT.mkdir(parents=True, exist_ok=True)
+    OUT_FOLDER.mkdir(parents=True, exist_ok=True)
     for sample in PORTRAITS:
         picture = sample.picture()
-        write_image(OUT / f"{sample.name}.jpg", picture, quality=QUALITY)
-        write_image(OUT / f"{sample.name}-small.jpg", small(picture, *sample.face), quality=QUALITY)
+        write_image(OUT_FOLDER / f"{sample.name}.jpg", picture, quality=JPEG_QUALITY)
+        write_image(OUT_FOLDER / f"{sample.name}-small.jpg", small(picture, *sample.face), quality=JPEG_QUALITY)
     for name, picture in (("rendered-man", rendered_actor()), ("painted-man", painted_actor())):
-        write_image(OUT / f"{name}.jpg", picture, quality=QUALITY)
-        write_image(OUT / f"{name}-small.jpg", small(picture, 0.5, 0.45, 0.85), quality=QUALITY)
+        write_image(OUT_FOLDER / f"{name}.jpg", picture, quality=JPEG_QUALITY)
+        write_image(OUT_FOLDER / f"{name}-small.jpg", small(picture, 0.5, 0.45, 0.85), quality=JPEG_QUALITY)
     for figure in FIGURES:
         picture = paint_figure(figure)
-        write_image(OUT / f"{figure.name}.jpg", picture, quality=QUALITY)
+        write_image(OUT_FOLDER / f"{figure.name}.jpg", picture, quality=JPEG_QUALITY)
         tiny = np.asarray(cv2.resize(picture, SMALL_FIGURE, interpolation=cv2.INTER_AREA), np.uint8)
-        write_image(OUT / f"{figure.name}-small.jpg", tiny, quality=QUALITY)
-    move(*MOVING)
-    walk(*WALKING)
+        write_image(OUT_FOLDER / f"{figure.name}-small.jpg", tiny, quality=JPEG_QUALITY)
+    move(*MOVING_PORTRAIT)
+    walk(*WALKING_FIGURE)
 
 
 def small(picture: NDArray[np.uint8], x: float, y: float, height: float) -> NDArray[np.uint8]:
@@ -94,25 +94,29 @@ def small(picture: NDArray[np.uint8], x: float, y: float, height: float) -> NDAr
     left = int(np.clip(round(x * wide - side / 2), 0, wide - side))
     top = int(np.clip(round(y * tall - side / 2), 0, tall - side))
     part = np.ascontiguousarray(picture[top : top + side, left : left + side])
-    return np.asarray(cv2.resize(part, (SMALL, SMALL), interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(part, (THUMBNAIL_PIXELS, THUMBNAIL_PIXELS), interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def move(name: str, performance: str) -> None:
     """The clip of a portrait that acts something out, and its first frame: the portrait as it is."""
     with TemporaryDirectory() as folder:
-        video = animate(OUT / f"{name}.jpg", performance, Path(folder), crop="bust", size=CLIP, loop=True).path
-        shrink(video, OUT / f"{name}-{performance}.mp4")
-    first = next(iter(read_video(OUT / f"{name}-{performance}.mp4")))
-    write_image(OUT / f"{name}-still.jpg", first.rgb, quality=QUALITY)
+        video = animate(
+            OUT_FOLDER / f"{name}.jpg", performance, Path(folder), crop="bust", size=CLIP_SIZE, loop=True
+        ).path
+        shrink(video, OUT_FOLDER / f"{name}-{performance}.mp4")
+    first = next(iter(read_video(OUT_FOLDER / f"{name}-{performance}.mp4")))
+    write_image(OUT_FOLDER / f"{name}-still.jpg", first.rgb, quality=JPEG_QUALITY)
 
 
 def walk(name: str, motion: str) -> None:
     """The clip of a figure that walks out of its picture, and its first frame: the picture as it is."""
     with TemporaryDirectory() as folder:
-        video = wake_up(OUT / f"{name}.jpg", Path(folder), motion, size=FIGURE_CLIP).artifacts["animation.mp4"]
-        shrink(video, OUT / f"{name}-{motion}.mp4")
-    first = next(iter(read_video(OUT / f"{name}-{motion}.mp4")))
-    write_image(OUT / f"{name}-still.jpg", first.rgb, quality=QUALITY)
+        video = wake_up(OUT_FOLDER / f"{name}.jpg", Path(folder), motion, size=FIGURE_CLIP_SIZE).artifacts[
+            "animation.mp4"
+        ]
+        shrink(video, OUT_FOLDER / f"{name}-{motion}.mp4")
+    first = next(iter(read_video(OUT_FOLDER / f"{name}-{motion}.mp4")))
+    write_image(OUT_FOLDER / f"{name}-still.jpg", first.rgb, quality=JPEG_QUALITY)
 
 
 def shrink(video: Path, out: Path) -> None:

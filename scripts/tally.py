@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-LINES, WIDTH = 12, 200  # of each failure's message
+MAX_LINES, MAX_LINE_CHARACTERS = 12, 200  # of each failure's message
 
 
 def outcomes(report: Path) -> Counter[str]:
@@ -29,7 +29,9 @@ def reasons(report: Path) -> list[str]:
         for failure in [*case.iter("failure"), *case.iter("error")]:
             lines = (failure.get("message") or failure.text or "").strip().splitlines()
             name = f"{case.get('classname', '')} {case.get('name', '')}".strip()
-            told.append("\n".join([f"FAILED {name}", *(f"  {line[:WIDTH]}" for line in lines[:LINES])]))
+            told.append(
+                "\n".join([f"FAILED {name}", *(f"  {line[:MAX_LINE_CHARACTERS]}" for line in lines[:MAX_LINES])])
+            )
     return told
 
 

@@ -10,15 +10,15 @@ from uuid import UUID
 from pydantic.config import JsonDict
 from starlette.convertors import StringConvertor, register_url_convertor
 
-SHAPE = "[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}"
-LIKE_AN_ID: JsonDict = {"pattern": f"^{SHAPE}$"}
+ID_PATTERN = "[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}"
+LIKE_AN_ID: JsonDict = {"pattern": f"^{ID_PATTERN}$"}
 """What the OpenAPI document tells of a parameter that is an id; `is_id` checks it, so that the error has its code."""
 
 
 class IdConvertor(StringConvertor):
     """`{name:id}` in the path of a route stands for ids alone, where an address beside it is a word."""
 
-    regex = SHAPE
+    regex = ID_PATTERN
 
 
 register_url_convertor("id", IdConvertor())

@@ -13,12 +13,12 @@ from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
 
 from service.auth.sessions import COOKIE
-from service.http.guard import PUBLIC
+from service.http.guard import PUBLIC_PATH
 from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import ProblemDocument, responses
-from service.traces.requests import HEADER, ID_PATTERN
+from service.traces.requests import ID_PATTERN, REQUEST_ID_HEADER
 
-REFERENCE = "#/components/schemas/{model}"
+SCHEMA_REFERENCE = "#/components/schemas/{model}"
 DRAWN_BY_FASTAPI = ("HTTPValidationError", "ValidationError")
 """Errors that are never answered, because validation errors are problems too."""
 REQUEST_ID = {
@@ -28,10 +28,10 @@ REQUEST_ID = {
 }
 """The header of every answer. It is no parameter: one of another form is not refused, but replaced."""
 
-OPEN = (PUBLIC, "/v1/session")
+KEYLESS_PATHS = (PUBLIC_PATH, "/v1/session")
 """The beginnings of addresses where nobody needs a key."""
 
-SCHEMES = {
+SECURITY_SCHEMES = {
     "key": {"type": "http", "scheme": "bearer", "description": "A key that `galatea keys create` or POST /keys made."},
     "session": {"type": "apiKey", "in": "cookie", "name": COOKIE, "description": "A session of the web page."},
 }
@@ -49,12 +49,12 @@ def describe(app: FastAPI, keys_required: bool) -> None:
             for path, _, operation in _operations(document):
                 _tell_of_problems(operation)
                 _tell_of_bodies(operation)
-                if path == "/metrics" or (path.startswith("/v1/") and not path.startswith(OPEN)):
+                if path == "/metrics" or (path.startswith("/v1/") and not path.startswith(KEYLESS_PATHS)):
                     _tell_of_keys(operation, keys_required)
                 for parameter in operation.get("parameters", ()):
                     _never_null(parameter)
                 for answer in operation["responses"].values():
-                    answer["headers"] = {**answer.get("headers", {}), HEADER: REQUEST_ID}
+                    answer["headers"] = {**answer.get("headers", {}), REQUEST_ID_HEADER: REQUEST_ID}
             _link(document)
             app.openapi_schema = document
         return app.openapi_schema
@@ -76,11 +76,11 @@ def _name_schemas(app: FastAPI, document: dict[str, Any]) -> None:
     kinds = app.state.context.kinds
     asked = [JobIn, RevisionIn, *(kind.options for kind in kinds.values())]
     _, definitions = models_json_schema(
-        [(ProblemDocument, "serialization"), *((model, "validation") for model in asked)], ref_template=REFERENCE
+        [(ProblemDocument, "serialization"), *((model, "validation") for model in asked)], ref_template=SCHEMA_REFERENCE
     )
     schemas |= definitions["$defs"]
     schemas["JobIn"]["properties"]["kind"]["enum"] = list(kinds)
-    components["securitySchemes"] = SCHEMES
+    components["securitySchemes"] = SECURITY_SCHEMES
 
 
 def _tell_of_problems(operation: dict[str, Any]) -> None:

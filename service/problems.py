@@ -21,11 +21,11 @@ from starlette.routing import Match
 from starlette.types import Scope
 
 from engine.unknown_options import explained
-from service.database.postgresql import UNTRANSLATABLE, error_code
+from service.database.postgresql import UNTRANSLATABLE_CODE, error_code
 from service.database.sessions import database_unavailable
 from service.storage.files import StorageUnavailable
 from service.traces.current import current_request
-from service.traces.requests import METHODS
+from service.traces.requests import HTTP_METHODS
 from service.vault import SecretUnreadable
 
 MEDIA_TYPE = "application/problem+json"
@@ -36,7 +36,7 @@ MAX_ERRORS = 10
 MAX_POINTER_CHARACTERS, MAX_DETAIL_CHARACTERS = 300, 2000
 """The longest pointer and detail of an answer, which may repeat what a request held."""
 
-HEADERS = {
+STATUS_HEADERS = {
     401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},
     405: {"Allow": {"description": "The methods on offer.", "required": True, "schema": {"type": "string"}}},
     416: {"Content-Range": {"description": "How long the file is.", "required": True, "schema": {"type": "string"}}},
@@ -45,7 +45,7 @@ HEADERS = {
 """What comes with a problem of some status."""
 
 
-PHRASES = {460: "Checksum Mismatch"}
+STATUS_PHRASES = {460: "Checksum Mismatch"}
 """The phrases of statuses that HTTP itself does not know (460 is of the tus protocol)."""
 
 
@@ -205,7 +205,7 @@ def install(app: FastAPI) -> None:
         if isinstance(error, StorageUnavailable) or database_unavailable(error):
             structlog.get_logger().warning("unavailable", path=request.url.path, reason=str(error).splitlines()[0])
             return unavailable().response()
-        if error_code(getattr(error, "orig", None)) == UNTRANSLATABLE:
+        if error_code(getattr(error, "orig", None)) == UNTRANSLATABLE_CODE:
             return Problem(422, "invalid_request", "A text holds a character that cannot be kept (NUL).").response()
         return await unexpected(request, error)
 
@@ -231,7 +231,7 @@ def _methods(app: FastAPI, scope: Scope) -> list[str]:
     def offered(method: str) -> bool:
         return any(route.matches({**scope, "method": method})[0] is Match.FULL for route in app.router.routes)
 
-    return [method for method in METHODS if offered(method)]
+    return [method for method in HTTP_METHODS if offered(method)]
 
 
 def disk_full() -> Problem:
@@ -251,7 +251,7 @@ def responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
         status: {
             "description": phrase(status),
             "content": content,
-            **({"headers": HEADERS[status]} if status in HEADERS else {}),
+            **({"headers": STATUS_HEADERS[status]} if status in STATUS_HEADERS else {}),
         }
         for status in statuses
     }
@@ -259,4 +259,4 @@ def responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 def phrase(status: int) -> str:
     """What a status means, in a word or two."""
-    return PHRASES.get(status) or HTTPStatus(status).phrase
+    return STATUS_PHRASES.get(status) or HTTPStatus(status).phrase

@@ -10,7 +10,7 @@ import os
 import time
 from pathlib import Path
 
-FOLDER = "workers"
+PULSE_FOLDER = "workers"
 BEAT_SECONDS = 1.0
 FORGOTTEN_SECONDS = 3600.0
 
@@ -24,7 +24,7 @@ class Pulse:
     """A worker's own sign of life."""
 
     def __init__(self, data_dir: Path, name: str):
-        self._file = data_dir / FOLDER / name
+        self._file = data_dir / PULSE_FOLDER / name
         self._file.parent.mkdir(parents=True, exist_ok=True)
         for left in self._file.parent.iterdir():  # by workers that were killed
             if not 0 <= _silence(left) < FORGOTTEN_SECONDS:
@@ -43,12 +43,12 @@ class Pulse:
 
 def silence(data_dir: Path, name: str) -> float:
     """For how many seconds nothing was heard of a worker; infinite where it was never heard."""
-    return _silence(data_dir / FOLDER / name)
+    return _silence(data_dir / PULSE_FOLDER / name)
 
 
 def least_silence(data_dir: Path) -> float:
     """For how many seconds nothing was heard of the worker on this machine that was heard last."""
-    folder = data_dir / FOLDER
+    folder = data_dir / PULSE_FOLDER
     return min(map(_silence, folder.iterdir()), default=float("inf")) if folder.is_dir() else float("inf")
 
 

@@ -19,12 +19,12 @@ from service.breaker import Breaker
 from service.redis_server import socket_path
 from service.settings import Settings
 
-TASK = "galatea.run_job"
+TASK_NAME = "galatea.run_job"
 VISIBILITY_MARGIN_SECONDS = 120.0
 """Seconds by which an unacknowledged message outlives the longest job: the job is asked to stop, then its process is
 killed, and only then may the message come back."""
 
-SENDING = {"socket_timeout": 2, "socket_connect_timeout": 1}
+SEND_TIMEOUTS = {"socket_timeout": 2, "socket_connect_timeout": 1}
 """Seconds that sending waits for a Redis that does not answer: a client waits meanwhile, and the sweep sends again."""
 
 
@@ -46,7 +46,7 @@ class _Hints(Celery):  # type: ignore[misc]  # Celery tells no types
     """Sends with less patience than it listens."""
 
     def connection_for_write(self, url: str | None = None, **more: Any) -> Any:
-        return super().connection_for_write(url, **{**more, "transport_options": SENDING})
+        return super().connection_for_write(url, **{**more, "transport_options": SEND_TIMEOUTS})
 
 
 class Queue:
@@ -55,7 +55,7 @@ class Queue:
 
     def __init__(self, settings: Settings, kinds: Iterable[str]):
         url = settings.redis_url or f"unix://{socket_path(settings.data_dir)}"
-        self._redis = redis.Redis.from_url(url, **SENDING)
+        self._redis = redis.Redis.from_url(url, **SEND_TIMEOUTS)
         self._breaker = Breaker("redis", self._answers)
         self.celery = _Hints("galatea", broker=url.replace("unix://", "redis+socket://"))
         self.celery.conf.update(
@@ -90,7 +90,7 @@ class Queue:
         if self._breaker.open:
             return False
         try:
-            self.celery.send_task(TASK, args=[job_id, kind], queue=_queue(kind), retry=False, ignore_result=True)
+            self.celery.send_task(TASK_NAME, args=[job_id, kind], queue=_queue(kind), retry=False, ignore_result=True)
         except (OperationalError, redis.RedisError, OSError) as error:
             self._breaker.trip()
             structlog.get_logger().warning("message_not_sent", job=job_id, reason=str(error))

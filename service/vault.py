@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from cryptography.fernet import Fernet, MultiFernet
 
-PREFIX = "fernet:"
+ENCRYPTED_PREFIX = "fernet:"
 """Begins what is encrypted. No secret in clear begins so."""
 
 STORED_CHARACTERS = 255
@@ -55,15 +55,15 @@ class Vault:
 
     def seal(self, clear: str) -> str:
         """What is stored of a secret."""
-        return clear if self._first is None else PREFIX + self._first.encrypt(clear.encode()).decode()
+        return clear if self._first is None else ENCRYPTED_PREFIX + self._first.encrypt(clear.encode()).decode()
 
     def open(self, stored: str) -> Secret:
         """The secret behind what is stored, be it encrypted or not."""
-        return Secret(self._opened(stored, self._all) if stored.startswith(PREFIX) else stored)
+        return Secret(self._opened(stored, self._all) if stored.startswith(ENCRYPTED_PREFIX) else stored)
 
     def is_current(self, stored: str) -> bool:
         """Whether `seal` would store it in this manner: by the first key, or in clear where there is none."""
-        if not stored.startswith(PREFIX):
+        if not stored.startswith(ENCRYPTED_PREFIX):
             return self._first is None
         return self._opened(stored, self._first) is not None
 
@@ -74,7 +74,7 @@ class Vault:
         from cryptography.fernet import InvalidToken
 
         try:
-            return by.decrypt(stored.removeprefix(PREFIX)).decode()
+            return by.decrypt(stored.removeprefix(ENCRYPTED_PREFIX)).decode()
         except InvalidToken:
             return None
 

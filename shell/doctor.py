@@ -28,9 +28,9 @@ from shell.installation import data_files, install_anew, missing_files
 from shell.settings import read_settings
 from worker.programs.interpreter import module_command, module_environment
 
-NODE = "Node 20.19 or later, or 22.12 or later"
+NODE_VERSIONS = "Node 20.19 or later, or 22.12 or later"
 
-PACKAGES = {
+REQUIRED_PACKAGES = {
     "numpy": "numpy",
     "scipy": "scipy",
     "numba": "numba",
@@ -116,7 +116,7 @@ def _packages(settings: Settings) -> Iterator[Finding]:
     from engine.perception.solutions import know_old_ways
 
     know_old_ways()
-    for distribution, module in PACKAGES.items():
+    for distribution, module in REQUIRED_PACKAGES.items():
         try:
             importlib.import_module(module)
         except Exception as error:
@@ -226,7 +226,7 @@ def _answers(client: redis.Redis, what: str, mend: str) -> Finding:
     return Finding("ok", f"Redis of {what} answers")
 
 
-WALLS = {
+WALL_FINDINGS = {
     "files": (
         "jobs see no files but their own (Landlock)",
         "the kernel needs Landlock: Linux 5.13, in the list of `lsm=`",
@@ -246,7 +246,7 @@ def _confinement(settings: Settings) -> Iterator[Finding]:
         env=module_environment(),
     )
     for wall, stands in json.loads(tried.stdout).items():
-        what, mend = WALLS[wall]
+        what, mend = WALL_FINDINGS[wall]
         yield Finding("ok" if stands else "warning", what if stands else f"not so here: {what}", "" if stands else mend)
 
 
@@ -256,7 +256,7 @@ def _page(settings: Settings) -> Iterator[Finding]:
         settings.web_dir.relative_to(Path.cwd()) if settings.web_dir.is_relative_to(Path.cwd()) else settings.web_dir
     )
     what = f"the web page in {shown}" if built else f"the web page is not built: there is none in {shown}"
-    build = f"{install_anew()} (building takes {NODE}), or set GALATEA_WEB_DIR; the API works without it"
+    build = f"{install_anew()} (building takes {NODE_VERSIONS}), or set GALATEA_WEB_DIR; the API works without it"
     yield Finding("ok" if built else "warning", what, "" if built else build)
     if not built and checkout():
         yield from _node()
@@ -266,7 +266,7 @@ def _node() -> Iterator[Finding]:
     """What is wrong with Node, if anything is."""
     node = shutil.which("node")
     if node is None:
-        yield Finding("warning", "Node is not installed", f"install {NODE} to build the page")
+        yield Finding("warning", "Node is not installed", f"install {NODE_VERSIONS} to build the page")
         return
     try:
         done = subprocess.run([node, "--version"], capture_output=True, text=True, timeout=10)  # noqa: S603
@@ -274,7 +274,9 @@ def _node() -> Iterator[Finding]:
     except (OSError, subprocess.TimeoutExpired):
         version = ""
     if not builds_the_page(version):
-        yield Finding("warning", f"Node {version or 'does not run, and'} cannot build the page", f"install {NODE}")
+        yield Finding(
+            "warning", f"Node {version or 'does not run, and'} cannot build the page", f"install {NODE_VERSIONS}"
+        )
 
 
 def builds_the_page(version: str) -> bool:

@@ -30,8 +30,8 @@ from shell.option_flags import flag_of, form_of, given_options, option_flags
 from shell.settings import read_settings
 from shell.silence_libraries import libraries_silenced
 
-EXAMPLE = """'{"fps": 24}'"""
-MISFORMED = (
+EXAMPLE_OPTIONS = """'{"fps": 24}'"""
+MISFORMED_ERRORS = (
     "tuple_type",
     "missing",
     "too_short",
@@ -132,11 +132,11 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
         first = explained(error.errors(), kind.options)[0]
         place = [str(part) for part in first["loc"]]
         if place and place[0] in flags:
-            form = form_of(kind.options.model_fields[place[0]]) if first["type"] in MISFORMED else None
+            form = form_of(kind.options.model_fields[place[0]]) if first["type"] in MISFORMED_ERRORS else None
             raise CliError(f"{flag_of(place[0])}: {f'give {form}' if form else first['msg']}") from error
         raise CliError(f"--options: {'.'.join(place) or 'the whole'}: {first['msg']}") from error
     except ValueError as error:
-        raise CliError(f"--options: this is not valid JSON, such as {EXAMPLE}: {error}") from error
+        raise CliError(f"--options: this is not valid JSON, such as {EXAMPLE_OPTIONS}: {error}") from error
 
 
 def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path, settings: Settings) -> None:

@@ -21,7 +21,7 @@ os.environ.setdefault("OPENCV_THREAD_POOL_ACTIVE_WAIT_WORKER", "0")
 """OpenCV's likewise: they would go on asking for work, and take from others what they ask with."""
 
 
-INTERRUPTED = 128 + signal.SIGINT
+INTERRUPTED_EXIT_CODE = 128 + signal.SIGINT
 """What a shell calls the end of a command by Ctrl-C."""
 
 
@@ -181,7 +181,7 @@ def _end(command: click.Command) -> None:
         said = command.main(standalone_mode=False)
     except click.Abort:
         click.echo("Stopped.", err=True)
-        sys.exit(INTERRUPTED)
+        sys.exit(INTERRUPTED_EXIT_CODE)
     except click.ClickException as error:
         error.show()
         sys.exit(error.exit_code)

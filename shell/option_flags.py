@@ -13,11 +13,11 @@ import click
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-DEST = "option_"
+PARAMETER_PREFIX = "option_"
 """What the names of these parameters begin with: an input may have the name of an option."""
-BETWEEN = re.compile(r",|(?<=\d)x(?=\d)")
+LIST_SEPARATOR = re.compile(r",|(?<=\d)x(?=\d)")
 """What stands between the parts of a list: `eyes,mouth`, `640x480`."""
-PLAIN = {bool: "true|false", int: "N", float: "NUMBER", str: "TEXT"}
+PLAIN_METAVARS = {bool: "true|false", int: "N", float: "NUMBER", str: "TEXT"}
 
 
 def option_flags(options: type[BaseModel], taken: Collection[str]) -> list[click.Option]:
@@ -32,7 +32,11 @@ def given_options(options: type[BaseModel], given: Mapping[str, Any]) -> dict[st
     ------
     OSError : a file that was named by @ cannot be read.
     """
-    found = {name: given[DEST + name] for name in options.model_fields if given.get(DEST + name) is not None}
+    found = {
+        name: given[PARAMETER_PREFIX + name]
+        for name in options.model_fields
+        if given.get(PARAMETER_PREFIX + name) is not None
+    }
     return {name: _value(said, options.model_fields[name].annotation) for name, said in found.items()}
 
 
@@ -62,8 +66,8 @@ def _flag(name: str, field: FieldInfo) -> click.Option:
         told = f" For instance {example}.{told}"
     given: dict[str, Any] = {"default": None, "help": (field.description or "") + told}
     if field.annotation is bool:
-        return click.Option([f"{flag_of(name)}/--no-{flag_of(name)[2:]}", DEST + name], **given)
-    return click.Option([flag_of(name), DEST + name], metavar=_metavar(field.annotation), **given)
+        return click.Option([f"{flag_of(name)}/--no-{flag_of(name)[2:]}", PARAMETER_PREFIX + name], **given)
+    return click.Option([flag_of(name), PARAMETER_PREFIX + name], metavar=_metavar(field.annotation), **given)
 
 
 def _alternatives(annotation: Any) -> list[Any]:
@@ -89,7 +93,7 @@ def _word(kind: Any) -> str:
         if any("JSON" in word or "," in word for word in words):
             return "JSON"
         return f"{words[0]},..." if Ellipsis in parts else ",".join(words)
-    return PLAIN.get(kind, "JSON")
+    return PLAIN_METAVARS.get(kind, "JSON")
 
 
 def _value(said: Any, annotation: Any) -> Any:
@@ -105,7 +109,7 @@ def _value(said: Any, annotation: Any) -> Any:
     lists = any(get_origin(kind) is tuple for kind in kinds)
     named = any(value in get_args(kind) for kind in kinds if get_origin(kind) is Literal and isinstance(value, str))
     if isinstance(value, str) and lists and not named:
-        return [_json(part) for part in BETWEEN.split(value)]
+        return [_json(part) for part in LIST_SEPARATOR.split(value)]
     return value
 
 

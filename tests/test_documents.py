@@ -52,7 +52,7 @@ def test_every_direct_dependency_is_in_the_list_of_licences() -> None:
 
 
 def test_every_package_and_native_library_has_its_licence() -> None:
-    from scripts.licences import NATIVE, licence, locked, native, running
+    from scripts.licences import NATIVE_LICENCES, licence, locked, native, running
 
     listed = (ROOT / "docs" / "packages.md").read_text()
     names = locked(*LOCKS)
@@ -60,4 +60,4 @@ def test_every_package_and_native_library_has_its_licence() -> None:
     for name in names:
         assert licence(name) and f"| {name} | " in listed, f"{name}: make licences"
     for package, library in native():
-        assert library in NATIVE, (package, library)
+        assert library in NATIVE_LICENCES, (package, library)

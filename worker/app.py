@@ -22,7 +22,7 @@ from service.job_records import jobs as repository
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.pulse import BEAT_SECONDS, Pulse, owner
-from service.queue import TASK, queue_name
+from service.queue import TASK_NAME, queue_name
 from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job
 from service.traces.current import origin_logged
@@ -60,7 +60,7 @@ class Worker:
         self.sender = WebhookSender(context)
         self.owner = owner(socket.gethostname(), os.getpid())
         self.pulse = Pulse(context.settings.data_dir, self.owner)
-        context.queue.celery.task(name=TASK)(self.run_job)
+        context.queue.celery.task(name=TASK_NAME)(self.run_job)
 
     def run_job(self, job_id: str, kind: str) -> None:
         """Run the job of this kind whose turn it is: mostly not the one that the message tells of. The message may be

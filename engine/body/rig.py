@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 RIG_NAMES = ("default", "mixamo", "game_engine")
 """`default` has 163 bones (fingers, toes, face), `mixamo` 52, `game_engine` those of common game engines."""
 
-MIN_WEIGHT = 1e-6
+MIN_SKIN_WEIGHT = 1e-6
 """Weights below which a bone does not move a vertex."""
 
 HUMAN_RIG = "human"
@@ -110,9 +110,9 @@ def with_face(body: Rig, face: Rig) -> Rig:
         table[np.arange(len(head)), body.bones[:, rank]] += body.weights[:, rank]
     table[:, body.index("Head")] -= moved.sum(1)
     table[:, len(body.names) :] = moved
-    order = np.argsort(-table, axis=1, kind="stable")[:, : int((table > MIN_WEIGHT).sum(1).max())]
+    order = np.argsort(-table, axis=1, kind="stable")[:, : int((table > MIN_SKIN_WEIGHT).sum(1).max())]
     weights = np.take_along_axis(table, order, 1)
-    weights = np.where(weights > MIN_WEIGHT, weights, 0)
+    weights = np.where(weights > MIN_SKIN_WEIGHT, weights, 0)
     at = [face.index(bone) for bone in FACE_JOINTS.values()]
     spans = [face.anchors[face.starts[2 * b + end] : face.starts[2 * b + end + 1]] for b in at for end in (0, 1)]
     return Rig(

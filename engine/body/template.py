@@ -103,7 +103,7 @@ def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
 
 
 def load_rig(name: str) -> Rig:
-    """Load `engine.body.rig.HUMAN` or one of `RIGS`; the first time, convert it (some seconds)."""
+    """Load `engine.body.rig.HUMAN_RIG` or one of `RIG_NAMES`; the first time, convert it (some seconds)."""
     stored = cached_arrays(f"rig-{name}", lambda: _convert_rig(name))
     arrays = {key: value for key, value in stored.items() if key != "names"}
     return Rig(names=tuple(str(bone) for bone in stored["names"]), **arrays)

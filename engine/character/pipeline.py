@@ -30,7 +30,7 @@ from engine.character.stages import (
 )
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
-from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
+from engine.export.animated_gif import MAX_GIF_SIDE
 from engine.export.glb import JPEG_QUALITY, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
@@ -253,7 +253,7 @@ def write_film(
 ) -> tuple[str, int]:
     """The animation, and `poster.jpg` from its first third; returns the animation's name and how many frames it has."""
     plate = background.rgb
-    longest = GIF_SIDE if options.format == "gif" else LONGEST_SIDE
+    longest = MAX_GIF_SIDE if options.format == "gif" else LONGEST_SIDE
     size = film_size((plate.shape[1], plate.shape[0]), options.size, longest)
     name = "animation." + {"png": "zip"}.get(options.format, options.format)
     acting = [(person.character, person.played.film) for person in people]

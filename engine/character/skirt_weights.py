@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from engine.body.rig import MIN_WEIGHT, Rig
+from engine.body.rig import MIN_SKIN_WEIGHT, Rig
 from engine.character.free_cloth import FADE, FreeCloth
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
@@ -87,7 +87,7 @@ def _between_legs(cloth: FreeCloth, towards: float) -> tuple[NDArray[np.float64]
 def _share_of(weights: NDArray[np.floating], own: NDArray[np.bool_], otherwise: int) -> NDArray[np.floating]:
     """Which shares joints have in what their `own` (J,) move together (n, J); all of it `otherwise` where they move nothing."""
     chosen = np.where(own, weights, 0.0)
-    chosen[:, otherwise] += MIN_WEIGHT
+    chosen[:, otherwise] += MIN_SKIN_WEIGHT
     return np.asarray(chosen / chosen.sum(1, keepdims=True))
 
 

@@ -65,7 +65,7 @@ class SolidLimb:
 
 
 def solid_arms(template: PosedTemplate, rig: Rig) -> set[int]:
-    """The arms (indices of `PARTS`) that no sheet can make."""
+    """The arms (indices of `BODY_PARTS`) that no sheet can make."""
     sides = zip(ARMS, ("Left", "Right"), strict=True)
     return {arm for arm, side in sides if _shortest(template, rig, side) < FORESHORTENED}
 

@@ -30,7 +30,7 @@ SURE = 0.9
 
 @dataclass(frozen=True)
 class UnfoundHand:
-    """A hand of an `arm` (an index of `PARTS`): its `wrist` (2,) and the `knuckles` (2,) on the grid; the `confidence` with which the
+    """A hand of an `arm` (an index of `BODY_PARTS`): its `wrist` (2,) and the `knuckles` (2,) on the grid; the `confidence` with which the
     body's network has its fingers; whether it is `before` the belly rather than beside the hip; the `skin` of the face (N, 3), RGB."""
 
     arm: int

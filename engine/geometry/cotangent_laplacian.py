@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-MIN_WEIGHT, MAX_WEIGHT = 1e-3, 10.0
+MIN_EDGE_WEIGHT, MAX_EDGE_WEIGHT = 1e-3, 10.0
 """Of an edge. Obtuse pairs of triangles have negative cotangents, slivers boundless ones: within these bounds harmonic
 functions keep between the values that they are given, and no system is nearly singular."""
 
@@ -18,7 +18,7 @@ def cotangent_edges(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """The edges of a mesh, (E, 2), each once with the smaller number first, and their weights (E,): half the sum of the
-    cotangents of the angles opposite, from `MIN_WEIGHT` to `MAX_WEIGHT`.
+    cotangents of the angles opposite, from `MIN_EDGE_WEIGHT` to `MAX_EDGE_WEIGHT`.
 
     `vertices` (V, 3) in any unit, `triangles` (T, 3). A triangle without area gives its edges finite weights, too.
     Raises ValueError where a vertex's place is not finite.
@@ -32,14 +32,14 @@ def cotangent_edges(
         one, other = points[:, (k + 1) % 3] - points[:, k], points[:, (k + 2) % 3] - points[:, k]
         across = np.linalg.norm(np.cross(one, other), axis=1)
         along = (one * other).sum(1)
-        steepest = MAX_WEIGHT * np.maximum(across, np.finfo(np.float64).tiny)
+        steepest = MAX_EDGE_WEIGHT * np.maximum(across, np.finfo(np.float64).tiny)
         cotangents.append(np.clip(along, -2 * steepest, 2 * steepest) / np.maximum(across, np.finfo(np.float64).tiny))
         ends.append(np.sort(corners[:, [(k + 1) % 3, (k + 2) % 3]], 1))
     pairs = np.concatenate(ends)
     apart = pairs[:, 0] != pairs[:, 1]
     edges, index = np.unique(pairs[apart], axis=0, return_inverse=True)
     weights = np.bincount(index.ravel(), np.concatenate(cotangents)[apart] / 2, len(edges))
-    return edges, np.clip(weights, MIN_WEIGHT, MAX_WEIGHT)
+    return edges, np.clip(weights, MIN_EDGE_WEIGHT, MAX_EDGE_WEIGHT)
 
 
 def edge_differences(edges: NDArray[np.integer], count: int) -> sp.csr_array:

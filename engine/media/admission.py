@@ -6,7 +6,7 @@ from pathlib import Path
 
 from engine.errors import InputError
 from engine.media.demux import Header, without_picture
-from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
+from engine.media.limits import MAX_DECODED_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import VIDEO_TYPES, is_still_webp, sniff
 
 
@@ -48,10 +48,10 @@ def check_video(width: int, height: int, fps: float, seconds: float, frames: int
             "video_too_large",
             f"The video is {width} x {height}: scale it to at most {limits.video_megapixels:g} megapixels a frame.",
         )
-    if max(width, height) > LONGEST_SIDE:
+    if max(width, height) > MAX_DECODED_SIDE:
         raise InputError(
             "video_too_large",
-            f"The video is {width} x {height}: cut or scale it to at most {LONGEST_SIDE} pixels a side.",
+            f"The video is {width} x {height}: cut or scale it to at most {MAX_DECODED_SIDE} pixels a side.",
         )
     if 0 < min(width, height) < SHORTEST_SIDE:  # 0 is not known yet
         raise InputError(

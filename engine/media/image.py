@@ -12,7 +12,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
 from engine.imaging.nearest import nearest_colours
-from engine.media.limits import LONGEST_SIDE, SHORTEST_SIDE, Limits
+from engine.media.limits import MAX_DECODED_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 
 _FORMATS = {f"image/{name.lower()}": name for name in ("JPEG", "PNG", "WEBP", "AVIF", "GIF")}
@@ -145,10 +145,10 @@ def _check_size(size: tuple[int, int], limits: Limits) -> None:
     width, height = size
     if width * height > limits.image_megapixels * 1e6:
         raise _too_large(f" ({width} x {height} pixels)", limits)
-    if max(size) > LONGEST_SIDE:
+    if max(size) > MAX_DECODED_SIDE:
         raise InputError(
             "image_too_large",
-            f"The picture is too long ({width} x {height} pixels): cut or scale it to at most {LONGEST_SIDE} pixels a side.",
+            f"The picture is too long ({width} x {height} pixels): cut or scale it to at most {MAX_DECODED_SIDE} pixels a side.",
         )
     if min(size) < SHORTEST_SIDE:
         raise InputError(

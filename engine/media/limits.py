@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-LONGEST_SIDE = 16_384
+MAX_DECODED_SIDE = 16_384
 """Pixels of a side of whatever is looked at. Detectors and warps keep coordinates in 16 bits: from 32,767 on they end the
 whole process; half of it leaves room for what they put around a picture."""
 SHORTEST_SIDE = 16

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from engine.motion.source_motion import SourceMotion
 
-MAX_SECONDS = 60.0
+MAX_MOTION_SECONDS = 60.0
 """Seconds of a file's motion that are used, at most."""
 
 
@@ -19,7 +19,7 @@ def duration(motion: SourceMotion) -> float:
     return max(len(motion.rotations) - 1, 0) / motion.fps
 
 
-def beginning(motion: SourceMotion, seconds: float = MAX_SECONDS) -> SourceMotion:
+def beginning(motion: SourceMotion, seconds: float = MAX_MOTION_SECONDS) -> SourceMotion:
     """The frames of the first `seconds`; the same motion if it has no others."""
     frames = int(seconds * motion.fps + 1e-6) + 1
     if len(motion.rotations) <= frames:
@@ -32,6 +32,4 @@ def length_warning(motion: SourceMotion) -> str | None:
     if beginning(motion) is motion:
         return None
     lasts = duration(motion)
-    return (
-        f"The motion lasts {lasts:.1f} s, of which the first {MAX_SECONDS:.0f} are used: send the part that is meant."
-    )
+    return f"The motion lasts {lasts:.1f} s, of which the first {MAX_MOTION_SECONDS:.0f} are used: send the part that is meant."

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.source_motion import (
-    MAX_BYTES,
-    MAX_DEPTH,
     MAX_FRAMES,
+    MAX_JOINT_DEPTH,
     MAX_JOINTS,
+    MAX_MOTION_BYTES,
     MAX_NUMBERS,
     Array,
     SourceMotion,
@@ -143,8 +143,8 @@ class _Joint:
 
 def _read_text(source: Path | bytes) -> str:
     size = source.stat().st_size if isinstance(source, Path) else len(source)
-    if size > MAX_BYTES:
-        raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
+    if size > MAX_MOTION_BYTES:
+        raise InputError("motion_too_large", f"A motion file can have {MAX_MOTION_BYTES >> 20} MB: cut the recording.")
     data = source.read_bytes() if isinstance(source, Path) else source
     if b"\0" in data[:4096] or not re.match(rb"(\xef\xbb\xbf)?\s*HIERARCHY\b", data[:4096], re.I):
         raise InputError("motion_unreadable", "This is no BVH file: it must begin with the word HIERARCHY.")
@@ -166,7 +166,7 @@ def _read_hierarchy(text: str) -> list[_Joint]:
     lines = [line for line in lines if line]
     heads = [line[0].upper() for line in lines]
     depths = np.cumsum([(head == "{") - (head == "}") for head in heads])
-    if heads.count("JOINT") >= MAX_JOINTS or depths.max(initial=0) > MAX_DEPTH:
+    if heads.count("JOINT") >= MAX_JOINTS or depths.max(initial=0) > MAX_JOINT_DEPTH:
         raise InputError("motion_too_large", f"A motion's skeleton can have {MAX_JOINTS} joints: use a simpler one.")
     if heads.count("ROOT") > 1:
         raise InputError("motion_unreadable", "The BVH file holds several skeletons: export each to a file of its own.")

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from engine.errors import InputError
-from engine.motion.source_motion import MAX_BYTES
+from engine.motion.source_motion import MAX_MOTION_BYTES
 
 MAX_JSON_BYTES = 8 << 20
 """Bytes of a file's JSON beside the buffers in it."""
@@ -213,8 +213,8 @@ def _no_number(word: str) -> float:
 def _read(source: Path | bytes) -> tuple[bytes, bytes | None]:
     """The JSON, and the binary part of a GLB that has one."""
     size = source.stat().st_size if isinstance(source, Path) else len(source)
-    if size > MAX_BYTES:
-        raise InputError("motion_too_large", f"A motion file can have {MAX_BYTES >> 20} MB: cut the recording.")
+    if size > MAX_MOTION_BYTES:
+        raise InputError("motion_too_large", f"A motion file can have {MAX_MOTION_BYTES >> 20} MB: cut the recording.")
     data = source.read_bytes() if isinstance(source, Path) else source
     if not begins_as_gltf(data):
         raise unreadable("it is neither GLB nor glTF")

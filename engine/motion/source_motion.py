@@ -15,13 +15,13 @@ Array = NDArray[np.float64]
 MAX_JOINTS = 512
 """Joints of a motion's skeleton."""
 
-MAX_DEPTH = 128
+MAX_JOINT_DEPTH = 128
 """Joints from a skeleton's root down to its farthest leaf."""
 
 MAX_FRAMES = 72_000
 """Frames of a motion: ten minutes at 120 a second."""
 
-MAX_BYTES = 64 << 20
+MAX_MOTION_BYTES = 64 << 20
 """Bytes of a motion's file."""
 
 MAX_NUMBERS = 8_000_000

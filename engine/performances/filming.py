@@ -24,7 +24,7 @@ from engine.performances.figure import Pose
 from engine.performances.studio import CAMERA, SAMPLES_PER_SIDE, Exposure, backdrop, expose, finish, parts_seen
 from engine.render.rasteriser import Raster, rasterise
 
-FURTHEST_APART = 14
+MAX_KEY_FRAME_DISTANCE = 14
 """Frames between two key frames at most."""
 
 MAX_POSE_CHANGES = {"unit": 0.75, "blink": 1.0, "head": 9.0, "gaze": 7.0, "breath": 1.0}
@@ -68,7 +68,7 @@ def key_frames(poses: Sequence[Pose]) -> list[int]:
     keys, way = [0], 0.0
     for index in range(1, len(poses)):
         step = _step(poses[index - 1], poses[index])
-        if index - keys[-1] > 0 and (way + step > 1 or index - keys[-1] >= FURTHEST_APART):
+        if index - keys[-1] > 0 and (way + step > 1 or index - keys[-1] >= MAX_KEY_FRAME_DISTANCE):
             keys.append(index - 1 if way > 0 and index - 1 > keys[-1] else index)
             way = 0.0 if keys[-1] == index else step
         else:

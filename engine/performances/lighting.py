@@ -74,7 +74,7 @@ def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float
     elevation = np.degrees(np.arcsin(np.clip(ray[:, 1], -1, 1)))
     fresnel = 0.025 + 0.975 * (1 - np.clip(cosine[:, 0], 0, 1)) ** 5
     open_to = np.clip(irradiance[eye].mean(1) / 0.55, 0, 1)
-    for (x, y, width, height), light in ((KEY_LIGHT, KEY_LIGHT), (FILL_LIGHT, FILL_LIGHT)):
+    for (x, y, width, height), light in ((KEY_BOX, KEY_IRRADIANCE), (FILL_BOX, FILL_IRRADIANCE)):
         inside = step(np.abs(azimuth - x), width / 2 + 3, width / 2 - 3) * step(
             np.abs(elevation - y), height / 2 + 3, height / 2 - 3
         )

@@ -31,12 +31,12 @@ CRITERION_WEIGHTS: Mapping[str, float] = {
 
 PROPORTIONS_SCALE, LIGHT_SCALE, PALETTE_SCALE, TURN_SCALE = 0.05, 0.4, 20.0, 10.0
 """Differences that bring a score down to 0.6: root mean square in eye distances, slope of the logarithm of luminance,
-colour difference, degrees beyond `MAX_TURN`."""
+colour difference, degrees beyond `MAX_DRIVER_TURN_DEGREES`."""
 
 LIGHTNESS_WEIGHT = 0.5
 """How much a difference in lightness counts against one in hue: exposure says little about a palette."""
 
-MAX_TURN = 25.0
+MAX_DRIVER_TURN_DEGREES = 25.0
 """Degrees that a head can turn with the target's own turn included; see the limits in the documentation."""
 
 EXPRESSION_SPREAD = np.array([0.03, 0.08, 0.02, 0.06, 0.05, 0.06])
@@ -95,7 +95,7 @@ def fit(target: Appearance, driver: Appearance) -> dict[str, float]:
         "proportions": _bell(float(apart) / PROPORTIONS_SCALE),
         "light": _bell(float(np.linalg.norm(target.light - driver.light)) / LIGHT_SCALE),
         "palette": _bell(float(np.linalg.norm(colour)) / PALETTE_SCALE),
-        "turn": _bell(max(target.turn + driver.turn - MAX_TURN, 0.0) / TURN_SCALE),
+        "turn": _bell(max(target.turn + driver.turn - MAX_DRIVER_TURN_DEGREES, 0.0) / TURN_SCALE),
     }
     total = sum(CRITERION_WEIGHTS[name] * score for name, score in scores.items())
     return {name: round(value, 4) for name, value in {**scores, "total": total}.items()}

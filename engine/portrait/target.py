@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.export.animated_gif import LONGEST_SIDE as GIF_SIDE
+from engine.export.animated_gif import MAX_GIF_SIDE
 from engine.face_animation.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
@@ -25,13 +25,13 @@ from engine.perception.segmentation import people_in
 from engine.portrait.options import PortraitOptions
 from engine.run import Beside, Run
 
-LONGEST_SIDE = 1920
+MAX_PICTURE_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
-LONGEST_SIDE_REACTIVE = 640
+MAX_REACTIVE_SIDE = 640
 """Pixels of a reactive profile by default: pages show one smaller than that, and all of its clips are loaded."""
 MIN_EYE_DISTANCE = 16.0
 """Pixels; a smaller face has nothing to animate."""
-MAX_TURN = (35.0, 30.0)
+MAX_TARGET_TURN_DEGREES = (35.0, 30.0)
 """Degrees of yaw and pitch beyond which a target fails; see the limits in the documentation."""
 MAX_MOUTH_OPENING = 0.6
 """Mouth opening beyond which a target fails: its teeth, or the driver's in their place, would be drawn too long. The
@@ -183,10 +183,10 @@ def _check_face(
         return
     pose = head_pose(mesh, size)
     yaw, pitch = np.rad2deg(abs(pose.yaw)), np.rad2deg(abs(pose.pitch))
-    if yaw > MAX_TURN[0] or pitch > MAX_TURN[1]:
+    if yaw > MAX_TARGET_TURN_DEGREES[0] or pitch > MAX_TARGET_TURN_DEGREES[1]:
         raise InputError(
             "face_too_turned",
-            f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MAX_TURN[0]:.0f} and {MAX_TURN[1]:.0f} can be animated. Use a more frontal picture.",
+            f"The face is turned by {yaw:.0f} degrees sideways and {pitch:.0f} up or down; at most {MAX_TARGET_TURN_DEGREES[0]:.0f} and {MAX_TARGET_TURN_DEGREES[1]:.0f} can be animated. Use a more frontal picture.",
             ("landmarks", "face_index"),
             found,
         )
@@ -224,7 +224,9 @@ def _placement(
     if options.size is not None:
         scale = min(options.size[0] / box[2], options.size[1] / box[3])
     else:
-        longest = LONGEST_SIDE_REACTIVE if options.reactive else GIF_SIDE if options.format == "gif" else LONGEST_SIDE
+        longest = (
+            MAX_REACTIVE_SIDE if options.reactive else MAX_GIF_SIDE if options.format == "gif" else MAX_PICTURE_SIDE
+        )
         scale = min(1.0, longest / max(box[2], box[3]))
     out = even_size(box[2] * scale, box[3] * scale)
     return np.array([[scale, 0, -box[0] * scale], [0, scale, -box[1] * scale]]), out

@@ -15,7 +15,7 @@ from engine.render.rasteriser import draw_into
 CELL_METRES = 0.02
 """Metres of ground to a cell of the shadow's map."""
 
-CONTACT_HEIGHT = 0.06
+SHADOW_HEIGHT_METRES = 0.06
 """Metres above the ground below which what is there casts the dark core of the shadow."""
 
 PENUMBRA_SCALE = 4.0
@@ -123,7 +123,7 @@ def _density(
     blur = shadow.softness / CELL_METRES
     hit = np.isfinite(above)
     above[~hit] = 0
-    core = cv2.GaussianBlur(hit * np.exp(-above / np.float32(CONTACT_HEIGHT)), (0, 0), max(blur, 1e-3))
+    core = cv2.GaussianBlur(hit * np.exp(-above / np.float32(SHADOW_HEIGHT_METRES)), (0, 0), max(blur, 1e-3))
     wide = cv2.GaussianBlur(hit * np.exp(-above / np.float32(shadow.reach)), (0, 0), max(PENUMBRA_SCALE * blur, 1e-3))
     return (1 - (1 - core) * (1 - 0.6 * wide)).astype(np.float32)
 

@@ -26,7 +26,7 @@ PROFILE_WEIGHTS = (
 )
 """Red, green and blue share of each Gaussian."""
 
-MIN_WEIGHT = 0.01
+MIN_GAUSSIAN_WEIGHT = 0.01
 """Share of a Gaussian below which the others take it: it would cost as much as a large one and cannot be seen."""
 
 
@@ -42,7 +42,7 @@ def diffuse(
     nor goes there); `depth` (H, W) metres, +inf where nothing is: light does not leap from one depth to another.
     """
     shares = np.array(PROFILE_WEIGHTS, np.float32)
-    shares[shares < MIN_WEIGHT] = 0
+    shares[shares < MIN_GAUSSIAN_WEIGHT] = 0
     shares /= shares.sum(0)
     total = np.zeros_like(irradiance)
     weight, turned_weight = np.ascontiguousarray(translucency), np.ascontiguousarray(translucency.T)

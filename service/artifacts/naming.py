@@ -11,9 +11,9 @@ from service.ids import is_id
 MAX_PART_CHARACTERS = 60
 """The longest part of a name."""
 
-PICTURE = ("portrait", "photo")
+PICTURE_FIELDS = ("portrait", "photo")
 """Names in a job's metadata that tell of its picture."""
-PERFORMANCE = ("performance", "motion")
+PERFORMANCE_FIELDS = ("performance", "motion")
 """Names in a job's metadata that tell of what it does."""
 
 
@@ -25,12 +25,12 @@ def download_name(
     The animation has the job's name alone, everything else its own name, too. Where the job says nothing of its
     picture, the artifact's own name stays.
     """
-    picture = _words(_first(metadata, PICTURE))
+    picture = _words(_first(metadata, PICTURE_FIELDS))
     if not picture:
         return artifact
     named = inputs.get("driver") or inputs.get("motion") or options.get("motion")
     known = named if isinstance(named, str) and not is_id(named) and "://" not in named else ""
-    parts = [picture, _words(_first(metadata, PERFORMANCE) or known)]
+    parts = [picture, _words(_first(metadata, PERFORMANCE_FIELDS) or known)]
     stem, _, ending = artifact.rpartition(".")
     if stem != "animation":
         parts.append(_words(stem))

@@ -22,7 +22,7 @@ from service.context import Context, InContext
 from service.database.sessions import database_full
 from service.disk import make_room
 from service.problems import Problem
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 
 Scope = Literal["read", "submit", "admin"]
 SCOPES: dict[Scope, str] = {
@@ -48,7 +48,7 @@ class Caller:
             )
 
 
-HERE = Caller(LOCAL, frozenset(SCOPES))
+LOCAL_CALLER = Caller(LOCAL_KEY_ID, frozenset(SCOPES))
 """Whoever is on this machine, where no key is needed."""
 
 
@@ -66,12 +66,12 @@ def _known(request: Request, context: Context) -> Caller:
     if token is None and session is None:
         if context.settings.keys_required:
             raise not_known("key_missing", "Send a key: `Authorization: Bearer KEY`. `galatea keys create` makes one.")
-        return HERE
+        return LOCAL_CALLER
     with context.database.read() as reading:
         key = repository.of_token(reading, token) if token is not None else key_of_session(reading, session or "")
     if key is None:
         if token is None and not context.settings.keys_required:
-            return HERE  # an old cookie of the page opens nothing, and shuts nothing either
+            return LOCAL_CALLER  # an old cookie of the page opens nothing, and shuts nothing either
         if token is not None:
             count_wrong_key(context, request)
         raise not_known("key_unknown", "There is no such key: it was revoked, or it never was.")

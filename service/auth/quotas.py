@@ -7,7 +7,7 @@ from sqlalchemy.orm import Session
 from service.auth import repository
 from service.problems import Problem
 from service.settings import MEGABYTE, Settings
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 
 RETRY_SECONDS = 5
 
@@ -52,7 +52,7 @@ class Limits:
     """A key's own limits, and those of the settings where it has none. The local key has only its own."""
 
     def __init__(self, key: Key, settings: Settings):
-        bounded = key.id != LOCAL
+        bounded = key.id != LOCAL_KEY_ID
         self.requests_per_minute = key.requests_per_minute or (settings.requests_per_minute if bounded else None)
         self.jobs_at_once = settings.jobs_at_once if key.jobs_at_once is None and bounded else key.jobs_at_once
         self.uploads_at_once = settings.uploads_at_once if bounded else None

@@ -17,7 +17,7 @@ from service.queue import Queue
 
 BURST_SECONDS = 15.0
 
-SCRIPT = """
+BUCKET_SCRIPT = """
 local time = redis.call('TIME')
 local now = tonumber(time[1]) + tonumber(time[2]) / 1e6
 local full = tonumber(redis.call('GET', KEYS[1]) or now)
@@ -34,7 +34,7 @@ def waits(queue: Queue, bucket: str, per_minute: float, burst_seconds: float) ->
     try:
         # A script is sent whole only where Redis does not know it yet.
         limits = [60 / per_minute, max(burst_seconds, 60 / per_minute)]
-        waited = queue.ask(lambda client: Script(client, SCRIPT)([bucket], limits))
+        waited = queue.ask(lambda client: Script(client, BUCKET_SCRIPT)([bucket], limits))
     except redis.RedisError as error:
         structlog.get_logger().warning("rate_not_counted", reason=str(error))
         return 0

@@ -13,25 +13,28 @@ from service.clock import now
 from service.tables.artifacts import Artifact
 from service.tables.files import File
 from service.tables.jobs import Job, Status
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 from service.tables.uploads import Upload
 
 USE_NOTED_EVERY = timedelta(minutes=1)
 """The use of a key is noted no more often than this."""
 
 # What every request asks is put together once.
-_OWNER: BindParameter[str] = bindparam("owner")
+_OWNER_PARAMETER: BindParameter[str] = bindparam("owner")
 OF_TOKEN = select(Key).where(Key.token_hash == bindparam("digest"))
 UNDER_WAY = (
     select(func.count())
     .select_from(Job)
-    .where(Job.owner == _OWNER, or_(Job.status == Status.QUEUED, Job.status == Status.RUNNING))
+    .where(Job.owner == _OWNER_PARAMETER, or_(Job.status == Status.QUEUED, Job.status == Status.RUNNING))
 )
-STORED = select(
-    select(func.sum(File.size)).where(File.owner == _OWNER).scalar_subquery(),
-    select(func.sum(Artifact.size)).join(Job, Job.id == Artifact.job_id).where(Job.owner == _OWNER).scalar_subquery(),
+STORED_BYTES = select(
+    select(func.sum(File.size)).where(File.owner == _OWNER_PARAMETER).scalar_subquery(),
+    select(func.sum(Artifact.size))
+    .join(Job, Job.id == Artifact.job_id)
+    .where(Job.owner == _OWNER_PARAMETER)
+    .scalar_subquery(),
     select(func.sum(func.coalesce(Upload.length, Upload.received)))
-    .where(Upload.owner == _OWNER, Upload.file_id.is_(None))
+    .where(Upload.owner == _OWNER_PARAMETER, Upload.file_id.is_(None))
     .scalar_subquery(),
 )
 
@@ -52,7 +55,7 @@ def of_token(session: Session, token: str) -> Key | None:
 
 def with_tokens(session: Session) -> Sequence[Key]:
     """All keys but the local one, oldest first."""
-    return session.scalars(select(Key).where(Key.id != LOCAL).order_by(Key.id)).all()
+    return session.scalars(select(Key).where(Key.id != LOCAL_KEY_ID).order_by(Key.id)).all()
 
 
 def usable(key: Key, moment: datetime) -> bool:
@@ -86,4 +89,4 @@ def unfinished_uploads(session: Session, owner: str) -> int:
 
 def stored_bytes(session: Session, owner: str) -> int:
     """How much a key's files and artifacts take, and its unfinished uploads will."""
-    return sum(int(part or 0) for part in session.execute(STORED, {"owner": owner}).one())
+    return sum(int(part or 0) for part in session.execute(STORED_BYTES, {"owner": owner}).one())

@@ -15,12 +15,12 @@ from service.auth.tokens import signature, signed_by
 from service.tables.keys import Key
 
 COOKIE = "galatea_session"
-SECONDS = 12 * 3600
+SESSION_SECONDS = 12 * 3600
 
 
 def new_session(key: Key) -> str:
     """The cookie's value for a key."""
-    expires = str(int(time.time()) + SECONDS)
+    expires = str(int(time.time()) + SESSION_SECONDS)
     return f"{key.id}.{expires}.{signature(key.link_secret.reveal(), 'session', key.id, expires)}"
 
 

@@ -9,13 +9,13 @@ from base64 import b64encode, urlsafe_b64encode
 
 from service.vault import Secret
 
-PREFIX = "galatea_"
-HINT_CHARACTERS = len(PREFIX) + 4
+KEY_PREFIX = "galatea_"
+HINT_CHARACTERS = len(KEY_PREFIX) + 4
 
 
 def new_token() -> str:
     """A fresh token: 256 random bits behind a prefix by which leaked ones can be searched for."""
-    return PREFIX + secrets.token_urlsafe(32)
+    return KEY_PREFIX + secrets.token_urlsafe(32)
 
 
 def digest(token: str) -> str:

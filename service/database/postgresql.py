@@ -19,7 +19,7 @@ from sqlalchemy import URL, Dialect, NullPool, create_engine, event, text
 from sqlalchemy.engine import Connection, Engine, ExceptionContext, make_url
 from sqlalchemy.exc import IntegrityError
 
-SCHEMES = ("postgresql://", "postgres://")
+URL_SCHEMES = ("postgresql://", "postgres://")
 SOCKET_SECONDS = 10
 """How long an answer of the server may take."""
 
@@ -36,25 +36,25 @@ LEAVING_SECONDS = 3.0
 USE_LOCK = UPGRADE_LOCK + 1
 """The advisory lock that every connection shares with the others for as long as it is open."""
 
-UNTRANSLATABLE = "22021"
+UNTRANSLATABLE_CODE = "22021"
 """The error code for a text that the server cannot keep."""
 
 NO_ROOM = "53100"
 """The error code of a full disk."""
 
-BUSY = ("40001", "40P01", "53300", "55P03", "57014")
+BUSY_CODES = ("40001", "40P01", "53300", "55P03", "57014")
 """Error codes of a server that has too much to do: conflicts, too many connections, timeouts."""
 
-CONSTRAINTS = "23"
+CONSTRAINT_CODES = "23"
 """The beginning of error codes that say that a constraint would be broken."""
 
-GONE = ("08", "57P01", "57P02", "57P03", "25P03")
+LOST_CONNECTION_CODES = ("08", "57P01", "57P02", "57P03", "25P03")
 """The beginnings of error codes after which a connection is of no use: lost, server stopping, transaction ended."""
 
 
 def speaks(url: str) -> bool:
     """Whether an address means a PostgreSQL server."""
-    return url.startswith(SCHEMES)
+    return url.startswith(URL_SCHEMES)
 
 
 def address(url: str) -> tuple[URL, dict[str, Any]]:
@@ -129,9 +129,9 @@ def engine(url: str, connections: int) -> Engine:
     @event.listens_for(made, "handle_error")
     def notice(context: ExceptionContext) -> None:
         error, code = context.original_exception, error_code(context.original_exception)
-        if code.startswith(GONE):
+        if code.startswith(LOST_CONNECTION_CODES):
             context.is_disconnect = True
-        if code.startswith(CONSTRAINTS):  # pg8000 tells only of keys that are there twice by this class
+        if code.startswith(CONSTRAINT_CODES):  # pg8000 tells only of keys that are there twice by this class
             raise IntegrityError(context.statement, context.parameters, error) from error
 
     return made

@@ -201,8 +201,8 @@ def database_unavailable(error: BaseException) -> bool:
     return (
         error.connection_invalidated
         or isinstance(error, InterfaceError)
-        or code.startswith(postgresql.GONE)
-        or code in postgresql.BUSY
+        or code.startswith(postgresql.LOST_CONNECTION_CODES)
+        or code in postgresql.BUSY_CODES
         or "database is locked" in str(error.orig)
     )
 

@@ -9,7 +9,7 @@ from service.auth.caller import Reader
 from service.context import InContext
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
-from service.http.delivery import DELIVERED, DELIVERED_IN_PARTS, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, DELIVERY_RESPONSES, deliver
 from service.keeping.endpoints import Endpoints, library_router
 
 router = library_router(
@@ -46,7 +46,7 @@ def get_driver_video(name: str, request: Request, caller: Reader, context: InCon
     "/{name}/poster",
     operation_id="get_driver_poster",
     response_class=Response,
-    responses=DELIVERED,
+    responses=DELIVERY_RESPONSES,
 )
 def get_driver_poster(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) that shows what happens in it; of one's own drivers, the face at rest."""
@@ -59,7 +59,7 @@ def get_driver_poster(name: str, request: Request, caller: Reader, context: InCo
     "/{name}/moments/{moment}/poster",
     operation_id="get_moment_poster",
     response_class=Response,
-    responses=DELIVERED,
+    responses=DELIVERY_RESPONSES,
 )
 def get_moment_poster(name: str, moment: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) of a moment at its height."""

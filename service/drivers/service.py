@@ -13,7 +13,7 @@ from service.job_records import artifacts
 from service.keeping.presentation import Presentation
 from service.keeping.service import file_of, missing
 from service.libraries import repository
-from service.libraries.driver_segments import POSTER, Segments, missing_segment, of_drivers, segments
+from service.libraries.driver_segments import POSTER_NAME, Segments, missing_segment, of_drivers, segments
 from service.libraries.library import DRIVERS
 from service.problems import Problem
 from service.storage.files import Storage
@@ -45,7 +45,7 @@ def poster(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
         driver = repository.get(session, DRIVERS, owner, name)
     if driver is None and name in DRIVERS.built_in:
         return _installed(built_in.picture(DRIVERS.name, name), "image/jpeg")
-    return _picture(context, driver, POSTER)
+    return _picture(context, driver, POSTER_NAME)
 
 
 def moment_poster(context: Context, owner: str, name: str, moment: str) -> tuple[Stored, Storage]:

@@ -13,7 +13,7 @@ from service.tables.events import Event
 from service.tables.jobs import Job
 from service.webhooks import outbox
 
-AFTER = (
+EVENTS_AFTER = (
     select(Event)
     .where(Event.job_id == bindparam("job"), Event.id > bindparam("last"))
     .order_by(Event.id)
@@ -41,7 +41,7 @@ def begin(session: Session, job: Job) -> None:
 
 def after(session: Session, job_id: str, event_id: int, limit: int = 200) -> Sequence[Event]:
     """A job's events that came after one, oldest first."""
-    return session.scalars(AFTER, {"job": job_id, "last": event_id, "most": limit}).all()
+    return session.scalars(EVENTS_AFTER, {"job": job_id, "last": event_id, "most": limit}).all()
 
 
 def newest(session: Session) -> int:

@@ -22,7 +22,7 @@ COUNTERS = {
 }
 """What is counted: the description and the labels."""
 
-GROW = (
+ADD_TO_COUNTER = (
     update(Counter)
     .where(Counter.name == bindparam("its_name"), Counter.labels == bindparam("its_labels"))
     .values(value=Counter.value + bindparam("amount"))
@@ -36,13 +36,13 @@ def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
     assert len(labels) == len(COUNTERS[name][1])
     key = json.dumps(["".join(filter(str.isprintable, label))[:50] for label in labels], ensure_ascii=False)
     grown = {"its_name": name, "its_labels": key, "amount": amount}
-    if session.execute(GROW, grown, execution_options=BY_THE_DATABASE).rowcount:  # type: ignore[attr-defined]
+    if session.execute(ADD_TO_COUNTER, grown, execution_options=BY_THE_DATABASE).rowcount:  # type: ignore[attr-defined]
         return
     try:
         with session.begin_nested():
             session.add(Counter(name=name, labels=key, value=amount))
     except IntegrityError:  # another process began it in this very moment
-        session.execute(GROW, grown, execution_options=BY_THE_DATABASE)
+        session.execute(ADD_TO_COUNTER, grown, execution_options=BY_THE_DATABASE)
 
 
 def counted(session: Session) -> Iterator[tuple[str, list[str], float]]:

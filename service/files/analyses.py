@@ -17,7 +17,7 @@ from service.context import Context
 from service.settings import Settings
 from service.tables.files import File
 
-LIBRARY = "library"
+LIBRARY_OWNER = "library"
 """Stands where an owner would, for the built-in libraries."""
 
 
@@ -30,7 +30,7 @@ def erase_unneeded(context: Context, contents: Iterable[tuple[str, str]]) -> Non
     """Erase the analyses of these pairs of owner and SHA-256 that no file needs any more."""
     for owner, content in contents:
         with context.database.read() as session:
-            needed = owner == LIBRARY or _holds(session, owner, content)
+            needed = owner == LIBRARY_OWNER or _holds(session, owner, content)
         if not needed:
             shutil.rmtree(folder(context.settings, owner, content), ignore_errors=True)
 

@@ -19,7 +19,7 @@ from service.tables.files import File
 
 router = APIRouter(prefix="/files", tags=["files"])
 
-UPLOAD: dict[str, Any] = {
+UPLOAD_REQUEST: dict[str, Any] = {
     "requestBody": {
         "required": True,
         "content": {
@@ -43,7 +43,7 @@ UPLOAD: dict[str, Any] = {
     "",
     status_code=201,
     operation_id="create_file",
-    openapi_extra=UPLOAD,
+    openapi_extra=UPLOAD_REQUEST,
     responses=responses(413, 415, 422, 507),
 )
 async def create_file(request: Request, response: Response, caller: Submitter, context: InContext) -> FileOut:

@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from service.tables.files import File
 from service.tables.jobs import JobFile
-from service.tables.kept import KEPT
+from service.tables.kept import KEPT_TABLES
 
 
 def get(session: Session, owner: str, file_id: str) -> File | None:
@@ -32,7 +32,7 @@ def erase_unused(
 
     Returns them; what they have in the storage is free once the session has been committed.
     """
-    kept = [exists().where(table.file_id == File.id) for table in KEPT]
+    kept = [exists().where(table.file_id == File.id) for table in KEPT_TABLES]
     used = or_(exists().where(JobFile.file_id == File.id), *kept)
     query = select(File.id).where(~used).with_for_update(skip_locked=True)
     if ids is not None:

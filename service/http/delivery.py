@@ -17,10 +17,10 @@ from service.problems import Problem, responses, unavailable
 from service.storage.files import Storage, StorageUnavailable
 from service.tables.stored import Stored
 
-DELIVERED: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}
+DELIVERY_RESPONSES: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}
 """What `deliver` may answer beside the whole, for the OpenAPI document."""
 
-DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The asked parts"}, **DELIVERED}
+DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The asked parts"}, **DELIVERY_RESPONSES}
 """What `deliver` may answer beside the whole where ranges are often asked for, for the OpenAPI document."""
 
 
@@ -33,7 +33,7 @@ def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: 
         "Accept-Ranges": "bytes",
         "Cache-Control": "private, no-cache",
         "Content-Disposition": _disposition(stored.name),
-        "Content-Security-Policy": browser.MEDIA,
+        "Content-Security-Policy": browser.MEDIA_POLICY,
     }
     if not_modified(headers.get("if-none-match"), headers.get("if-modified-since"), etag, stored.modified):
         return Response(status_code=304, headers=answer)

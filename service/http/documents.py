@@ -16,7 +16,7 @@ from service.problems import Problem
 
 MAX_NAMES = 5000
 """The most names in all objects of a document: an option with 1,000 strokes has 3,000."""
-MAX_DEPTH = 50
+MAX_JSON_DEPTH = 50
 """The most arrays and objects within each other."""
 MAX_NUMBER = 1.7e308
 """The largest number: beyond it, most programs read infinity."""
@@ -51,7 +51,7 @@ def require_text(texts: Iterable[str], what: str) -> None:
 def _require_bounded(value: Any, what: str) -> None:
     """Walk over a document level by level, which takes no more of the stack however deep it is."""
     level, names = [value], 0
-    for _ in range(MAX_DEPTH + 1):
+    for _ in range(MAX_JSON_DEPTH + 1):
         below: list[Any] = []
         for one in level:
             if isinstance(one, str):
@@ -78,7 +78,7 @@ def _is_number(value: float) -> bool:
 
 
 def _too_deep(what: str) -> Problem:
-    return Problem(422, "json_too_deep", f"{what} has more than {MAX_DEPTH} arrays and objects within each other.")
+    return Problem(422, "json_too_deep", f"{what} has more than {MAX_JSON_DEPTH} arrays and objects within each other.")
 
 
 def _no_number(name: str) -> None:

@@ -16,7 +16,7 @@ THREADED_GZIP_BYTES = 50_000
 """A longer text is compressed in a thread."""
 
 GZIP_LEVEL = 5
-TEXTS = ("application/json", "application/problem+json", "text/plain")
+TEXT_TYPES = ("application/json", "application/problem+json", "text/plain")
 
 
 def accepts(header: str | None, coding: str) -> bool:
@@ -62,7 +62,7 @@ class Compressed:
 
 def _is_text(start: Message) -> bool:
     headers = Headers(raw=start["headers"])
-    return headers.get("content-type", "").startswith(TEXTS) and not {"content-encoding", "etag"} & set(headers)
+    return headers.get("content-type", "").startswith(TEXT_TYPES) and not {"content-encoding", "etag"} & set(headers)
 
 
 async def _gzipped(body: bytes) -> bytes:

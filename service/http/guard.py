@@ -23,9 +23,9 @@ from service.http import browser
 from service.loopback import is_loopback
 from service.problems import Problem
 
-FORWARDING = ("forwarded", "x-forwarded-for", "x-forwarded-host", "x-forwarded-proto", "x-real-ip", "via")
+FORWARDING_HEADERS = ("forwarded", "x-forwarded-for", "x-forwarded-host", "x-forwarded-proto", "x-real-ip", "via")
 
-PUBLIC = "/v1/public/"
+PUBLIC_PATH = "/v1/public/"
 """What lies here is meant for pages of any origin."""
 
 
@@ -67,7 +67,7 @@ class Guard:
     def refusal(self, headers: Headers, peer: str, path: str = "/") -> Problem | None:
         """Why a request is refused; None if it is not."""
         host = headers.get("host", "")
-        forwarded = any(name in headers for name in FORWARDING)
+        forwarded = any(name in headers for name in FORWARDING_HEADERS)
         if forwarded and self._trusts(peer):
             host = headers.get("x-forwarded-host", host).split(",")[0].strip()
         elif not (self.keys_required or "authorization" in headers):
@@ -82,7 +82,7 @@ class Guard:
                     403, "host_not_allowed", "The service answers on loopback only: use http://127.0.0.1 or localhost."
                 )
         origin = headers.get("origin")
-        if origin is None or "authorization" in headers or origin in self.origins or path.startswith(PUBLIC):
+        if origin is None or "authorization" in headers or origin in self.origins or path.startswith(PUBLIC_PATH):
             return None
         if _parts(origin).netloc.lower() != host.lower():
             return Problem(403, "origin_not_allowed", "A web page of another origin may not use the service.")

@@ -30,10 +30,10 @@ def built(folder: Path) -> bool:
     return (folder / "index.html").is_file()
 
 
-HASHED = "assets"
+HASHED_FOLDER = "assets"
 """The folder of files that are named by their content."""
 
-CODINGS = (("br", ".br"), ("gzip", ".gz"))
+CONTENT_CODINGS = (("br", ".br"), ("gzip", ".gz"))
 """Content codings, best first, and how files end that have them."""
 
 
@@ -65,7 +65,7 @@ class Page(StaticFiles):
 
     async def _lost(self, scope: Scope) -> Response:
         """The page, which says that there is nothing at this address: whole, and as the failure that it is."""
-        headers = {"Cache-Control": "no-cache", "Content-Security-Policy": browser.PAGE}
+        headers = {"Cache-Control": "no-cache", "Content-Security-Policy": browser.PAGE_POLICY}
         document = HTMLResponse((self._folder / "index.html").read_text(), 404, headers)
         return document if scope["method"] == "GET" else Response(status_code=404)
 
@@ -74,14 +74,14 @@ class Page(StaticFiles):
     ) -> Response:
         request = Headers(scope=scope)
         media_type = guess_type(full_path)[0] or "application/octet-stream"
-        hashed = Path(full_path).parent == (self._folder / HASHED).resolve()
+        hashed = Path(full_path).parent == (self._folder / HASHED_FOLDER).resolve()
         headers = {
             "Cache-Control": "public, max-age=31536000, immutable" if hashed else "no-cache",
             "Vary": "Accept-Encoding",
         }
         if media_type == "text/html":
-            headers["Content-Security-Policy"] = browser.PAGE
-        for coding, ending in CODINGS:
+            headers["Content-Security-Policy"] = browser.PAGE_POLICY
+        for coding, ending in CONTENT_CODINGS:
             copy = Path(f"{full_path}{ending}")
             if accepts(request.get("accept-encoding"), coding) and _is_copy(copy, stat_result):
                 full_path, stat_result = copy, copy.stat()

@@ -22,8 +22,8 @@ def _whole(value: object) -> object:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
-WHOLE = BeforeValidator(_whole)
-"""For whole numbers, which JSON may also write as 3.0: `Annotated[int, Field(ge=1), WHOLE]`, in this order, so that
+WHOLE_NUMBER = BeforeValidator(_whole)
+"""For whole numbers, which JSON may also write as 3.0: `Annotated[int, Field(ge=1), WHOLE_NUMBER]`, in this order, so that
 the OpenAPI document tells the bounds."""
 
 JSON_TYPES = ("", "application/json")

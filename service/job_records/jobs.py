@@ -12,7 +12,7 @@ from sqlalchemy.orm import Session, aliased
 from service.clock import now
 from service.tables.base import SET_BACK_SECONDS, moment_in
 from service.tables.jobs import IdempotencyKey, Job, JobFile, Status
-from service.tables.kept import KEPT
+from service.tables.kept import KEPT_TABLES
 
 
 def get(session: Session, job_id: str) -> Job | None:
@@ -162,7 +162,7 @@ def ended_before(session: Session, moment: datetime, most: int) -> Sequence[Job]
     """Some jobs that ended before a moment, oldest first. What was found in something that a user keeps is kept
     as long as that."""
     query = select(Job).where(Job.finished_at < moment)
-    for table in KEPT:
+    for table in KEPT_TABLES:
         query = query.where(Job.id.not_in(select(table.inspection_job).where(table.inspection_job.is_not(None))))
     return session.scalars(query.order_by(Job.finished_at).limit(most)).all()
 

@@ -31,7 +31,7 @@ from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=RequestModelRoute)
 
 WAIT_POLL_SECONDS = 0.2
-TITLE = {"type": "string", "minLength": 1, "maxLength": TITLE_CHARACTERS, "pattern": TITLE_PATTERN}
+TITLE_SCHEMA = {"type": "string", "minLength": 1, "maxLength": TITLE_CHARACTERS, "pattern": TITLE_PATTERN}
 
 IdempotencyKeyHeader = Annotated[str | None, Header(min_length=1, max_length=255)]
 PreferHeader = Annotated[str | None, Header(description="`wait=SECONDS` holds the answer until the job ends.")]
@@ -67,7 +67,7 @@ def body(model: str, named: str, required: Sequence[str] = (), **properties: Any
     "",
     status_code=202,
     operation_id="create_job",
-    openapi_extra=body("JobIn", "inputs", ["kind"], kind={"type": "string"}, title=TITLE),
+    openapi_extra=body("JobIn", "inputs", ["kind"], kind={"type": "string"}, title=TITLE_SCHEMA),
     responses=responses(409, 413, 415, 422, 507),
 )
 async def create_job(

@@ -29,7 +29,7 @@ MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPE
 
 Value = str | list[str] | None
 """What can be given for an input; null is nothing."""
-_VALUE: TypeAdapter[Value] = TypeAdapter(Value)
+_VALUE_ADAPTER: TypeAdapter[Value] = TypeAdapter(Value)
 
 
 @dataclass
@@ -134,7 +134,7 @@ def split_corrections(kind: Kind, corrections: Mapping[str, object]) -> tuple[di
             options[name] = value
             continue
         try:
-            given[name] = _VALUE.validate_python(value)
+            given[name] = _VALUE_ADAPTER.validate_python(value)
         except ValidationError:
             detail = f"“{name}” is a file: give its id, an address, or null."
             raise _refused(name, "invalid_request", detail) from None

@@ -6,13 +6,13 @@ import shutil
 
 from service.context import Context
 
-STAGES = "stages"
+STAGES_PREFIX = "stages"
 """The prefix in the storage under which the copies lie: `stages/TREE/KEY`."""
 
 
 def stages_prefix(tree: str) -> str:
     """Where the copies of a tree's stages lie."""
-    return f"{STAGES}/{tree}"
+    return f"{STAGES_PREFIX}/{tree}"
 
 
 def erase(context: Context, tree: str) -> None:

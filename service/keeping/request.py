@@ -20,7 +20,7 @@ from service.keeping import service
 from service.libraries.library import Library
 from service.problems import Problem, invalid
 
-NAME: JsonDict = {"minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME.pattern}$"}
+NAME_SCHEMA: JsonDict = {"minLength": 1, "maxLength": 63, "pattern": f"^{service.NAME_PATTERN.pattern}$"}
 """What the OpenAPI document tells of a name; `require_free_name` checks it, so that the error has its code."""
 
 
@@ -38,7 +38,7 @@ class KeptChange(BaseModel):
 
     model_config = REQUEST_MODEL
 
-    name: Annotated[str, Field(json_schema_extra=NAME)]
+    name: Annotated[str, Field(json_schema_extra=NAME_SCHEMA)]
     """Its new name."""
 
 
@@ -46,7 +46,7 @@ def body(media_types: str) -> dict[str, Any]:
     """What the OpenAPI document tells of such a body; `media_types` as they stand in an `Accept`."""
 
     def schema(file: dict[str, Any]) -> dict[str, Any]:
-        properties = {"name": {"type": "string", **NAME}, "file": {"type": "string", **file}}
+        properties = {"name": {"type": "string", **NAME_SCHEMA}, "file": {"type": "string", **file}}
         return {"type": "object", "required": ["name", "file"], "properties": properties, "additionalProperties": False}
 
     form = {"schema": schema({"format": "binary"}), "encoding": {"file": {"contentType": media_types}}}

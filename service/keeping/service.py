@@ -20,22 +20,26 @@ from service.problems import FieldError, Problem
 from service.tables.files import File
 from service.tables.kept import Kept
 
-NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
+NAME_PATTERN = re.compile(r"[a-z0-9][a-z0-9_-]{0,62}")
 
-RESERVED = (AUTO,)
+RESERVED_NAMES = (AUTO,)
 """Names with a meaning of their own where something kept is named."""
 
 
 def require_free_name(context: Context, library: Library, owner: str, name: str) -> None:
     """Raise a problem if nothing can be kept under this name."""
-    if NAME.fullmatch(name) is None or is_id(name):
+    if NAME_PATTERN.fullmatch(name) is None or is_id(name):
         raise Problem(
             422,
             "invalid_name",
             f"A {library.noun}'s name has 1 to 63 of the characters a-z, 0-9, - and _, a letter or digit first.",
         )
     with context.database.read() as session:
-        if name in RESERVED or name in library.built_in or repository.get(session, library, owner, name) is not None:
+        if (
+            name in RESERVED_NAMES
+            or name in library.built_in
+            or repository.get(session, library, owner, name) is not None
+        ):
             raise _taken(library, name)
 
 

@@ -7,7 +7,7 @@ from starlette.responses import Response
 
 from service.auth import repository
 from service.auth.caller import Admin, Reader, not_known
-from service.auth.sessions import COOKIE, SECONDS, new_session
+from service.auth.sessions import COOKIE, SESSION_SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
 from service.context import InContext
@@ -74,7 +74,7 @@ def open_session(requested: SessionIn, request: Request, response: Response, con
     response.set_cookie(
         COOKIE,
         new_session(key),
-        max_age=SECONDS,
+        max_age=SESSION_SECONDS,
         path="/",
         secure=request.headers.get("x-forwarded-proto", request.url.scheme) == "https",
         httponly=True,

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BaseModel, Field
 
 from service.auth.caller import SCOPES, Scope
 from service.auth.quotas import Limits
-from service.http.request_models import REQUEST_MODEL, WHOLE
+from service.http.request_models import REQUEST_MODEL, WHOLE_NUMBER
 from service.settings import Settings
 from service.tables.keys import Key
 
@@ -29,9 +29,9 @@ class KeyIn(BaseModel):
         "submit",
     ]
     expires_in_days: float | None = Field(None, gt=0, le=36_500)
-    requests_per_minute: Annotated[int, Field(ge=1, le=1_000_000), WHOLE] | None = None
-    jobs_at_once: Annotated[int, Field(ge=0, le=1_000_000), WHOLE] | None = None
-    stored_mb: Annotated[int, Field(ge=0, le=1_000_000_000), WHOLE] | None = None
+    requests_per_minute: Annotated[int, Field(ge=1, le=1_000_000), WHOLE_NUMBER] | None = None
+    jobs_at_once: Annotated[int, Field(ge=0, le=1_000_000), WHOLE_NUMBER] | None = None
+    stored_mb: Annotated[int, Field(ge=0, le=1_000_000_000), WHOLE_NUMBER] | None = None
 
 
 class KeyOut(BaseModel):

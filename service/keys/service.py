@@ -21,7 +21,7 @@ from service.libraries import repository as kept
 from service.libraries.library import LIBRARIES
 from service.links import repository as links
 from service.problems import Problem
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 from service.uploads import repository as uploads
 from service.uploads import spool
 from service.webhooks import repository as webhooks
@@ -55,7 +55,7 @@ def revoke(session: Session, key_id: str) -> Key:
     Raises a 404 problem if there is no such key. What belongs to it stays; its jobs go on.
     """
     key = repository.get(session, key_id)
-    if key is None or key.id == LOCAL:
+    if key is None or key.id == LOCAL_KEY_ID:
         raise Problem(404, "key_not_found", "There is no such key.")
     if key.revoked_at is None:
         key.token_hash, key.link_secret, key.revoked_at = None, new_link_secret(), now()

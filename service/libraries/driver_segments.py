@@ -16,7 +16,7 @@ from service.libraries.library import DRIVERS
 from service.problems import Problem
 from service.tables.kept import Kept
 
-POSTER = "poster.jpg"
+POSTER_NAME = "poster.jpg"
 """The picture of the face at rest that a search leaves."""
 
 Seconds = Annotated[float, Field(ge=0, allow_inf_nan=False)]

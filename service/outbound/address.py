@@ -25,7 +25,7 @@ Address = IPv4Address | IPv6Address
 Network = IPv4Network | IPv6Network
 
 GLOBAL_UNICAST = IPv6Network("2000::/3")
-RESERVED = tuple(
+RESERVED_NETWORKS = tuple(
     ip_network(network)
     for network in (
         "192.88.99.0/24",  # 6to4 relays
@@ -38,7 +38,7 @@ RESERVED = tuple(
 """Reserved networks of which the standard library's `is_global` does not know, or did not in every version."""
 
 MAX_URL_CHARACTERS = 2000
-HOST = re.compile(r"[\w-]+(\.[\w-]+)*\.?")
+HOST_PATTERN = re.compile(r"[\w-]+(\.[\w-]+)*\.?")
 
 
 class AddressRefused(Exception):
@@ -51,7 +51,7 @@ def is_public(address: Address) -> bool:
         return False
     if isinstance(address, IPv6Address) and address not in GLOBAL_UNICAST:
         return False
-    return not any(address in network for network in RESERVED)
+    return not any(address in network for network in RESERVED_NETWORKS)
 
 
 def may_call(address: Address, allowed: Sequence[Network], encrypted: bool) -> bool:
@@ -78,7 +78,7 @@ def require_callable(url: str, allowed: Sequence[Network]) -> None:
     if not encrypted and not allowed:
         raise AddressRefused("Only addresses that begin with https:// can be called; http:// is for allowed networks.")
     literal = _literal(parsed.host)
-    if literal is None and HOST.fullmatch(parsed.host) is None:
+    if literal is None and HOST_PATTERN.fullmatch(parsed.host) is None:
         raise AddressRefused(f"“{parsed.host[:80]}” is no name of a host.")
     if literal is not None and not may_call(literal, allowed, encrypted):
         raise _refusal(parsed.host, [literal], encrypted)

@@ -39,5 +39,5 @@ class Motion(Kept):
     inspection_job: Mapped[str | None] = mapped_column("check_job", String(36), index=True)
 
 
-KEPT: tuple[type[Kept], ...] = (Driver, Motion)
+KEPT_TABLES: tuple[type[Kept], ...] = (Driver, Motion)
 """All tables of what users keep."""

@@ -10,7 +10,7 @@ from sqlalchemy.orm import Mapped, mapped_column
 from service.tables.base import Base, Sealed, UTCDateTime
 from service.vault import Secret
 
-LOCAL = "local"
+LOCAL_KEY_ID = "local"
 """The id of the one key without a token: it stands for callers on this machine where no key is needed."""
 
 

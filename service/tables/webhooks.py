@@ -24,10 +24,10 @@ class EventType(StrEnum):
     PROGRESS = "job.progress"
 
 
-FINAL = (EventType.SUCCEEDED, EventType.FAILED, EventType.CANCELED)
+FINAL_EVENTS = (EventType.SUCCEEDED, EventType.FAILED, EventType.CANCELED)
 """What is told unless more is asked for."""
 
-TEST = "webhook.test"
+TEST_EVENT = "webhook.test"
 """What an endpoint is told to try it."""
 
 

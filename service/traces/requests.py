@@ -20,12 +20,12 @@ from service.traces.tracer import fail, parent_of, trace_id
 ID_PATTERN = "[A-Za-z0-9._-]{1,64}"
 """A request's id, as callers may give it."""
 
-HEADER = "X-Request-Id"
+REQUEST_ID_HEADER = "X-Request-Id"
 
-METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
+HTTP_METHODS = ("GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 """The methods of HTTP; a request by another one is told of as `_OTHER`."""
 
-PROBES = ("/healthz", "/readyz", "/metrics")
+PROBE_PATHS = ("/healthz", "/readyz", "/metrics")
 """Asked every few seconds by machines: they would drown all else in the traces."""
 
 
@@ -41,7 +41,7 @@ class Requests:
             await self.app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        given = headers.get(HEADER, "")
+        given = headers.get(REQUEST_ID_HEADER, "")
         request = CurrentRequest(id=given if re.fullmatch(ID_PATTERN, given) else new_id())
         request.span = self._span(scope, headers)
         # Never taken back: the server logs in the same context after we are done. What a request before may have left
@@ -65,7 +65,7 @@ class Requests:
             if message["type"] == "http.response.start":
                 status = message["status"]
                 marked = MutableHeaders(scope=message)
-                marked[HEADER] = str(request.id)
+                marked[REQUEST_ID_HEADER] = str(request.id)
                 if marked.get("content-type", "").startswith("text/event-stream"):
                     end(status)  # it may last for hours, and says nothing of how quick the service is
             await send(message)
@@ -76,7 +76,7 @@ class Requests:
             end(status)
 
     def _span(self, scope: Scope, headers: Headers) -> Span:
-        if scope["path"] in PROBES:
+        if scope["path"] in PROBE_PATHS:
             return INVALID_SPAN
         method = _method(scope)
         attributes = {"http.request.method": method, "url.scheme": scope["scheme"]}
@@ -102,7 +102,7 @@ def _end(scope: Scope, request: CurrentRequest, status: int | None) -> None:
 
 def _method(scope: Scope) -> str:
     method: str = scope["method"]
-    return method if method in METHODS else "_OTHER"
+    return method if method in HTTP_METHODS else "_OTHER"
 
 
 def _template(scope: Scope) -> str | None:

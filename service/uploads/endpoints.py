@@ -15,7 +15,7 @@ from service.tables.uploads import Upload
 from service.uploads import protocol, service
 from service.uploads.checksum import Checksum
 from service.uploads.protocol import (
-    PIECE,
+    PIECE_TYPE,
     ContentType,
     DeferLength,
     TusRoute,
@@ -73,9 +73,9 @@ async def create_upload(
     before that, it is erased when nothing more comes for a while."""
     if (upload_length is None) == (defer_length is None):
         raise Problem(422, "length_missing", "Send either Upload-Length or Upload-Defer-Length: 1.")
-    piece = content_type == PIECE
+    piece = content_type == PIECE_TYPE
     if not piece and request.headers.get("content-length", "0") != "0":
-        raise Problem(415, "body_type_unsupported", f"Send the first piece as {PIECE}, or no body.")
+        raise Problem(415, "body_type_unsupported", f"Send the first piece as {PIECE_TYPE}, or no body.")
     checksum = Checksum(upload_checksum) if upload_checksum is not None else None
     upload = await run_sync(service.create, context, caller.owner, upload_length, upload_metadata)
     if piece:
@@ -128,8 +128,8 @@ async def add_to_upload(
 ) -> Response:
     """Add a piece, which begins where the upload stands. What came of it before the line broke is kept, unless it has
     a checksum to meet. The last piece makes the upload a file."""
-    if content_type != PIECE:
-        raise Problem(415, "body_type_unsupported", f"Send a piece as {PIECE}.")
+    if content_type != PIECE_TYPE:
+        raise Problem(415, "body_type_unsupported", f"Send a piece as {PIECE_TYPE}.")
     checksum = Checksum(upload_checksum) if upload_checksum is not None else None
     upload = await _receive(request, caller, context, under_way, upload_id, upload_offset, upload_length, checksum)
     return Response(status_code=204, headers=protocol.standing(upload))

@@ -22,9 +22,9 @@ from service.settings import MEGABYTE, Settings
 from service.tables.uploads import Upload
 from service.uploads.checksum import ALGORITHMS
 
-VERSION = "1.0.0"
-EXTENSIONS = ("creation", "creation-with-upload", "creation-defer-length", "checksum", "expiration", "termination")
-PIECE = "application/offset+octet-stream"
+TUS_VERSION = "1.0.0"
+TUS_EXTENSIONS = ("creation", "creation-with-upload", "creation-defer-length", "checksum", "expiration", "termination")
+PIECE_TYPE = "application/offset+octet-stream"
 """The media type of a piece."""
 
 MAX_LENGTH_BYTES = 1 << 53
@@ -61,9 +61,9 @@ class TusRoute(APIRoute):
                 response = await handle(request)
             except (Problem, RequestValidationError) as error:
                 problem = error if isinstance(error, Problem) else invalid_request(error)
-                problem.headers.setdefault("Tus-Resumable", VERSION)
+                problem.headers.setdefault("Tus-Resumable", TUS_VERSION)
                 raise problem from error
-            response.headers["Tus-Resumable"] = VERSION
+            response.headers["Tus-Resumable"] = TUS_VERSION
             return response
 
         return speak
@@ -81,23 +81,23 @@ async def require_version(
 ) -> None:
     """Raise a problem if a request is not of this version of the protocol (412) or of none (400); who asks must be
     known before."""
-    if tus_resumable == VERSION:
+    if tus_resumable == TUS_VERSION:
         return
     given = f"version {tus_resumable[:20]} is not spoken here" if tus_resumable else "the header is missing"
     raise Problem(
         412 if tus_resumable else 400,
         "tus_version",
-        f"Uploads follow the tus protocol: send Tus-Resumable: {VERSION} ({given}), or upload the file by "
+        f"Uploads follow the tus protocol: send Tus-Resumable: {TUS_VERSION} ({given}), or upload the file by "
         "POST /v1/files.",
-        headers={"Tus-Version": VERSION},
+        headers={"Tus-Version": TUS_VERSION},
     )
 
 
 def offer(settings: Settings) -> dict[str, str]:
     """What the service can do, as OPTIONS tells it."""
     return {
-        "Tus-Version": VERSION,
-        "Tus-Extension": ",".join(EXTENSIONS),
+        "Tus-Version": TUS_VERSION,
+        "Tus-Extension": ",".join(TUS_EXTENSIONS),
         "Tus-Max-Size": str(int(largest_mb(settings) * MEGABYTE)),
         "Tus-Checksum-Algorithm": ",".join(ALGORITHMS),
     }
@@ -117,7 +117,7 @@ def description(upload: Upload) -> dict[str, str]:
     return length | ({"Upload-Metadata": upload.notes} if upload.notes else {})
 
 
-HEADERS: dict[str, dict[str, Any]] = {
+TUS_HEADERS: dict[str, dict[str, Any]] = {
     name: {"description": what, "schema": {"type": kind}}
     for name, kind, what in (
         ("Location", "string", "The upload's address; its last part is the id, and later the file's."),
@@ -137,7 +137,7 @@ HEADERS: dict[str, dict[str, Any]] = {
 
 def told(status: int, text: str, *names: str) -> dict[int | str, dict[str, Any]]:
     """An answer and its headers, for the OpenAPI document."""
-    return {status: {"description": text, "headers": {name: HEADERS[name] for name in ("Tus-Resumable", *names)}}}
+    return {status: {"description": text, "headers": {name: TUS_HEADERS[name] for name in ("Tus-Resumable", *names)}}}
 
 
 def bare(*statuses: int) -> dict[int | str, dict[str, Any]]:
@@ -147,10 +147,10 @@ def bare(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 def asks(body: bool | None = None) -> dict[str, Any]:
     """What a request must bring, for the OpenAPI document: the version, and a piece (`body`) or perhaps one (False)."""
-    version = {"type": "string", "enum": [VERSION]}
+    version = {"type": "string", "enum": [TUS_VERSION]}
     parameter = {"name": "Tus-Resumable", "in": "header", "required": True, "schema": version}
     needed: dict[str, Any] = {"parameters": [parameter | {"description": "The protocol's version."}]}
     if body is not None:
-        content = {PIECE: {"schema": {"type": "string", "format": "binary"}}}
+        content = {PIECE_TYPE: {"schema": {"type": "string", "format": "binary"}}}
         needed["requestBody"] = {"content": content, "required": body}
     return needed

@@ -27,7 +27,7 @@ from service.webhooks import schedule
 from service.webhooks.message import body
 from service.webhooks.signing import live_secrets
 
-UNREADABLE = "secret_unreadable"
+UNREADABLE_CODE = "secret_unreadable"
 """The code of an attempt that could not be signed."""
 
 SET_BACK = timedelta(minutes=10)
@@ -225,7 +225,7 @@ def _fail(session: Session, delivery: Delivery, outcome: Outcome, moment: dateti
     delivery.next_attempt_at = None if pause is None else moment + pause
     if pause is None:
         delivery.status = DeliveryStatus.FAILED
-    if delivery.webhook_id is not None and outcome.code != UNREADABLE:  # of that the receiver knows nothing
+    if delivery.webhook_id is not None and outcome.code != UNREADABLE_CODE:  # of that the receiver knows nothing
         _count_failure(session, delivery.webhook_id, outcome.gone, pause is None, moment)
     elif outcome.gone:
         session.execute(

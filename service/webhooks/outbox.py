@@ -15,7 +15,7 @@ from service.job_records import artifacts
 from service.job_records.schemas import JobOut
 from service.tables.events import Event
 from service.tables.jobs import Job, Status
-from service.tables.webhooks import FINAL, Delivery, DeliveryStatus, EventType
+from service.tables.webhooks import FINAL_EVENTS, Delivery, DeliveryStatus, EventType
 from service.webhooks import repository
 
 PROGRESS_EVERY = timedelta(seconds=5)
@@ -79,7 +79,7 @@ def _destinations(session: Session, job: Job, type_: EventType) -> list[Destinat
         for webhook in repository.enabled(session, job.owner)
         if type_ in webhook.events
     ]
-    if job.webhook_url is not None and type_ in (job.webhook_events or FINAL):
+    if job.webhook_url is not None and type_ in (job.webhook_events or FINAL_EVENTS):
         found.append(Destination(None, job.webhook_url))
     return found
 

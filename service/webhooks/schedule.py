@@ -11,7 +11,7 @@ from random import Random
 
 from service.tables.webhooks import EventType, Webhook
 
-RETRIES = (
+RETRY_DELAYS = (
     timedelta(seconds=5),
     timedelta(minutes=5),
     timedelta(minutes=30),
@@ -22,8 +22,8 @@ RETRIES = (
     timedelta(hours=20),
     timedelta(hours=24),
 )
-JITTER = 0.1
-MAX_PAUSE = RETRIES[-1] * (1 + JITTER)
+JITTER_SHARE = 0.1
+MAX_PAUSE = RETRY_DELAYS[-1] * (1 + JITTER_SHARE)
 
 PROGRESS_RETRIES = 2
 """Progress is not worth telling hours later: the job has ended by then, and that is told by itself."""
@@ -36,11 +36,11 @@ def pause(event: str, tries: int, retry_after: timedelta | None, chance: Random)
 
     `asked` is what the receiver asked for by `Retry-After`: it may make the pause longer, up to a day.
     """
-    retries = RETRIES[:PROGRESS_RETRIES] if event == EventType.PROGRESS else RETRIES
+    retries = RETRY_DELAYS[:PROGRESS_RETRIES] if event == EventType.PROGRESS else RETRY_DELAYS
     if tries > len(retries):
         return None
-    planned = retries[tries - 1] * (1 + JITTER * chance.random())
-    return planned if retry_after is None else max(planned, min(retry_after, RETRIES[-1]))
+    planned = retries[tries - 1] * (1 + JITTER_SHARE * chance.random())
+    return planned if retry_after is None else max(planned, min(retry_after, RETRY_DELAYS[-1]))
 
 
 def is_lost(webhook: Webhook, moment: datetime) -> bool:

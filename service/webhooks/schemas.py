@@ -9,7 +9,15 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, Field, Strict
 
 from service.http.request_models import REQUEST_MODEL
-from service.tables.webhooks import FINAL, URL_CHARACTERS, Delivery, DeliveryAttempt, DeliveryStatus, EventType, Webhook
+from service.tables.webhooks import (
+    FINAL_EVENTS,
+    URL_CHARACTERS,
+    Delivery,
+    DeliveryAttempt,
+    DeliveryStatus,
+    EventType,
+    Webhook,
+)
 
 
 def _once(events: list[EventType]) -> list[EventType]:
@@ -32,7 +40,7 @@ class WebhookIn(BaseModel):
 
     url: Url
     """Begins with `https://`; with `http://` only where the operator allows the network."""
-    events: Events = list(FINAL)
+    events: Events = list(FINAL_EVENTS)
     description: Description = ""
     enabled: bool = True
 

@@ -13,7 +13,7 @@ from service.clock import now
 from service.ids import is_id, new_id
 from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
-from service.tables.webhooks import TEST, Delivery, DeliveryStatus, Webhook
+from service.tables.webhooks import TEST_EVENT, Delivery, DeliveryStatus, Webhook
 from service.webhooks import repository
 from service.webhooks.outbox import Destination, new_delivery
 from service.webhooks.schemas import WebhookChange, WebhookIn
@@ -86,7 +86,7 @@ def test(session: Session, owner: str, webhook_id: str) -> Delivery:
     webhook = found(session, owner, webhook_id)
     _require_enabled(webhook)
     payload: dict[str, object] = {"webhook_id": webhook.id, "message": "This is a test."}
-    message = new_delivery(owner, Destination(webhook.id, webhook.url), TEST, payload)
+    message = new_delivery(owner, Destination(webhook.id, webhook.url), TEST_EVENT, payload)
     message.created_at = message.next_attempt_at = now()
     session.add(message)
     return message

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from PIL import Image
 from trimesh.registration import procrustes
 
-from benchmarks.dressed_template import LOOKS, dress
-from benchmarks.known_person import SIZE, KnownPicture, draw_into
+from benchmarks.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_person import PICTURE_SIZE, KnownPicture, draw_into
 from benchmarks.known_places import places
 from engine.character.figure import Choice, find_figure
 from engine.character.silhouette import cut_out
@@ -19,7 +19,7 @@ from engine.character.template_fit import load_human
 from engine.geometry.skinning import bone_transforms
 from engine.media.limits import Limits
 
-SEEN = LOOKS[1:4]
+SEEN_LOOKS = DRESSED_LOOKS[1:4]
 """Legs apart, a hand on the hip, a stride towards the viewer."""
 HUMAN = load_human()
 BODY = [k for k, name in enumerate(HUMAN.rig.names) if "Hand" not in name or name.endswith("Hand")]
@@ -46,9 +46,9 @@ def apart(joints: NDArray[np.float64], truth: NDArray[np.float64]) -> NDArray[np
 
 def test_perceptions_landmarks_give_the_joints_within_five_centimetres(tmp_path: Path) -> None:
     """In the median over joints and people: less than half of what the template in T-pose is off."""
-    behind = places(SIZE)["garage"]
+    behind = places(PICTURE_SIZE)["garage"]
     off, unfitted = [], []
-    for look in SEEN:
+    for look in SEEN_LOOKS:
         known = draw_into(dress(look), behind)
         assert known.person.joints is not None
         off.append(apart(fitted_joints(known, tmp_path), known.person.joints))

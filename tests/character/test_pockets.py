@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from benchmarks.character_steps import Woken, wake
 from benchmarks.dressed_template import Look, Turns, dress
-from benchmarks.known_person import SIZE, draw_into
+from benchmarks.known_person import PICTURE_SIZE, draw_into
 from benchmarks.known_places import places
 from engine.body.shape import Phenotype
 from engine.character.figure import Figure
@@ -217,7 +217,7 @@ def test_both_hands_come_out_of_pockets(
 ) -> None:
     """The dressed template, its hands within the body."""
     look = Look("hands in pockets", Phenotype(gender=0.5), turns, (120, 60, 60), trousers)
-    rgb = draw_into(dress(look), places(SIZE)["street"]).rgb
+    rgb = draw_into(dress(look), places(PICTURE_SIZE)["street"]).rgb
     if grey:
         rgb = np.repeat(cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)[..., None], 3, 2)
     photo = tmp_path / "photo.png"

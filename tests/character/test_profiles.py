@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.dressed_template import LOOKS, dress
-from benchmarks.known_person import SIZE, draw_into
+from benchmarks.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_person import PICTURE_SIZE, draw_into
 from benchmarks.known_places import places
 from engine.body.parts import BODY_PARTS
 from engine.character.face_region import in_profile
@@ -20,12 +20,12 @@ from engine.media.image import write_image
 from engine.media.limits import Limits
 from tests.character.test_overlapping_legs import fitted_as
 
-WALKING = LOOKS[3]
+WALKING = DRESSED_LOOKS[3]
 
 
 def figure(turn: float, folder: Path) -> Figure:
     """Somebody who walks, turned to their left by degrees."""
-    known = draw_into(dress(WALKING).turned(turn), places(SIZE)["street"])
+    known = draw_into(dress(WALKING).turned(turn), places(PICTURE_SIZE)["street"])
     write_image(folder / "photo.png", known.rgb)
     return find_figure(folder / "photo.png", Choice(), False, Limits(), lambda code, message: None)
 

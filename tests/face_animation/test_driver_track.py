@@ -30,8 +30,8 @@ from engine.run import Run
 from engine.store import StageStore
 
 LIMITS = Limits()
-BLANK = slice(10, 16)
-MOVED = 60
+BLANK_FRAMES = slice(10, 16)
+MOVED_PIXELS = 60
 """Pixels to the right at which the face comes back."""
 
 
@@ -113,9 +113,10 @@ def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, 
 @pytest.fixture(scope="module")
 def vanished(frames, tmp_path_factory) -> tuple[FaceTrack, list[str], NDArray[np.float32]]:
     """The face is gone for some frames and comes back further to the right; the warnings; the true shifts."""
-    shift = np.array([0.0 if i < BLANK.stop else MOVED for i in range(len(frames))], np.float32)
+    shift = np.array([0.0 if i < BLANK_FRAMES.stop else MOVED_PIXELS for i in range(len(frames))], np.float32)
     acted = [
-        np.full_like(f, 128) if BLANK.start <= i < BLANK.stop else shifted(f, shift[i]) for i, f in enumerate(frames)
+        np.full_like(f, 128) if BLANK_FRAMES.start <= i < BLANK_FRAMES.stop else shifted(f, shift[i])
+        for i, f in enumerate(frames)
     ]
     path = write_frames(tmp_path_factory.mktemp("driver") / "vanished.mp4", acted)
     codes: list[str] = []
@@ -124,22 +125,22 @@ def vanished(frames, tmp_path_factory) -> tuple[FaceTrack, list[str], NDArray[np
 
 def test_where_the_face_is_gone_it_holds(vanished) -> None:
     track, codes, _ = vanished
-    assert not track.found[BLANK].any()
-    assert track.found[: BLANK.start].all() and track.found[BLANK.stop :].all()
+    assert not track.found[BLANK_FRAMES].any()
+    assert track.found[: BLANK_FRAMES.start].all() and track.found[BLANK_FRAMES.stop :].all()
     assert codes == ["driver_face_lost"]
     unit = float(eye_distance(track.meshes[0, :, :2]))
-    still = track.meshes[BLANK, :, :2]
+    still = track.meshes[BLANK_FRAMES, :, :2]
     assert np.linalg.norm(still - still[0], axis=-1).max() < 0.03 * unit
-    assert np.linalg.norm(still[0] - track.meshes[BLANK.start - 1, :, :2], axis=-1).mean() < 0.03 * unit
+    assert np.linalg.norm(still[0] - track.meshes[BLANK_FRAMES.start - 1, :, :2], axis=-1).mean() < 0.03 * unit
 
 
 def test_when_it_comes_back_it_eases_back(vanished, track: FaceTrack) -> None:
     """No step is a jump, and after the easing it is where it is seen."""
     found, _, shift = vanished
     centre = found.meshes[..., :2].mean(axis=1)
-    steps = np.linalg.norm(np.diff(centre, axis=0), axis=1)[BLANK.start - 1 : BLANK.stop + EASE_BACK]
-    assert steps.max() < 0.25 * MOVED
-    after = slice(BLANK.stop + EASE_BACK + 1, len(found))
+    steps = np.linalg.norm(np.diff(centre, axis=0), axis=1)[BLANK_FRAMES.start - 1 : BLANK_FRAMES.stop + EASE_BACK]
+    assert steps.max() < 0.25 * MOVED_PIXELS
+    after = slice(BLANK_FRAMES.stop + EASE_BACK + 1, len(found))
     expected = track.meshes[after, :, :2] + np.array([1.0, 0.0]) * shift[after, None, None]
     unit = float(eye_distance(track.meshes[0, :, :2]))
     assert np.linalg.norm(found.meshes[after, :, :2] - expected, axis=-1).mean() < 0.04 * unit
@@ -149,10 +150,10 @@ def test_its_looks_hold_and_ease_with_it(vanished) -> None:
     """What is drawn from the driver's pictures, its creases and the inside of its mouth, is of a face, and that face is
     where the mesh says, also where the video shows none or has it elsewhere."""
     track, _, _ = vanished
-    last = track.crop(BLANK.start - 1)
-    for frame in range(BLANK.start, BLANK.stop):
+    last = track.crop(BLANK_FRAMES.start - 1)
+    for frame in range(BLANK_FRAMES.start, BLANK_FRAMES.stop):
         np.testing.assert_array_equal(track.crop(frame), last)
-    for frame in range(BLANK.stop, BLANK.stop + EASE_BACK + 1):
+    for frame in range(BLANK_FRAMES.stop, BLANK_FRAMES.stop + EASE_BACK + 1):
         seen = find_faces(track.crop(frame))
         assert len(seen) == 1
         assert np.linalg.norm(seen[0][:, :2] - track.in_crop(frame), axis=1).mean() < 2.5

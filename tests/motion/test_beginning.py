@@ -10,7 +10,7 @@ import pytest
 from humanoids import told_by
 
 from engine.motion import rotation
-from engine.motion.beginning import MAX_SECONDS, beginning, duration, length_warning
+from engine.motion.beginning import MAX_MOTION_SECONDS, beginning, duration, length_warning
 from engine.motion.check import check_motion
 from engine.motion.edit import repeated
 from engine.motion.library import built_in
@@ -37,7 +37,7 @@ def test_a_minute_is_kept_from_its_first_frame_to_its_last(skeleton: Skeleton, f
     )
     used = beginning(motion)
     assert len(used.rotations) == len(used.translations) == left
-    assert duration(used) <= MAX_SECONDS
+    assert duration(used) <= MAX_MOTION_SECONDS
     assert (used is motion) == (left == frames) == (length_warning(motion) is None)
     assert used.loops is (left == frames), "a part of a loop is none"
 
@@ -62,14 +62,14 @@ def test_slow_frames_take_no_more_than_quick_ones(skeleton: Skeleton) -> None:
     assert check_motion(hours).seconds == duration(hours) == 59_998
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert clip.seconds == pytest.approx(MAX_SECONDS)
+    assert clip.seconds == pytest.approx(MAX_MOTION_SECONDS)
     assert peak < 200e6
 
 
 def test_a_loop_is_judged_whole_or_not_at_all(skeleton: Skeleton) -> None:
     """Thirty rounds that end in the first pose are a loop as one is; more than a minute of them is done once."""
     short, long = walking(skeleton, 30), walking(skeleton, 60)
-    assert duration(short) < MAX_SECONDS < duration(long)
+    assert duration(short) < MAX_MOTION_SECONDS < duration(long)
     for motion, loops in ((short, True), (long, False)):
         assert check_motion(motion).loops is loops
         assert retarget(beginning(motion), skeleton).clip.loops is loops

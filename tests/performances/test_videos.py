@@ -22,7 +22,7 @@ from engine.performances import catalogue, names, performance, poster, video
 from engine.performances.actor import Actor, build_actor, stage
 from engine.performances.catalogue import FPS, POSTER_SIDE
 from engine.performances.figure import Pose
-from engine.performances.filming import FURTHEST_APART, MAX_POSE_CHANGES, carry, key_frames
+from engine.performances.filming import MAX_KEY_FRAME_DISTANCE, MAX_POSE_CHANGES, carry, key_frames
 from engine.performances.lighting import lamps
 from engine.performances.score import SCORES
 from engine.performances.studio import HAIR_LAMPS, expose, finish, photograph
@@ -329,7 +329,7 @@ def test_frames_between_key_frames_look_as_if_lit_in_full(actor: Actor) -> None:
 
 def test_key_frames_stand_where_much_changes() -> None:
     still = [Pose() for _ in range(20)]
-    assert key_frames(still) == [0, FURTHEST_APART, 19]
+    assert key_frames(still) == [0, MAX_KEY_FRAME_DISTANCE, 19]
     turning = [Pose(head=(0.0, 2.0 * i, 0.0)) for i in range(20)]
     keys = key_frames(turning)
     assert keys[0] == 0 and keys[-1] == 19

@@ -28,7 +28,7 @@ from engine.run import Progress, Run
 
 pytestmark = pytest.mark.timeout(900)  # one profile is made for all
 
-NOISE = 2.0
+NOISE_GREY_LEVELS = 2.0
 """Grey levels, in the mean: two codings of one picture differ by less."""
 CODE = "options_without_effect"
 
@@ -85,12 +85,12 @@ def energy(frame: NDArray[np.float32]) -> float:
 
 def test_every_clip_leaves_from_and_returns_to_the_same_rest(made: Made) -> None:
     picture = read_image(made.out / "poster.jpg").rgb.astype(np.float32) @ np.array([0.2126, 0.7152, 0.0722])
-    assert apart(made.rest, picture) < 2 * NOISE  # a JPEG against a video, both with coarser colours
+    assert apart(made.rest, picture) < 2 * NOISE_GREY_LEVELS  # a JPEG against a video, both with coarser colours
     for name, clip in made.clips.items():
         assert apart(clip[0], made.rest) < 0.01, name  # the same picture, coded in the same way
         if not made.profile.states[name].loops:
-            assert apart(clip[-1], made.rest) < NOISE, name
-        assert max(apart(frame, made.rest) for frame in clip) > 2 * NOISE, "and it does move between"
+            assert apart(clip[-1], made.rest) < NOISE_GREY_LEVELS, name
+        assert max(apart(frame, made.rest) for frame in clip) > 2 * NOISE_GREY_LEVELS, "and it does move between"
 
 
 def test_the_idle_clip_loops_without_a_jump(made: Made) -> None:
@@ -126,7 +126,7 @@ def test_bridges_lead_to_rest_within_four_tenths_of_a_second(made: Made) -> None
     for name, way in made.profile.transitions.items():
         for start, length in way.segments:
             assert 1 <= length <= 0.4 * made.profile.fps
-            assert apart(made.bridges[name][start + length], made.rest) < NOISE
+            assert apart(made.bridges[name][start + length], made.rest) < NOISE_GREY_LEVELS
 
 
 def test_the_document_is_what_its_schema_says(made: Made) -> None:

@@ -24,11 +24,11 @@ from engine.perception.person import person_mask
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
 
-STILL = 0.5
+STILL_GREY_LEVELS = 0.5
 """Grey levels of temporal deviation inside the face that pass for none."""
-NOISE = 2.0
+NOISE_GREY_LEVELS = 2.0
 """Grey levels: a phone's sensor indoors."""
-STEP, WALL, LINE = 16, 170.0, 110.0
+STEP_PIXELS, WALL_GREY_LEVEL, LINE_DARKENING = 16, 170.0, 110.0
 """Pixels between the lines of the grid; brightness of the wall; how much darker a line is in its middle."""
 
 
@@ -43,11 +43,13 @@ def test_a_driver_that_holds_still_gives_a_still_face(animation, clip, woman_whi
     """One real frame 60 times, with fresh sensor noise each: the face's brightness deviates by half a level at most."""
     frame = clip(name, 1.0, 1.1)[0].astype(float)
     rng = np.random.default_rng(0)
-    noisy = [np.clip(frame + rng.normal(0, NOISE, frame.shape) + 0.5, 0, 255).astype(np.uint8) for _ in range(60)]
+    noisy = [
+        np.clip(frame + rng.normal(0, NOISE_GREY_LEVELS, frame.shape) + 0.5, 0, 255).astype(np.uint8) for _ in range(60)
+    ]
     driver = write_frames(tmp_path / "still.mp4", noisy, 30, crf=1)
     frames = np.array(unpacked(animation(woman_white, driver, format="png").out / "animation.zip"), np.float32)
     deviation = frames.std(axis=0).mean(axis=2)[face_mask(frames[0].astype(np.uint8))]
-    assert deviation.mean() <= STILL
+    assert deviation.mean() <= STILL_GREY_LEVELS
     assert np.quantile(deviation, 0.99) <= 4.0  # inside the lips the driver's own noise shows
 
 
@@ -56,35 +58,39 @@ def test_a_still_face_stays_still_with_its_mouth_open(animation, clip, woman_whi
     rest, wide = (clip("man_mouth_open_d18.mp4", s, s + 0.05)[0].astype(float) for s in (1.5, 2.8))
     rng = np.random.default_rng(0)
     acted = [rest] * 12 + [wide] * 40
-    noisy = [np.clip(f + rng.normal(0, NOISE, f.shape) + 0.5, 0, 255).astype(np.uint8) for f in acted]
+    noisy = [np.clip(f + rng.normal(0, NOISE_GREY_LEVELS, f.shape) + 0.5, 0, 255).astype(np.uint8) for f in acted]
     driver = write_frames(tmp_path / "open.mp4", noisy, 30, crf=1)
     made = animation(woman_white, driver, neutral_frame=0, format="png")
     frames = np.array(unpacked(made.out / "animation.zip")[28:], np.float32)  # past the ratio images' window
-    assert frames.std(axis=0).mean(axis=2)[face_mask(frames[0].astype(np.uint8))].mean() <= STILL
+    assert frames.std(axis=0).mean(axis=2)[face_mask(frames[0].astype(np.uint8))].mean() <= STILL_GREY_LEVELS
 
 
 def wall(shape: tuple[int, int]) -> NDArray[np.float64]:
-    """A bright wall with thin dark lines every `STEP` pixels, both ways, their middles at half pixels."""
+    """A bright wall with thin dark lines every `STEP_PIXELS` pixels, both ways, their middles at half pixels."""
     y, x = np.mgrid[: shape[0], : shape[1]].astype(float)
     dark = np.zeros(shape)
     for axis in (x, y):
-        away = (axis - STEP / 2 + 0.5) % STEP
-        dark = np.maximum(dark, np.exp(-0.5 * (np.minimum(away, STEP - away) / 1.0) ** 2))
-    return np.asarray(WALL - LINE * dark)
+        away = (axis - STEP_PIXELS / 2 + 0.5) % STEP_PIXELS
+        dark = np.maximum(dark, np.exp(-0.5 * (np.minimum(away, STEP_PIXELS - away) / 1.0) ** 2))
+    return np.asarray(WALL_GREY_LEVEL - LINE_DARKENING * dark)
 
 
 def line_errors(frame: NDArray, visible: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Pixels by which the horizontal lines of the wall are off, wherever one is seen whole between two crossings."""
     grey = frame.astype(float).mean(axis=2)
     errors = []
-    for y in np.arange(STEP / 2 - 0.5, frame.shape[0] - 8, STEP):
+    for y in np.arange(STEP_PIXELS / 2 - 0.5, frame.shape[0] - 8, STEP_PIXELS):
         rows = np.arange(round(y - 4.5), round(y + 5.5))
         if rows[0] < 0:
             continue
         for x in range(frame.shape[1]):
-            if (x - STEP / 2 + 0.5) % STEP < 5 or (x - STEP / 2 + 0.5) % STEP > STEP - 5 or not visible[rows, x].all():
+            if (
+                (x - STEP_PIXELS / 2 + 0.5) % STEP_PIXELS < 5
+                or (x - STEP_PIXELS / 2 + 0.5) % STEP_PIXELS > STEP_PIXELS - 5
+                or not visible[rows, x].all()
+            ):
                 continue
-            dark = np.clip(WALL - 12 - grey[rows, x], 0, None)
+            dark = np.clip(WALL_GREY_LEVEL - 12 - grey[rows, x], 0, None)
             errors.append(abs(float((rows * dark).sum() / dark.sum()) - y) if dark.sum() > 60 else np.inf)
     return np.array(errors)
 

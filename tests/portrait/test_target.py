@@ -21,8 +21,8 @@ from engine.perception.faces import find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import (
-    LONGEST_SIDE,
-    MAX_TURN,
+    MAX_PICTURE_SIDE,
+    MAX_TARGET_TURN_DEGREES,
     MIN_EYE_DISTANCE,
     TargetFace,
     find_target_face,
@@ -102,7 +102,7 @@ def test_a_face_turned_too_far_is_refused_with_its_angle(scan, yaw: int, tmp_pat
     write_image(tmp_path / "head.png", picture)
     error = refusal(tmp_path / "head.png")
     assert error.code == "face_too_turned"
-    assert any(str(a) in error.detail for a in range(int(MAX_TURN[0]), 75))
+    assert any(str(a) in error.detail for a in range(int(MAX_TARGET_TURN_DEGREES[0]), 75))
 
 
 @pytest.mark.parametrize(("yaw", "warned"), [(0, False), (-22, True), (25, True)])
@@ -231,7 +231,7 @@ def test_a_large_picture_is_brought_to_the_default_limit_with_even_sides(woman: 
     picture = cv2.resize(read_image(woman).rgb, (2401, 2001), interpolation=cv2.INTER_LINEAR)
     write_image(tmp_path / "large.jpg", picture)
     target = find(tmp_path / "large.jpg")
-    assert target.rgb.shape == (1600, LONGEST_SIDE, 3)
+    assert target.rgb.shape == (1600, MAX_PICTURE_SIDE, 3)
 
 
 @pytest.mark.parametrize(("side", "even"), [((321, 301), (320, 300)), ((320, 299), (320, 300))])

@@ -23,7 +23,7 @@ from engine.media.video import probe_video
 from engine.package_data import IncompleteInstallation
 from engine.performances import names, poster, video
 from engine.run import Run
-from scripts.option_types import OUT, written
+from scripts.option_types import OUT_FILE, written
 
 ROOT = Path(__file__).parents[2]
 SHORT: dict[str, Any] = {"trim": (0, 0.2), "size": (96, 96), "head_3d": False}
@@ -55,7 +55,7 @@ def test_the_calls_have_one_manner() -> None:
 
 
 def test_the_types_of_the_options_are_those_of_the_engine() -> None:
-    assert OUT.read_text() == written(), "run python -m scripts.option_types"
+    assert OUT_FILE.read_text() == written(), "run python -m scripts.option_types"
 
 
 def pictures() -> dict[str, Any]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.import_graph import PACKAGES, PAGE, arrows, circles, layers, loads, page_files, python_files, upward
+from scripts.import_graph import PACKAGES, PAGE_FOLDER, arrows, circles, layers, loads, page_files, python_files, upward
 
 ROOT = Path(__file__).parents[2]
 
@@ -25,7 +25,7 @@ def test_no_arrow_points_up(package: str) -> None:
 
 def test_no_files_of_the_page_form_a_circle_by_what_comes_with_them() -> None:
     """What a kind fetches when it is needed may know the list of kinds: `kinds/` leads there by `import(...)` alone."""
-    assert circles(loads(page_files(ROOT / PAGE))) == []
+    assert circles(loads(page_files(ROOT / PAGE_FOLDER))) == []
 
 
 def test_imports_are_read_as_arrows(tmp_path: Path) -> None:

@@ -20,9 +20,9 @@ from sqlalchemy import create_engine, select, text
 from service.context import Context
 from service.database import postgresql
 from service.settings import Settings
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 from service.tables.webhooks import Delivery, Webhook
-from service.vault import PREFIX, SecretUnreadable, new_key
+from service.vault import ENCRYPTED_PREFIX, SecretUnreadable, new_key
 from service.webhooks import repository, service
 from service.webhooks.schemas import WebhookIn
 from worker.periodic.webhook_sender import WebhookSender
@@ -57,15 +57,15 @@ def stored(url: str) -> list[str]:
 def endpoint(context: Context, url: str = "http://127.0.0.1:9/") -> Webhook:
     """An endpoint with two secrets that sign."""
     with context.database.write() as session:
-        made = service.create(session, LOCAL, WebhookIn(url=url), LOOPBACK)
+        made = service.create(session, LOCAL_KEY_ID, WebhookIn(url=url), LOOPBACK)
         session.flush()
-        return service.rotate(session, LOCAL, made.id, timedelta(hours=1))
+        return service.rotate(session, LOCAL_KEY_ID, made.id, timedelta(hours=1))
 
 
 def secrets(context: Context, webhook_id: str) -> list[str]:
     """All secrets as they are."""
     with context.database.read() as session:
-        key, webhook = session.get_one(Key, LOCAL), session.get_one(Webhook, webhook_id)
+        key, webhook = session.get_one(Key, LOCAL_KEY_ID), session.get_one(Webhook, webhook_id)
         assert webhook.previous_secret is not None
         four = (key.signing_secret, key.link_secret, webhook.secret, webhook.previous_secret)
         return [secret.reveal() for secret in four]
@@ -74,7 +74,7 @@ def secrets(context: Context, webhook_id: str) -> list[str]:
 def deliver(context: Context, webhook_id: str) -> Delivery:
     """Send the endpoint a test; what became of it."""
     with context.database.write() as session:
-        message = service.test(session, LOCAL, webhook_id)
+        message = service.test(session, LOCAL_KEY_ID, webhook_id)
     sender = WebhookSender(context)
     wait(sender.look())
     sender.close()
@@ -83,7 +83,7 @@ def deliver(context: Context, webhook_id: str) -> Delivery:
 
 
 def assert_sealed(folder: Path, url: str, clear: list[str]) -> None:
-    assert len(stored(url)) == 4 and all(secret.startswith(PREFIX) for secret in stored(url))
+    assert len(stored(url)) == 4 and all(secret.startswith(ENCRYPTED_PREFIX) for secret in stored(url))
     for path in (path for path in folder.rglob("*") if path.is_file()):  # SQLite's file, and its log
         content = path.read_bytes()
         assert not [secret for secret in clear if secret.encode() in content], path
@@ -110,7 +110,7 @@ def test_what_was_in_clear_is_encrypted_at_the_next_start_and_signs_as_before(
         for secret in clear[2:]:
             standardwebhooks.Webhook(secret).verify(call.body, call.headers)
         with context.database.write() as session:  # what is made from now on is encrypted at once
-            new = service.rotate(session, LOCAL, webhook.id, timedelta(hours=1)).secret.reveal()
+            new = service.rotate(session, LOCAL_KEY_ID, webhook.id, timedelta(hours=1)).secret.reveal()
         assert_sealed(tmp_path, database_url, [*clear, new])
 
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from engine.character.options import CharacterOptions
 from engine.face_animation.acting_options import ACTING_PARTS
 from engine.portrait.options import PortraitOptions
-from shell.option_flags import DEST, flag_of, form_of, given_options, option_flags
+from shell.option_flags import PARAMETER_PREFIX, flag_of, form_of, given_options, option_flags
 
 
 @pytest.mark.parametrize("options", [PortraitOptions, CharacterOptions])
@@ -45,7 +45,9 @@ def test_every_option_has_a_flag_but_those_that_are_taken(options: type[BaseMode
     ],
 )
 def test_a_flag_says_what_json_says(options: type[BaseModel], name: str, said: Any, means: Any) -> None:
-    chosen = options.model_validate(given_options(options, {DEST + name: said, DEST + "fps": None}))
+    chosen = options.model_validate(
+        given_options(options, {PARAMETER_PREFIX + name: said, PARAMETER_PREFIX + "fps": None})
+    )
     assert getattr(chosen, name) == means
 
 
@@ -57,8 +59,8 @@ def test_lists_of_numbers_tell_their_form_by_an_example_that_is_right() -> None:
             if form := form_of(field):
                 told[flag_of(name)] = form
                 example = form.split("such as ")[1]
-                assert options.model_validate(given_options(options, {DEST + name: example}))
-                assert f"For instance {example}." in (flags[DEST + name].help or "")
+                assert options.model_validate(given_options(options, {PARAMETER_PREFIX + name: example}))
+                assert f"For instance {example}." in (flags[PARAMETER_PREFIX + name].help or "")
     assert told["--size"] == "N,N, such as 300x300"
     assert told["--trim"] == "NUMBER,NUMBER, such as 0.5,2"
     assert told["--crop"] == "none|face|bust|NUMBER,NUMBER,NUMBER,NUMBER, such as 10,20,300,400"
@@ -66,5 +68,5 @@ def test_lists_of_numbers_tell_their_form_by_an_example_that_is_right() -> None:
 
 def test_json_may_be_in_a_file(tmp_path: Path) -> None:
     (tmp_path / "joints.json").write_text('{"Hips": [1, 2]}')
-    given = {DEST + "joints": f"@{tmp_path / 'joints.json'}"}
+    given = {PARAMETER_PREFIX + "joints": f"@{tmp_path / 'joints.json'}"}
     assert given_options(CharacterOptions, given) == {"joints": {"Hips": [1, 2]}}

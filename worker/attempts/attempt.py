@@ -51,10 +51,10 @@ GRACE_SECONDS = 1.0
 RESERVE_FOR_JOBS = 0.5
 """A job may eat into the disk reserve down to this part of it: the rest keeps the database writable."""
 
-FETCHING = 0.1
+FETCHING_SHARE = 0.1
 """The part of a job's progress that fetching inputs counts for, where there are any to fetch."""
 
-FAULTS = ("internal_error", "not_permitted")
+FAULT_CODES = ("internal_error", "not_permitted")
 """Codes of ends that the operator should hear of."""
 
 
@@ -124,7 +124,7 @@ class Attempt:
         except Exception:
             log.exception("attempt_unwatched")
             verdict = {"outcome": "crashed", "reason": "the worker met a fault of the program"}
-        if verdict.get("code") in FAULTS or verdict["outcome"] == "crashed":
+        if verdict.get("code") in FAULT_CODES or verdict["outcome"] == "crashed":
             log.error("attempt_broke", verdict=verdict, printed=self._child.log_tail())
         clean = verdict.get("clean") is True or self._child.end_job(GRACE_SECONDS)
         if not clean:
@@ -149,7 +149,7 @@ class Attempt:
         for number, url in enumerate(urls):
             with self._spans.fetching(url) as span:
                 self._fetch(url, folder, number, len(urls), span)
-        self._fetched = FETCHING if urls else 0.0
+        self._fetched = FETCHING_SHARE if urls else 0.0
 
     def _fetch(self, url: str, folder: Path, number: int, count: int, span: Span) -> None:
         """Fetch one of `count` inputs and keep it as a file of the job. Raises `Stop`."""
@@ -159,7 +159,7 @@ class Attempt:
                 ended = fetching.ended(TICK_SECONDS)
                 if fetching.message != told:
                     told = fetching.message
-                    self._tell("fetch", FETCHING * (number + fetching.fraction) / count, told)
+                    self._tell("fetch", FETCHING_SHARE * (number + fetching.fraction) / count, told)
                 self._tend()
             with beating(self._context, self._lease):
                 sources = inputs.keep(self._context, self._job, self._lease, url, fetching.result())

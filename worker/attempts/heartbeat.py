@@ -14,7 +14,7 @@ from service.context import Context
 from service.jobs import leases
 from service.jobs.leases import Lease
 
-BEATS = 4
+BEATS_PER_LEASE = 4
 """How often a lease is renewed before it would end."""
 
 
@@ -24,7 +24,7 @@ def beating(context: Context, lease: Lease) -> Iterator[None]:
     over = threading.Event()
 
     def beat() -> None:
-        while not over.wait(lease.seconds / BEATS):
+        while not over.wait(lease.seconds / BEATS_PER_LEASE):
             try:
                 with context.database.write() as session:
                     if not leases.change(session, lease):

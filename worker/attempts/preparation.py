@@ -94,7 +94,7 @@ def _shared(context: Context, job: Job) -> Path | None:
     if source is None or "candidates" in source:  # whose analyses are kept with the job
         return None
     if "library" in source:
-        return analyses.folder(context.settings, analyses.LIBRARY, source["name"])
+        return analyses.folder(context.settings, analyses.LIBRARY_OWNER, source["name"])
     with context.database.read() as session:
         file = files.get(session, job.owner, source["file"])
     return analyses.folder(context.settings, file.owner, file.sha256) if file is not None else None

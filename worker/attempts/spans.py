@@ -21,7 +21,7 @@ from service.traces.tracer import below, fail, parent_of, trace_id
 MAX_STAGES = 200
 """The most stages of one attempt; what more it tells of is left out."""
 
-NANOSECONDS = 1_000_000_000
+NANOSECONDS_PER_SECOND = 1_000_000_000
 
 
 class AttemptSpans:
@@ -85,5 +85,5 @@ class AttemptSpans:
     def _moment(self, at: object) -> int:
         """A moment that the process tells (seconds since 1970), in nanoseconds and within the attempt."""
         present = time.time_ns()
-        seconds = at if isinstance(at, int | float) else present / NANOSECONDS
-        return int(min(max(seconds * NANOSECONDS, self._began), present))
+        seconds = at if isinstance(at, int | float) else present / NANOSECONDS_PER_SECOND
+        return int(min(max(seconds * NANOSECONDS_PER_SECOND, self._began), present))

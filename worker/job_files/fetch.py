@@ -29,7 +29,7 @@ CONNECT_SECONDS = 10.0
 STALL_SECONDS = 20.0
 """How long a host may send nothing."""
 
-ACCEPT = {"Accept": "image/*, video/*"}
+ACCEPT_HEADERS = {"Accept": "image/*, video/*"}
 
 
 class FetchFailed(Exception):
@@ -91,7 +91,7 @@ def _open(settings: Settings, http: httpx.Client, url: str, deadline: float, sta
         if left <= 0:
             raise _too_slow(settings)
         timeout = httpx.Timeout(min(left, STALL_SECONDS), connect=min(left, CONNECT_SECONDS))
-        response = http.send(http.build_request("GET", url, timeout=timeout, headers=ACCEPT), stream=True)
+        response = http.send(http.build_request("GET", url, timeout=timeout, headers=ACCEPT_HEADERS), stream=True)
         stack.callback(response.close)
         if not response.has_redirect_location:
             if response.status_code != 200:

@@ -20,10 +20,10 @@ import structlog
 
 from service.jobs.stages import stages_prefix
 from service.storage.files import Storage
-from worker.job_files.plain_files import NAME, Refused, opened
+from worker.job_files.plain_files import FILE_NAME_PATTERN, Refused, opened
 
-KEY = re.compile(r"[0-9a-f]{40}")
-MAX_BYTES = 1_000_000_000
+KEY_PATTERN = re.compile(r"[0-9a-f]{40}")
+MAX_MIRROR_BYTES = 1_000_000_000
 """The most bytes of one output, and of all that are fetched for one attempt. What is larger is worked out anew
 elsewhere."""
 
@@ -47,17 +47,17 @@ class Mirror:
         """Fetch the outputs that this machine lacks, the newest first. Raises OSError."""
         if self._storage.folder is not None:
             return
-        left = MAX_BYTES
+        left = MAX_MIRROR_BYTES
         for key, size in self._storage.sizes(self._prefix).items():
             name = key.rpartition("/")[2]
             self._sent.add(name)
             left -= size
-            if left > 0 and KEY.fullmatch(name) and not (self._folder / name).exists():
+            if left > 0 and KEY_PATTERN.fullmatch(name) and not (self._folder / name).exists():
                 self._fetch(key, name)
 
     def keep(self, key: str) -> None:
         """Send a stage's output, soon."""
-        if self._storage.folder is None and KEY.fullmatch(key) and (self._folder / key).is_dir():
+        if self._storage.folder is None and KEY_PATTERN.fullmatch(key) and (self._folder / key).is_dir():
             self._waiting.put(key)
 
     def close(self, wait: bool) -> None:
@@ -83,7 +83,7 @@ class Mirror:
                     with opened(path) as file:
                         entry = tarfile.TarInfo(path.name)
                         entry.size = path.lstat().st_size
-                        if packed.tell() + entry.size > MAX_BYTES:
+                        if packed.tell() + entry.size > MAX_MIRROR_BYTES:
                             raise Refused("it is too large")
                         tar.addfile(entry, file)
             packed.seek(0)
@@ -95,7 +95,9 @@ class Mirror:
             packed = self._storage.fetch(key, self._temporary / name)
             with tarfile.open(packed, mode="r:") as tar:
                 for entry in tar:
-                    content = tar.extractfile(entry) if entry.isreg() and NAME.fullmatch(entry.name) else None
+                    content = (
+                        tar.extractfile(entry) if entry.isreg() and FILE_NAME_PATTERN.fullmatch(entry.name) else None
+                    )
                     if content is not None:
                         with (draft / entry.name).open("xb") as file:
                             shutil.copyfileobj(content, file)

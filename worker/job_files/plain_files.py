@@ -8,7 +8,7 @@ import stat
 from io import BufferedReader
 from pathlib import Path
 
-NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
+FILE_NAME_PATTERN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,127}")
 """What a file may be called."""
 
 
@@ -18,7 +18,7 @@ class Refused(Exception):
 
 def opened(path: Path) -> BufferedReader:
     """A plain file under a plain name, itself and never what a link points at. Raises `Refused`."""
-    if NAME.fullmatch(path.name) is None:
+    if FILE_NAME_PATTERN.fullmatch(path.name) is None:
         raise Refused(f"“{path.name}” cannot be the name of a file")
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)

@@ -8,7 +8,7 @@ from signal import Signals
 FROM_OUTSIDE = ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")
 """What others do to a process, the kernel that runs out of memory among them: it says nothing about the input."""
 
-WORDS = {
+SIGNAL_REASONS = {
     "SIGABRT": "a library gave up on its input: something that it takes for granted was not so (SIGABRT)",
     "SIGSEGV": "a library reached for memory that is not there (SIGSEGV)",
     "SIGBUS": "a library reached for memory that could not be read (SIGBUS)",
@@ -36,7 +36,7 @@ def in_words(death: str | None) -> str:
         return "the job's process ended unexpectedly"
     if death.startswith("exit "):
         return f"a library ended the job's process (status {death.removeprefix('exit ')})"
-    return WORDS.get(death, f"the job's process was ended by {death}")
+    return SIGNAL_REASONS.get(death, f"the job's process was ended by {death}")
 
 
 def of_its_own(death: str | None) -> str | None:

@@ -20,7 +20,7 @@ from service.files import repository as files
 from service.files.service import forget
 from service.job_records import artifacts, jobs
 from service.jobs.service import delete
-from service.jobs.stages import STAGES
+from service.jobs.stages import STAGES_PREFIX
 from service.links import repository as links
 from service.problems import Problem
 from service.settings import MEGABYTE
@@ -89,7 +89,7 @@ def erase_orphans(context: Context) -> None:
     """Erase what lies on disk without a record: a process was killed between storing and recording, or between
     erasing the one and the other."""
     before = now() - MIN_ORPHAN_AGE
-    for prefix, known in (("files", files.known), ("artifacts", artifacts.known), (STAGES, jobs.with_folder)):
+    for prefix, known in (("files", files.known), ("artifacts", artifacts.known), (STAGES_PREFIX, jobs.with_folder)):
         keys = context.storage.keys(prefix, before)
         while batch := list(islice(keys, BATCH_JOBS)):
             ids = {key: key.split("/")[1] for key in batch}  # of a stage, the id is its tree's

@@ -23,7 +23,7 @@ from service.outbound.client import client
 from service.traces.current import origin_logged
 from service.traces.tracer import fail, parent_of, trace_id
 from service.webhooks import delivery_lease
-from service.webhooks.delivery_lease import UNREADABLE, Claim, Outcome
+from service.webhooks.delivery_lease import UNREADABLE_CODE, Claim, Outcome
 from service.webhooks.signing import signed_headers
 from worker.retry_db import retry_db
 
@@ -102,7 +102,7 @@ class WebhookSender:
 def send(http: httpx.Client, claim: Claim, moment: datetime) -> Outcome:
     """Make one attempt. Whatever comes of it is an outcome, no error."""
     if claim.fault is not None:
-        return Outcome(0.0, code=UNREADABLE, detail=claim.fault)
+        return Outcome(0.0, code=UNREADABLE_CODE, detail=claim.fault)
     began = time.monotonic()
     headers = signed_headers(claim.secrets, claim.delivery_id, moment, claim.body)
     headers["Content-Type"] = "application/json"

@@ -13,13 +13,15 @@ EXPRESSION_FEATURES = ("mouth_open", "mouth_wide", "corners_up", "inner_brows_up
 """What is measured of an expression, in eye distances of the face turned to the front; the eyes' opening is over
 their own width."""
 
-AT_ONCE = 256
+CHUNK_FRAMES = 256
 """Meshes that are turned to the front together, so that memory does not grow with a video's length."""
 
 
 def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """`EXPRESSION_FEATURES` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
-    return np.concatenate([_expressed(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
+    return np.concatenate(
+        [_expressed(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)]
+    )
 
 
 def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -51,7 +53,7 @@ def lopsided(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
         front = frontal(some)[..., :2]
         return np.asarray(front[:, lips] - front[:, opposite] * (-1, 1), np.float32)
 
-    return np.concatenate([off(meshes[start : start + AT_ONCE]) for start in range(0, len(meshes), AT_ONCE)])
+    return np.concatenate([off(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)])
 
 
 def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:

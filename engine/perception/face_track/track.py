@@ -26,7 +26,7 @@ from engine.perception.landmarks import MESH_SIZE
 from engine.perception.one_face import OneFace
 from engine.perception.temporal_filter import steady
 
-LONGEST_SIDE = 1280
+MAX_TRACKED_SIDE = 1280
 """Pixels; larger videos are read at this size, which holds all that is kept of them."""
 
 
@@ -124,7 +124,7 @@ def track_face(
     ):
         around: Future[None] = beside.submit(lambda: None)  # the points around follow a frame behind, on another core
         for index, frame in enumerate(
-            read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=LONGEST_SIDE)
+            read_video(path, fps=fps, trim=trim, limits=limits, warn=warn, longest_side=MAX_TRACKED_SIDE)
         ):
             tick(min(index / expected, 1.0))
             starts.append(frame.time)

@@ -20,7 +20,7 @@ from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
 from engine.portrait.moments.rest import own_rest
 from engine.portrait.moments.segments import Segment, find_segments
-from engine.portrait.moments.watching import LONGEST_SIDE, WATCHED_FPS, Watched, watch
+from engine.portrait.moments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, Watched, watch
 from engine.run import Run, write_report
 
 STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
@@ -105,7 +105,7 @@ def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArra
     """The face at a time of the video and as much around it as there is, (256, 256, 3)."""
     place = min(round(time * WATCHED_FPS), len(watched.found) - 1)
     span = (max(time - 0.25 / WATCHED_FPS, 0.0), time + 1 / WATCHED_FPS)
-    frame = next(iter(read_video(path, fps=WATCHED_FPS, trim=span, limits=limits, longest_side=LONGEST_SIDE))).rgb
+    frame = next(iter(read_video(path, fps=WATCHED_FPS, trim=span, limits=limits, longest_side=MAX_WATCHED_SIDE))).rgb
     left, top, right, bottom = watched.boxes[place]
     half = (np.array(frame.shape[1::-1]) - 1) / 2
     reach = min((0.5 + POSTER_MARGIN_SHARE) * max(right - left, bottom - top), *half)

@@ -40,7 +40,7 @@ CALM_UNREST, MAX_UNREST = 1.0, 2.0
 MIN_WAITING_SECONDS = 2.5
 """Seconds at rest that make a segment of waiting."""
 
-CUT_SECONDS, MAX_SECONDS = 8.0, 20.0
+CUT_SEGMENT_SECONDS, MAX_SEGMENT_SECONDS = 8.0, 20.0
 """Seconds: talking and waiting are cut at rest after the first; what lasts longer than the second is no moment."""
 
 STRONG_CLARITY = 1.5
@@ -148,9 +148,9 @@ def _extended(core: Segment, cores: list[Segment], unresting: NDArray[np.floatin
         return None
     begin = _further(begin, -1, max(begin - margin, floor), unresting)
     end = _further(end, 1, min(end + margin, ceiling), unresting)
-    if core.state == "talk" and end - begin > CUT_SECONDS * fps:
+    if core.state == "talk" and end - begin > CUT_SEGMENT_SECONDS * fps:
         end = _cut(begin, unresting, fps)
-    if end is None or end - begin > MAX_SECONDS * fps:
+    if end is None or end - begin > MAX_SEGMENT_SECONDS * fps:
         return None
     apex = min(max(core.apex, begin), end)
     return replace(core, first=begin, last=end, apex=apex, rests=float(max(unresting[begin], unresting[end])))
@@ -187,7 +187,7 @@ def _further(place: int, step: int, most: int, unresting: NDArray[np.floating]) 
 
 def _cut(begin: int, unresting: NDArray[np.floating], fps: float) -> int | None:
     """The last calm frame before a segment that begins there becomes too long, or the calmest bearable one."""
-    least, most = begin + round(CUT_SECONDS * fps / 3), begin + round(CUT_SECONDS * fps)
+    least, most = begin + round(CUT_SEGMENT_SECONDS * fps / 3), begin + round(CUT_SEGMENT_SECONDS * fps)
     places = np.arange(least, most + 1)
     return _rest_near(places, most, unresting)
 
@@ -201,7 +201,7 @@ def _waiting(unresting: NDArray[np.floating], cores: list[Segment], fps: float) 
     for begin, end in _runs(quiet):
         if end - begin < MIN_WAITING_SECONDS * fps:
             continue
-        last = min(end, begin + round(CUT_SECONDS * fps))
+        last = min(end, begin + round(CUT_SEGMENT_SECONDS * fps))
         part = unresting[begin : last + 1]
         clearly = 2.0 - float(np.mean(part))
         segments.append(Segment("idle", begin, last, begin + int(np.argmin(part)), clearly, 1.0))

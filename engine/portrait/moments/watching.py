@@ -18,7 +18,7 @@ from engine.perception.one_face import OneFace
 WATCHED_FPS = 12.0
 """Frames a second that are looked at: a wink has three of them, a syllable two."""
 
-LONGEST_SIDE = 640
+MAX_WATCHED_SIDE = 640
 """Pixels of the frames that are looked at."""
 
 BLOCK_FRAMES = 120
@@ -30,7 +30,7 @@ class Watched:
     """A video's face, frame by frame at `WATCHED_FPS`.
 
     seconds : how long the video is. values : (N, 12) float32, `MEASURES`. found : (N,) whether there is a face.
-    boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `LONGEST_SIDE`.
+    boxes : (N, 4) float32 left, top, right and bottom of the face in pixels of frames with `MAX_WATCHED_SIDE`.
     """
 
     seconds: float
@@ -61,7 +61,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             block.clear()
 
     with OneFace() as follow:
-        for frame in read_video(path, fps=WATCHED_FPS, limits=limits, longest_side=LONGEST_SIDE):
+        for frame in read_video(path, fps=WATCHED_FPS, limits=limits, longest_side=MAX_WATCHED_SIDE):
             tick(min(len(found) / expected, 1.0))
             mesh = follow(frame.rgb)
             found.append(mesh is not None)

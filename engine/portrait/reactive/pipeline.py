@@ -40,7 +40,7 @@ from engine.portrait.reactive.states import IDLE_STATE, State, choose_states, de
 from engine.portrait.target import in_pixels, look_for_face
 from engine.run import Run, write_report
 
-MAX_SECONDS = 20.0
+MAX_PERFORMANCE_SECONDS = 20.0
 """Of a driving video of the user's own: a page loads the clip and all ways out of it."""
 PER_DRIVER = ("track_driver", "register_driver", "ratio_images", "glance_at_driver", "look_again", "animate")
 
@@ -123,10 +123,11 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
         tracking = follow_driver(state.video, options.fps, None, 0, run)
         return analyse_driver(tracking, lambda track: NeutralFrame(round(_frame(state, track.fps)), "chosen"), run)
     trim = options.trim
-    if trim is None and probe_video(state.video, run.limits).seconds > MAX_SECONDS:
-        trim = (0.0, MAX_SECONDS)
+    if trim is None and probe_video(state.video, run.limits).seconds > MAX_PERFORMANCE_SECONDS:
+        trim = (0.0, MAX_PERFORMANCE_SECONDS)
         run.warn(
-            "driver_shortened", f"The first {MAX_SECONDS:.0f} seconds of the driver are used: trim chooses others."
+            "driver_shortened",
+            f"The first {MAX_PERFORMANCE_SECONDS:.0f} seconds of the driver are used: trim chooses others.",
         )
     tracking = follow_driver(state.video, fps, trim, options.driver_face_index, run)
     performance = analyse_driver(

@@ -16,7 +16,7 @@ from service.job_records import jobs as repository
 from service.job_records import search
 from service.tables.files import File
 from service.tables.jobs import Job
-from service.tables.keys import LOCAL
+from service.tables.keys import LOCAL_KEY_ID
 
 
 def rename(running: Running, job_id: str, title: Any) -> Any:
@@ -136,7 +136,7 @@ def test_both_databases_find_the_same(database: Database) -> None:
     with database.write() as session:
         file = File(
             id=new_id(),
-            owner=LOCAL,
+            owner=LOCAL_KEY_ID,
             name="ÉTÉ\u2028x.png",
             content_type="image/png",
             size=1,
@@ -145,7 +145,14 @@ def test_both_databases_find_the_same(database: Database) -> None:
         )
         session.add(file)
         session.flush()
-        common = {"owner": LOCAL, "kind": "painting", "status": "succeeded", "sources": {}, "notes": {}, "progress": {}}
+        common = {
+            "owner": LOCAL_KEY_ID,
+            "kind": "painting",
+            "status": "succeeded",
+            "sources": {},
+            "notes": {},
+            "progress": {},
+        }
         job = Job(
             id=new_id(),
             title="Ὀδυσσεύς",
@@ -169,10 +176,10 @@ def test_both_databases_find_the_same(database: Database) -> None:
         "run": False,
     }.items():
         with database.read() as session:
-            jobs = repository.page(session, LOCAL, 10, words=search.words(query))
+            jobs = repository.page(session, LOCAL_KEY_ID, 10, words=search.words(query))
         assert bool(jobs) is there, query
     with database.write() as session:
         search.retitle(repository.held(session, job.id), "Penelope")  # type: ignore[arg-type]
     with database.read() as session:
-        assert repository.page(session, LOCAL, 10, words=search.words("penelope été walk"))
-        assert not repository.page(session, LOCAL, 10, words=search.words("ὀδυσσεύσ"))
+        assert repository.page(session, LOCAL_KEY_ID, 10, words=search.words("penelope été walk"))
+        assert not repository.page(session, LOCAL_KEY_ID, 10, words=search.words("ὀδυσσεύσ"))

@@ -31,11 +31,11 @@ from service.problems import Problem
 from service.settings import Settings
 from service.tables.artifacts import Artifact
 from service.tables.jobs import Job
-from service.tables.keys import LOCAL, Key
+from service.tables.keys import LOCAL_KEY_ID, Key
 from service.tables.webhooks import Delivery, DeliveryAttempt, EventType, Webhook
 from service.webhooks import delivery_lease, outbox, service
 from service.webhooks import repository as webhooks
-from service.webhooks.schedule import RETRIES, pause
+from service.webhooks.schedule import RETRY_DELAYS, pause
 from service.webhooks.schemas import WebhookIn
 from worker.periodic.housekeeping import forget_old_deliveries
 from worker.periodic.webhook_sender import WebhookSender
@@ -80,14 +80,14 @@ def sender(context: Context) -> Iterator[WebhookSender]:
 def endpoint(context: Context, url: str, *types: EventType) -> Webhook:
     asked = WebhookIn(url=url, **({"events": list(types)} if types else {}))
     with context.database.write() as session:
-        return service.create(session, LOCAL, asked, LOOPBACK)
+        return service.create(session, LOCAL_KEY_ID, asked, LOOPBACK)
 
 
 def begun(context: Context, **more: Any) -> Lease:
     """A job that runs."""
     job = Job(
         id=new_id(),
-        owner=LOCAL,
+        owner=LOCAL_KEY_ID,
         **{"kind": "tiny", "status": "queued", "inputs": {}, "sources": {}, "options": {}, "notes": {"order": 7}},
         **{"progress": {}, "created_at": now(), "enqueued_at": now(), **more},
     )
@@ -234,7 +234,7 @@ def test_an_endpoint_that_fails_for_days_is_disabled(context: Context, sender: W
         succeeded(context)
     start = now()
     end = through_all_tries(context, sender, start)
-    assert sum(RETRIES, timedelta(0)) <= end - start < 4 * DAY
+    assert sum(RETRY_DELAYS, timedelta(0)) <= end - start < 4 * DAY
     assert [(delivery.status, len(attempts(context, delivery))) for delivery in deliveries(context)] == [
         ("failed", 10)
     ] * 3
@@ -252,7 +252,7 @@ def test_an_endpoint_that_fails_for_days_is_disabled(context: Context, sender: W
     deliver(sender, start + 9 * DAY)
     assert deliveries(context)[-1].status == "pending", "a disabled endpoint is left alone"
     with context.database.write() as session:
-        service.change(session, LOCAL, webhook.id, service.WebhookChange(enabled=True), LOOPBACK)
+        service.change(session, LOCAL_KEY_ID, webhook.id, service.WebhookChange(enabled=True), LOOPBACK)
     deliver(sender, start + 9 * DAY)
     assert deliveries(context)[-1].status == "delivered"
 
@@ -303,7 +303,7 @@ def test_the_address_of_a_job_is_signed_with_the_key_s_secret(
     succeeded(context, webhook_url=receiver.url)
     deliver(sender, now())
     with context.database.read() as session:
-        secret = session.get_one(Key, LOCAL).signing_secret.reveal()
+        secret = session.get_one(Key, LOCAL_KEY_ID).signing_secret.reveal()
     (call,) = receiver.calls
     assert standardwebhooks.Webhook(secret).verify(call.body, call.headers)["type"] == "job.succeeded"
     assert deliveries(context)[0].webhook_id is None
@@ -313,7 +313,7 @@ def test_two_secrets_sign_until_the_old_one_expires(context: Context, sender: We
     receiver = receive()
     webhook = endpoint(context, receiver.url)
     with context.database.write() as session:
-        rotated = service.rotate(session, LOCAL, webhook.id, HOUR)
+        rotated = service.rotate(session, LOCAL_KEY_ID, webhook.id, HOUR)
     assert rotated.secret != webhook.secret
     succeeded(context)
     deliver(sender, now())
@@ -417,7 +417,7 @@ def test_pauses_grow_and_end() -> None:
     chance = Random(1)
     pauses = [pause("job.failed", tries, None, chance) for tries in range(1, 11)]
     assert pauses[-1] is None
-    for found, planned in zip(pauses, RETRIES, strict=False):
+    for found, planned in zip(pauses, RETRY_DELAYS, strict=False):
         assert found is not None and planned <= found <= planned * 1.1
     assert [pause("job.progress", tries, None, chance) is None for tries in (1, 2, 3)] == [False, False, True]
 
@@ -586,7 +586,7 @@ def test_sent_again_it_keeps_its_id(context: Context, sender: WebhookSender, rec
     (delivery,) = deliveries(context)
     receiver.answer = OK
     with context.database.write() as session:
-        service.replay(session, LOCAL, delivery.id)
+        service.replay(session, LOCAL_KEY_ID, delivery.id)
     deliver(sender, now())
     assert {call.headers["webhook-id"] for call in receiver.calls} == {delivery.id}
     assert (deliveries(context)[0].status, len(receiver.calls)) == ("delivered", 11)
