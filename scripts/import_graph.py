@@ -2,8 +2,8 @@
 arrow.
 
 A room is what lies directly in a package: a folder, or a file beside the folders. An arrow says that one room imports
-another. Rooms that can be reached from each other form a circle. An arrow points up where the layers of `.importlinter`
-do not allow it.
+another. Rooms that can be reached from each other form a circle. An arrow points up where the layers of `.importlinter`,
+or of `web/layers.ini` for the page, do not allow it.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ from statistics import median
 
 PACKAGES = ("engine", "service", "worker", "shell")
 PAGE_FOLDER = Path("web", "src")
+RULES_FILES = (".importlinter", "web/layers.ini")
+"""Where the layers are written; the second is in the form of the first."""
 
 GENERATED_HEADER = re.compile("not to be edited")
 """How a file begins that nobody has written."""
@@ -117,10 +119,10 @@ def circles(found: Arrows) -> list[list[str]]:
 
 
 def layers(root: Path, package: str) -> list[tuple[frozenset[str], bool]]:
-    """The layers of a package as `.importlinter` has them, the highest first; and whether the rooms of each may import
+    """The layers of a package, or of the `page`, as the rules have them, the highest first; and whether the rooms of each may import
     each other. Empty where it has none."""
     rules = ConfigParser()
-    rules.read(root / ".importlinter")
+    rules.read(root / name for name in RULES_FILES)
     for name in rules.sections():
         if rules.get(name, "type", fallback="") == "layers" and rules.get(name, "containers", fallback="") == package:
             written = rules.get(name, "layers").strip().splitlines()

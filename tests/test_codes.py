@@ -109,7 +109,7 @@ def test_every_code_is_documented() -> None:
 def test_the_page_has_words_for_all_that_ends_a_job() -> None:
     found = codes(sources("engine", "worker", "service"), by=ENDINGS) - {"gl_unavailable"}  # of no job
     assert {"no_face", "disk_full", "attempts_exhausted", "*_size"} <= found
-    pages = [ROOT / "web/src/languages/en/failures.ts", *(ROOT / "web/src/kinds").glob("*/words/en.ts")]
+    pages = [ROOT / "web/src/language/words/en/failures.ts", *(ROOT / "web/src/kinds").glob("*/words/en.ts")]
     assert len(pages) > 2
     worded = {
         code

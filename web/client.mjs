@@ -1,4 +1,4 @@
-// The types of the HTTP client, drawn from the service's OpenAPI document: `npm run client` writes src/openapi.ts.
+// The types of the HTTP client, drawn from the service's OpenAPI document: `npm run client` writes src/api/openapi.ts.
 
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
@@ -23,5 +23,5 @@ if (process.argv[1] === fileURLToPath(import.meta.url)) {
     cwd: here('..'),
     maxBuffer: 64e6,
   });
-  writeFileSync(here('src/openapi.ts'), await clientTypes(JSON.parse(printed.toString())));
+  writeFileSync(here('src/api/openapi.ts'), await clientTypes(JSON.parse(printed.toString())));
 }

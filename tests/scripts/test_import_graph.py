@@ -6,26 +6,47 @@ from pathlib import Path
 
 import pytest
 
-from scripts.import_graph import PACKAGES, PAGE_FOLDER, arrows, circles, layers, loads, page_files, python_files, upward
+from scripts.import_graph import (
+    PACKAGES,
+    PAGE_FOLDER,
+    File,
+    arrows,
+    circles,
+    layers,
+    loads,
+    page_files,
+    python_files,
+    upward,
+)
 
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("package", PACKAGES)
+def files_of(package: str) -> list[File]:
+    return page_files(ROOT / PAGE_FOLDER) if package == "page" else python_files(ROOT, package)
+
+
+@pytest.mark.parametrize("package", [*PACKAGES, "page"])
 def test_no_rooms_form_a_circle(package: str) -> None:
-    assert circles(arrows(python_files(ROOT, package))) == []
+    assert circles(arrows(files_of(package))) == []
 
 
-@pytest.mark.parametrize("package", ["engine", "service", "worker"])
+@pytest.mark.parametrize("package", ["engine", "service", "worker", "page"])
 def test_no_arrow_points_up(package: str) -> None:
-    files, order = python_files(ROOT, package), layers(ROOT, package)
+    files, order = files_of(package), layers(ROOT, package)
     assert {file.room for file in files} <= {room for rooms, _ in order for room in rooms}
     assert upward(arrows(files), order) == []
 
 
 def test_no_files_of_the_page_form_a_circle_by_what_comes_with_them() -> None:
-    """What a kind fetches when it is needed may know the list of kinds: `kinds/` leads there by `import(...)` alone."""
     assert circles(loads(page_files(ROOT / PAGE_FOLDER))) == []
+
+
+def test_one_file_alone_of_each_kind_is_known_outside_and_to_the_application_alone() -> None:
+    """The list of kinds is handed down by the application: whoever imported it would be a circle through every kind."""
+    outside = [file for file in page_files(ROOT / PAGE_FOLDER) if file.room != "kinds"]
+    known = {(file.name, aim) for file in outside for aim in file.imports if aim.startswith("kinds/")}
+    assert known == {("app", "kinds/index"), ("main", "kinds/index")}
 
 
 def test_imports_are_read_as_arrows(tmp_path: Path) -> None:

@@ -1,30 +1,31 @@
 /** The page around the pages: where one is, and where one can go. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { kindOf } from './kinds';
+import { KindsProvider } from './kind/kinds';
+import { kinds } from './kinds';
 import { Footer } from './widgets/footer';
 import { later, part } from './widgets/lazy';
 import { DraftsHeld } from './studio/draft';
-import { OfferedKinds } from './studio/offered';
+import { OfferedKinds } from './kind/offered';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
 import { LostPage } from './pages/lost';
 import { SignInPage } from './pages/signin';
 import { historyLink, keysLink, type Route, studioLink, useRoute, webhooksLink } from './route';
-import { onLocked } from './session';
-import { strings } from './strings';
+import { onLocked } from './api/session';
+import { strings } from './language/strings';
 
 const SharedPage = later(() => import('./pages/shared'));
 const KeysPage = later(() => import('./pages/keys'));
 const WebhooksPage = later(() => import('./pages/webhooks'));
 
 export function App() {
-  const route = useRoute();
+  const route = useRoute(kinds.all);
   const [locked, setLocked] = useState(false);
   useEffect(() => onLocked(() => setLocked(true)), []);
   const shared = route.page === 'shared';
   return (
-    <>
+    <KindsProvider value={kinds}>
       <a class="skip" href="#content" onClick={skipToContent}>
         {strings.skip}
       </a>
@@ -47,7 +48,7 @@ export function App() {
         )}
       </main>
       <Footer guest={shared} />
-    </>
+    </KindsProvider>
   );
 }
 
@@ -72,7 +73,7 @@ function Navigation({ page }: { page: Route['page'] }) {
 function Page({ route }: { route: Route }) {
   switch (route.page) {
     case 'studio': {
-      const kind = kindOf(route.kind);
+      const kind = kinds.of(route.kind);
       const Studio = part(kind.loadStudio);
       return <Studio key={kind.name} kind={kind} />;
     }

@@ -6,9 +6,9 @@ import './styles/studio.css';
 import './styles/job.css';
 import { render } from 'preact';
 import { App } from './app';
-import { kindOf } from './kinds';
+import { kinds } from './kinds';
 import { parseRoute } from './route';
-import { language } from './strings';
+import { language } from './language/strings';
 import { fetched } from './widgets/lazy';
 
 document.documentElement.lang = language;
@@ -16,7 +16,7 @@ const root = document.getElementById('app');
 const show = (): void => {
   if (root) render(<App />, root);
 };
-const route = parseRoute(location.hash, location.pathname);
+const route = parseRoute(kinds.all, location.hash, location.pathname);
 // a studio comes with the page around it, not after it; where it does not come, the page says so
-if (route.page === 'studio') fetched(kindOf(route.kind).loadStudio).then(show, show);
+if (route.page === 'studio') fetched(kinds.of(route.kind).loadStudio).then(show, show);
 else show();

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { Status } from './api';
-import { kinds } from './kinds';
+import type { Kind } from './kind/kind';
 
 export type Route =
   /** Where something of a kind is ordered. */
@@ -20,10 +20,14 @@ export const statuses: readonly Status[] = ['succeeded', 'running', 'queued', 'f
 /** Characters of a search, at most. */
 export const MAX_SEARCH_CHARACTERS = 200;
 
-/** The page at `path` that `hash` names. */
-export function parseRoute(hash: string, path = '/'): Route {
+/** The start page: the studio of the first kind. */
+export const studioLink = '#/';
+
+/** The page at `path` that `hash` names; these kinds have studios under addresses of their own. */
+export function parseRoute(kinds: readonly Kind[], hash: string, path = '/'): Route {
   if (path !== '/' && path !== '/index.html') return { page: 'lost' };
-  const kind = hash.startsWith('#/') ? kinds.find(({ link }) => link === hash) : kinds[0];
+  const isStart = hash === studioLink || !hash.startsWith('#/');
+  const kind = isStart ? kinds[0] : kinds.find(({ link }) => link === hash);
   if (kind) return { page: 'studio', kind: kind.name };
   const [, place = '', rest, beyond = ''] = /^#\/([a-z]*)(?:\/([^/?#]+))?(.*)$/.exec(hash) ?? [];
   const given = rest && !beyond ? decoded(rest) : null;
@@ -51,8 +55,6 @@ function decoded(part: string): string | null {
 export const jobLink = (id: string): string => `#/jobs/${encodeURIComponent(id)}`;
 export const historyLink = (status: Status | null, words = ''): string =>
   `#/history${status ? `/${status}` : ''}${words && `?q=${encodeURIComponent(words)}`}`;
-/** The start page. */
-export const studioLink = kinds[0].link;
 export const keysLink = '#/keys';
 export const webhooksLink = '#/webhooks';
 
@@ -62,10 +64,10 @@ export function replaceAddress(hash: string): void {
   dispatchEvent(new HashChangeEvent('hashchange'));
 }
 
-export function useRoute(): Route {
-  const [route, setRoute] = useState(() => parseRoute(location.hash, location.pathname));
+export function useRoute(kinds: readonly Kind[]): Route {
+  const [route, setRoute] = useState(() => parseRoute(kinds, location.hash, location.pathname));
   useEffect(() => {
-    const follow = (): void => setRoute(parseRoute(location.hash, location.pathname));
+    const follow = (): void => setRoute(parseRoute(kinds, location.hash, location.pathname));
     addEventListener('hashchange', follow);
     return () => removeEventListener('hashchange', follow);
   }, []);

@@ -5,6 +5,6 @@ import { clientTypes } from '../../../web/client.mjs';
 
 it('speaks of the service as the service describes itself (`npm run client` where it does not)', async () => {
   const described = (await (await fetch(`${address}/v1/openapi.json`)).json()) as object;
-  const kept = readFileSync(new URL('../../../web/src/openapi.ts', import.meta.url), 'utf8');
+  const kept = readFileSync(new URL('../../../web/src/api/openapi.ts', import.meta.url), 'utf8');
   expect(kept).toBe(await clientTypes(described));
 });

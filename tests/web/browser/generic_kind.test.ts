@@ -114,7 +114,7 @@ export const toy = { ...genericKind('tiny'), label: 'A toy', link: '#/toy', load
     writeFileSync(
       join(folder, 'studio.tsx'),
       `import GenericStudio from '../generic/studio';
-import type { StudioProps } from '../../kind';
+import type { StudioProps } from '../../kind/kind';
 export default (props: StudioProps) => <><p>Toys are made here.</p><GenericStudio {...props} /></>;\n`,
     );
     const list = join(web, 'src/kinds/index.ts');

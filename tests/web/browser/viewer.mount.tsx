@@ -6,7 +6,10 @@ import '@web/styles/controls.css';
 import '@web/styles/layout.css';
 import '@web/styles/studio.css';
 import '@web/styles/job.css';
-import { getSkeleton, type Job } from '@web/api';
+import type { Job } from '@web/api';
+import { getSkeleton } from '@web/viewer/skeleton';
+import { KindsProvider } from '@web/kind/kinds';
+import { kinds } from '@web/kinds';
 import { loadCharacter } from '@web/viewer/character';
 import Viewer from '@web/viewer/panel';
 import { hang } from '@web/viewer/hanging';
@@ -53,13 +56,15 @@ const page = document.getElementById('app') as HTMLElement;
 window.poses = [];
 const { pose } = job.options as { pose?: Record<string, [number, number, number]> };
 render(
-  <Viewer
-    job={job}
-    renew={async () => (await fetch(`/v1/jobs/${job.id}`)).json() as Promise<Job>}
-    first="look"
-    pose={pose}
-    onPose={(pose) => window.poses.push(pose)}
-  />,
+  <KindsProvider value={kinds}>
+    <Viewer
+      job={job}
+      renew={async () => (await fetch(`/v1/jobs/${job.id}`)).json() as Promise<Job>}
+      first="look"
+      pose={pose}
+      onPose={(pose) => window.poses.push(pose)}
+    />
+  </KindsProvider>,
   page,
 );
 window.leave = () => render(null, page);

@@ -1,4 +1,4 @@
-import type { PortraitOptions } from '@web/api';
+import type { PortraitOptions } from '@web/kinds/portrait/types';
 import { choicesOf, optionsOf, usual } from '@web/kinds/portrait/choices';
 import { revisionOptions, sameFrames, wishesOf } from '@web/kinds/portrait/corrections/changes';
 import { describe, expect, it } from 'vitest';

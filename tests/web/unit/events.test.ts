@@ -1,4 +1,4 @@
-import { type Change, follow, nothing } from '@web/events';
+import { type Change, follow, nothing } from '@web/api/events';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';
 

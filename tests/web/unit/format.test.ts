@@ -1,4 +1,4 @@
-import { ago, clock, duration, percent, size, stem } from '@web/format';
+import { ago, clock, duration, percent, size, stem } from '@web/language/format';
 import { describe, expect, it } from 'vitest';
 
 describe('numbers in words', () => {

@@ -1,40 +1,40 @@
-import { failureTitle } from '@web/failures';
-import { kindOf, kinds, offeredKinds } from '@web/kinds';
+import { failureTitle } from '@web/kind/failures';
+import { kinds } from '@web/kinds';
 import { shownIn } from '@web/kinds/generic/artifacts';
 import { genericKind } from '@web/kinds/generic';
 import { genericOrder } from '@web/kinds/generic/order';
 import { fieldsOf } from '@web/kinds/generic/schema';
-import type { Kind } from '@web/kind';
-import { stageName } from '@web/result/stage_names';
+import type { Kind } from '@web/kind/kind';
+import { stageName } from '@web/kind/stage_names';
 import { parseRoute } from '@web/route';
 import { describe, expect, it } from 'vitest';
 
 describe('the list of kinds', () => {
   it('holds each once, under an address that leads to it', () => {
-    expect(kinds.map(({ name }) => name)).toEqual(['portrait', 'character']);
-    for (const { name, link } of [...kinds, kindOf('a toy')]) expect(parseRoute(link)).toEqual({ page: 'studio', kind: name });
+    expect(kinds.all.map(({ name }) => name)).toEqual(['portrait', 'character']);
+    for (const { name, link } of [...kinds.all, kinds.of('a toy')]) expect(parseRoute(kinds.all, link)).toEqual({ page: 'studio', kind: name });
   });
 
   it('offers what the service has: its own kinds in their order, then others, without those that look into files', () => {
-    const offered = offeredKinds(['tiny', 'moments', 'character', 'portrait', 'motion']);
+    const offered = kinds.offered(['tiny', 'moments', 'character', 'portrait', 'motion']);
     expect(offered.map(({ label, link }) => [label, link])).toEqual([
       ['Portrait', '#/'],
       ['Character', '#/character'],
       ['Tiny', '#/make/tiny'],
     ]);
-    expect(offeredKinds(['character'])).toHaveLength(1);
+    expect(kinds.offered(['character'])).toHaveLength(1);
   });
 
   it('is told apart by the same loaders each time, so that nothing is drawn anew', () => {
-    expect(kindOf('tiny').loadStudio).toBe(kindOf('tiny').loadStudio);
+    expect(kinds.of('tiny').loadStudio).toBe(kinds.of('tiny').loadStudio);
   });
 
   it('names stages and failures by kind, and by another where only that one knows them', () => {
-    expect(stageName('portrait', 'rig_target')).toBe('Rigging the portrait');
-    expect(stageName('character', 'fetch')).toBe('Downloading the inputs');
-    expect(stageName('moments', 'track_driver')).toBe('Tracking the performance');
-    expect(stageName('tiny', 'weigh_all')).toBe('Weigh all');
-    expect([failureTitle('no_face'), failureTitle('crowd')]).toEqual(['No face was found', 'The picture shows a crowd']);
+    expect(stageName(kinds, 'portrait', 'rig_target')).toBe('Rigging the portrait');
+    expect(stageName(kinds, 'character', 'fetch')).toBe('Downloading the inputs');
+    expect(stageName(kinds, 'moments', 'track_driver')).toBe('Tracking the performance');
+    expect(stageName(kinds, 'tiny', 'weigh_all')).toBe('Weigh all');
+    expect([failureTitle(kinds.all, 'no_face'), failureTitle(kinds.all, 'crowd')]).toEqual(['No face was found', 'The picture shows a crowd']);
   });
 
   it('takes a folder that says only what it has otherwise', () => {
@@ -85,7 +85,7 @@ describe('an order of any kind', () => {
   it('sends each file once, names none, and keeps what was typed', async () => {
     const order = genericOrder('toy', { image: [photo], driver: 'happy', more: [clip, photo] }, ['more'], { level: 2 });
     const sent: string[] = [];
-    const request = await kindOf('toy').request(order, async (file, part) => `${sent.push(`${part}: ${file.name}`)}`);
+    const request = await kinds.of('toy').request(order, async (file, part) => `${sent.push(`${part}: ${file.name}`)}`);
     expect(sent).toEqual(['image: aunt_mary.jpg', 'more: clip.mp4', 'more 2: aunt_mary.jpg']);
     expect(request).toEqual({
       inputs: { image: '1', driver: 'happy', more: ['2', '3'] },
@@ -116,7 +116,7 @@ describe('what a job of any kind shows', () => {
   });
 
   it('is opened by a link', () => {
-    const { opened } = kindOf('toy').shared;
+    const { opened } = kinds.of('toy').shared;
     expect(Object.keys(left).filter((name) => opened.test(name))).toEqual(
       ['poster.jpg', 'preview.jpg', 'mask.png', 'animation.mp4', 'body.glb'],
     );

@@ -1,7 +1,13 @@
 import { driverName, performanceUrl } from '@web/kinds/portrait/drivers';
-import { performanceName, pictureName, pictureUrl } from '@web/works/names';
+import type { Job } from '@web/api';
+import { kinds } from '@web/kinds';
+import * as names from '@web/works/names';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';
+
+const pictureName = (job: Job) => names.pictureName(job, kinds.of(job.kind));
+const pictureUrl = (job: Job) => names.pictureUrl(job, kinds.of(job.kind));
+const performanceName = (job: Job) => kinds.of(job.kind).performance(job);
 
 const file = '0198c1d2-7b1a-7c3e-9c6d-000000000002';
 const drivenBy = (driver: string) => aJob({ inputs: { image: 'x', driver } });

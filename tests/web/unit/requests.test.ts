@@ -1,3 +1,4 @@
+import { kinds } from '@web/kinds';
 import { carriedOver } from '@web/kinds/portrait/moods';
 import { isLoopback } from '@web/share/host';
 import { curlOf, htmlOf, pythonOf } from '@web/share/requests';
@@ -13,7 +14,7 @@ const odd = aJob({
 
 describe('the request behind a job', () => {
   it('is one that a shell hands on word by word, whatever the names hold', () => {
-    const script = `${curlOf(odd, 'http://127.0.0.1:8000', false).replace('curl', "printf '%s\\n'")}`;
+    const script = `${curlOf(odd, kinds.of(odd.kind), 'http://127.0.0.1:8000', false).replace('curl', "printf '%s\\n'")}`;
     const words = execFileSync('sh', ['-c', script]).toString().trim().split('\n');
     expect(words).toEqual([
       'http://127.0.0.1:8000/v1/jobs',
@@ -23,7 +24,7 @@ describe('the request behind a job', () => {
   });
 
   it('is Python that can be read', () => {
-    const code = pythonOf(odd, 'https://faces.example', true);
+    const code = pythonOf(odd, kinds.of(odd.kind), 'https://faces.example', true);
     execFileSync('python3', ['-c', 'import ast, sys; ast.parse(sys.argv[1])', code]);
     expect(code).toContain('"loop": True, "crop": None, "follow": ["eyes"]');
     expect(code).toContain('{"image": Path("grace-rm-rf.jpg"), "driver": "me\'s/$(happy)"}');

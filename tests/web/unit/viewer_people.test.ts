@@ -1,4 +1,5 @@
-import type { Artifact, Skeleton } from '@web/api';
+import type { Artifact } from '@web/api';
+import type { Skeleton } from '@web/viewer/skeleton';
 import { peopleOf, standTogether } from '@web/viewer/people';
 import { describe, expect, it } from 'vitest';
 import { aJob } from './job';

@@ -1,13 +1,14 @@
 import { problemFrom } from '@web/api';
-import { isMotion, isPicture, isVideo } from '@web/media';
-import { failureRemedy, failureTitle } from '@web/failures';
-import { chooseLanguage, plain } from '@web/strings';
+import { kinds } from '@web/kinds';
+import { isMotion, isPicture, isVideo } from '@web/studio/media_types';
+import { failureRemedy, failureTitle } from '@web/kind/failures';
+import { chooseLanguage, plain } from '@web/language/strings';
 import { describe, expect, it } from 'vitest';
 
 describe('trouble in plain words', () => {
   it('shows the sentence of the service', () => {
     const problem = problemFrom(422, JSON.stringify({ code: 'no_face', detail: 'Choose another picture.' }));
-    expect(failureTitle(problem.code)).toBe('No face was found');
+    expect(failureTitle(kinds.all, problem.code)).toBe('No face was found');
     expect(failureRemedy(problem.code, problem.detail)).toBe('Choose another picture.');
   });
 
@@ -15,7 +16,7 @@ describe('trouble in plain words', () => {
     const proxy = problemFrom(413, '<html>Request Entity Too Large</html>');
     expect(failureRemedy(proxy.code, proxy.detail)).toContain('larger');
     const unknown = problemFrom(500, '');
-    expect(failureTitle(unknown.code)).toBe('This did not work');
+    expect(failureTitle(kinds.all, unknown.code)).toBe('This did not work');
     expect(failureRemedy(unknown.code, unknown.detail)).toContain('try again');
   });
 

@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { Trouble } from '../widgets/trouble';
 import { Dialog } from '../widgets/dialog';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { useCamera } from './stream';
 import { Viewfinder } from './viewfinder';
 import '../styles/camera.css';

@@ -3,8 +3,8 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Trouble } from '../widgets/trouble';
 import { Dialog } from '../widgets/dialog';
-import { clock } from '../format';
-import { strings } from '../strings';
+import { clock } from '../language/format';
+import { strings } from '../language/strings';
 import { LONGEST_SECONDS, useRecording } from './recording';
 import { useCamera } from './stream';
 import { Viewfinder } from './viewfinder';

@@ -2,7 +2,7 @@
 
 import type { RefObject } from 'preact';
 import { useEffect } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props {
   stream: MediaStream | null;

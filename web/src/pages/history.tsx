@@ -8,7 +8,7 @@ import { Trouble } from '../widgets/trouble';
 import { Work } from '../works/work';
 import { useWorks } from '../works/works';
 import { historyLink, MAX_SEARCH_CHARACTERS, replaceAddress, statuses, studioLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import '../styles/history.css';
 
 /** Works of a page of the list. */

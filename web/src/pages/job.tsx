@@ -5,25 +5,26 @@ import { cancelJob, deleteJob, type Job, type Problem } from '../api';
 import { Heading } from '../widgets/heading';
 import { part } from '../widgets/lazy';
 import { Picture } from '../widgets/picture';
-import { kindOf } from '../kinds';
-import type { Proposal } from '../kind';
+import { useKind, useKinds } from '../kind/kinds';
+import type { Proposal } from '../kind/kind';
 import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
 import { Stages } from '../result/stages';
 import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
-import { finished, useJob } from '../events';
-import { asProblem } from '../loading';
-import { wantsPicture } from '../mending';
-import { MAX_TITLE_CHARACTERS, performanceName, pictureUrl, workName } from '../works/names';
+import { finished, useJob } from '../api/events';
+import { asProblem } from '../api/loading';
+import { wantsPicture } from '../result/next_step';
+import { MAX_TITLE_CHARACTERS, pictureUrl, workName } from '../works/names';
 import { studioLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { useTitle } from '../works/titles';
 
 const words = strings.job;
 
 export function JobPage({ id }: { id: string }) {
   const { job, problem, stages, interrupted } = useJob(id);
+  const kinds = useKinds();
   const [failure, setFailure] = useState<Problem | null>(null);
   const [proposal, setProposal] = useState<Proposal | null>(null);
 
@@ -41,7 +42,7 @@ export function JobPage({ id }: { id: string }) {
   if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
   if (!job) return interrupted ? <Trouble code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
 
-  const kind = kindOf(job.kind);
+  const kind = kinds.of(job.kind);
   const remove = async (): Promise<void> => {
     try {
       await deleteJob(id);
@@ -51,7 +52,7 @@ export function JobPage({ id }: { id: string }) {
     }
   };
 
-  const performance = performanceName(job);
+  const performance = kind.performance(job);
   return (
     <article class="job" aria-busy={!finished(job)}>
       <Title key={job.tree} job={job} />
@@ -97,7 +98,7 @@ export function JobPage({ id }: { id: string }) {
 
 function Title({ job }: { job: Job }) {
   const [titled, rename] = useTitle(job);
-  const name = workName(titled);
+  const name = workName(titled, useKind(job.kind));
   const [arrived, setArrived] = useState(false);
   useEffect(() => setArrived(true), []);
   return (
@@ -114,18 +115,19 @@ interface BodyProps {
 }
 
 function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (proposal: Proposal) => void }) {
+  const kind = useKind(job.kind);
   switch (job.status) {
     case 'succeeded': {
-      const Result = part(kindOf(job.kind).loadResult);
+      const Result = part(kind.loadResult);
       return <Result job={job} onPropose={onPropose} />;
     }
     case 'failed':
       return (
         <div class="ended">
-          <Picture url={pictureUrl(job)} alt={words.sentAlt} />
+          <Picture url={pictureUrl(job, kind)} alt={words.sentAlt} />
           <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''}>
             {wantsPicture(job) && (
-              <a class="button primary" href={kindOf(job.kind).link}>
+              <a class="button primary" href={kind.link}>
                 {words.anotherPicture}
               </a>
             )}
@@ -135,7 +137,7 @@ function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (p
     case 'canceled':
       return (
         <div class="ended">
-          <Picture url={pictureUrl(job)} alt={words.sentAlt} />
+          <Picture url={pictureUrl(job, kind)} alt={words.sentAlt} />
           <p>{words.canceledDetail}</p>
         </div>
       );
@@ -145,6 +147,7 @@ function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (p
 }
 
 function Running({ job, stages, onProblem }: BodyProps) {
+  const kind = useKind(job.kind);
   const [canceling, setCanceling] = useState(false);
   const preview = job.artifacts['preview.jpg'];
   const cancel = (): void => {
@@ -160,7 +163,7 @@ function Running({ job, stages, onProblem }: BodyProps) {
         {preview ? (
           <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
         ) : (
-          <Picture key="portrait" class="awaiting" url={pictureUrl(job)} alt="" />
+          <Picture key="portrait" class="awaiting" url={pictureUrl(job, kind)} alt="" />
         )}
         <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
       </figure>

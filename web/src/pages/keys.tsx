@@ -6,9 +6,9 @@ import { Copyable } from '../widgets/copyable';
 import { Heading } from '../widgets/heading';
 import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
-import { ago, count, moment, size } from '../format';
-import { useDoing, useLoaded } from '../loading';
-import { strings } from '../strings';
+import { ago, count, moment, size } from '../language/format';
+import { useDoing, useLoaded } from '../api/loading';
+import { strings } from '../language/strings';
 import '../styles/integrators.css';
 
 const words = strings.keys;

@@ -1,7 +1,7 @@
 /** An address at which there is no page. */
 
 import { Heading } from '../widgets/heading';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 const words = strings.lost;
 

@@ -2,13 +2,13 @@
 
 import { getShared, type Shared } from '../api';
 import { Heading } from '../widgets/heading';
-import { kindOf } from '../kinds';
+import { useKinds, useKind } from '../kind/kinds';
 import { part } from '../widgets/lazy';
 import { Player } from '../result/player';
 import { Trouble } from '../widgets/trouble';
-import { moment, size } from '../format';
-import { useLoaded } from '../loading';
-import { strings } from '../strings';
+import { moment, size } from '../language/format';
+import { useLoaded } from '../api/loading';
+import { strings } from '../language/strings';
 import '../styles/share.css';
 
 const words = strings.shared;
@@ -17,6 +17,7 @@ const words = strings.shared;
 const PAGE_ONLY_FILES = /^(poster\.jpg|skeleton\.json|background\.png)$/;
 
 export default function SharedPage({ token }: { token: string }) {
+  const kinds = useKinds();
   const { value: shared, problem } = useLoaded((signal) => getShared(token, signal), token);
   if (problem?.status === 404) {
     return (
@@ -29,7 +30,7 @@ export default function SharedPage({ token }: { token: string }) {
   if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
   if (!shared) return <div aria-busy="true" />;
 
-  const kind = kindOf(shared.kind);
+  const kind = kinds.of(shared.kind);
   const files = Object.entries(shared.artifacts);
   const taken = kind.shared.downloads.flatMap(([like, label]) => files.filter(([name]) => like.test(name)).map((file) => ({ file, label })));
   const others = files.filter(([name]) => !PAGE_ONLY_FILES.test(name) && !taken.some(({ file }) => file[0] === name));
@@ -64,7 +65,7 @@ export default function SharedPage({ token }: { token: string }) {
 
 /** The animation, and whatever else the kind has to show. */
 function Result({ token, shared }: { token: string; shared: Shared }) {
-  const { loadShared } = kindOf(shared.kind);
+  const { loadShared } = useKind(shared.kind);
   const film = filmOf(shared) && <Film shared={shared} />;
   if (!loadShared) return film ?? null;
   const renew = (signal: AbortSignal): Promise<Shared> => getShared(token, signal);
@@ -76,9 +77,9 @@ const filmOf = ({ artifacts }: Shared) =>
   Object.entries(artifacts).find(([name, { content_type: type }]) => name.startsWith('animation.') && !/zip/.test(type))?.[1];
 
 function Film({ shared }: { shared: Shared }) {
+  const { alt, hasSound } = useKind(shared.kind).shared;
   const film = filmOf(shared);
   if (!film) return null;
-  const { alt, hasSound } = kindOf(shared.kind).shared;
   if (film.content_type.startsWith('image/')) {
     return (
       <figure>

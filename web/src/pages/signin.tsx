@@ -4,8 +4,8 @@ import { useId, useState } from 'preact/hooks';
 import { openSession } from '../api';
 import { Heading } from '../widgets/heading';
 import { Trouble } from '../widgets/trouble';
-import { useDoing } from '../loading';
-import { strings } from '../strings';
+import { useDoing } from '../api/loading';
+import { strings } from '../language/strings';
 
 const words = strings.signIn;
 

@@ -3,8 +3,8 @@
 import type { ComponentChildren } from 'preact';
 import { useId, useState } from 'preact/hooks';
 import { archiveUrl, type Job, type Report } from '../api';
-import { duration, size } from '../format';
-import { strings } from '../strings';
+import { duration, size } from '../language/format';
+import { strings } from '../language/strings';
 import { later } from '../widgets/lazy';
 
 const SharePanel = later(() => import('../share/panel'));

@@ -2,7 +2,7 @@
 
 import { type RefObject } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { plain, strings } from '../strings';
+import { plain, strings } from '../language/strings';
 import { apart, AT_REST, followerTime, TOLERANCE } from './sync';
 import { Transport } from './transport';
 

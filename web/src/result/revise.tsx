@@ -2,11 +2,11 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { type Job, listRevisions } from '../api';
-import type { CorrectionsProps, Load } from '../kind';
-import { useLoaded } from '../loading';
-import { wantsPicture } from '../mending';
+import type { CorrectionsProps, Load } from '../kind/kind';
+import { useLoaded } from '../api/loading';
+import { wantsPicture } from './next_step';
 import { jobLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { part } from '../widgets/lazy';
 
 const words = strings.redo;

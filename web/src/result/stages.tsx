@@ -1,9 +1,10 @@
 /** How far a job is: a bar, the time left, and the stages in plain words. */
 
 import type { Job } from '../api';
-import { duration, percent } from '../format';
-import { strings } from '../strings';
-import { stageName } from './stage_names';
+import { duration, percent } from '../language/format';
+import { strings } from '../language/strings';
+import { useKinds } from '../kind/kinds';
+import { stageName } from '../kind/stage_names';
 
 const words = strings.job;
 
@@ -13,10 +14,11 @@ const prepareEngine = 'prepare_engine';
 const place = ({ queue_position: at }: Job): string => (at === null ? '' : at === 1 ? words.next : words.place(at));
 
 export function Stages({ job, stages }: { job: Job; stages: string[] }) {
+  const kinds = useKinds();
   const queued = job.status === 'queued';
   const { fraction = 0, eta_seconds: eta = null, stage: current } = job.progress;
   const preparing = queued && current === prepareEngine;
-  const headline = queued && !preparing ? words.queued : current ? stageName(job.kind, current) : words.starting;
+  const headline = queued && !preparing ? words.queued : current ? stageName(kinds, job.kind, current) : words.starting;
 
   return (
     <div class="stages">
@@ -33,7 +35,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
         <ol aria-label={words.stages}>
           {stages.map((stage) => (
             <li key={stage} class={stage === current ? 'current' : 'done'} aria-current={stage === current && 'step'}>
-              {stageName(job.kind, stage)}
+              {stageName(kinds, job.kind, stage)}
               <span class="unseen"> {stage === current ? words.stageRunning : words.stageDone}</span>
             </li>
           ))}

@@ -1,8 +1,8 @@
 /** Play and pause, where one is, and how fast: of videos and of clips. */
 
 import type { ComponentChildren } from 'preact';
-import { clock } from '../format';
-import { strings } from '../strings';
+import { clock } from '../language/format';
+import { strings } from '../language/strings';
 
 const words = strings.player;
 const speeds = [1, 0.5, 0.25] as const;

@@ -1,21 +1,22 @@
 /** The picture of a job as it was sent, to be worked on. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { type Job, portraitOptions } from '../api';
+import type { Job } from '../api';
+import { useKind } from '../kind/kinds';
 import type { Shown } from '../widgets/boxed_picture';
 import { pictureUrl } from '../works/names';
 
 /**
  * A picture to work on: the portrait itself, or, where this browser cannot show it (HEIC), the preview in its place.
- * Null while it is loaded; false where there is nothing to show.
+ * Null while it is loaded; false where there is nothing to show. A preview that was cut out of it cannot stand in for it.
  */
-export function usePicture(job: Job, original: readonly [number, number] | null): Shown | false | null {
+export function usePicture(job: Job, original: readonly [number, number] | null, isPreviewCropped = false): Shown | false | null {
+  const kind = useKind(job.kind);
   const [shown, setShown] = useState<Shown | false | null>(null);
   useEffect(() => {
     let current = true;
-    const options = portraitOptions(job);
-    const preview = (options.crop ?? 'none') === 'none' ? job.artifacts['preview.jpg']?.url : undefined;
-    const sent = pictureUrl(job);
+    const preview = isPreviewCropped ? undefined : job.artifacts['preview.jpg']?.url;
+    const sent = pictureUrl(job, kind);
     const show = (url: string, instead: () => void): void => {
       const image = new Image();
       image.onload = () => current && setShown({ url, size: original ?? [image.naturalWidth, image.naturalHeight] });

@@ -2,7 +2,8 @@
 
 import { useState } from 'preact/hooks';
 import type { Job } from '../api';
-import { strings } from '../strings';
+import { useKind } from '../kind/kinds';
+import { strings } from '../language/strings';
 import { isLoopback } from './host';
 import { curlOf, htmlOf, pythonOf } from './requests';
 import '../styles/share.css';
@@ -10,14 +11,15 @@ import '../styles/share.css';
 const words = strings.job;
 
 export default function CodePanel({ job }: { job: Job }) {
+  const kind = useKind(job.kind);
   const key = !isLoopback(location.hostname);
   const html = htmlOf(job);
   return (
     <section class="panel share" aria-label={words.use}>
       <h2>{words.use}</h2>
       <p class="hint">{words.useHint}</p>
-      <Snippet label={words.curl} code={curlOf(job, location.origin, key)} />
-      <Snippet label={words.python} code={pythonOf(job, location.origin, key)} />
+      <Snippet label={words.curl} code={curlOf(job, kind, location.origin, key)} />
+      <Snippet label={words.python} code={pythonOf(job, kind, location.origin, key)} />
       {html && <Snippet label={words.embed} code={html} />}
     </section>
   );

@@ -4,10 +4,11 @@ import { useId, useState } from 'preact/hooks';
 import { createLink, type Job, listLinks, type PublicLink, revokeLink } from '../api';
 import { Copyable } from '../widgets/copyable';
 import { Trouble } from '../widgets/trouble';
-import { moment } from '../format';
-import { kindOf } from '../kinds';
-import { useDoing, useLoaded } from '../loading';
-import { strings } from '../strings';
+import { moment } from '../language/format';
+import type { Kind } from '../kind/kind';
+import { useKind } from '../kind/kinds';
+import { useDoing, useLoaded } from '../api/loading';
+import { strings } from '../language/strings';
 import { isLoopback } from './host';
 import QrCode from './qr';
 import '../styles/share.css';
@@ -17,6 +18,7 @@ const terms = { day: 24, week: 7 * 24, month: 30 * 24, open: null } as const;
 type Term = keyof typeof terms;
 
 export default function SharePanel({ job }: { job: Job }) {
+  const kind = useKind(job.kind);
   const links = useLoaded((signal) => listLinks(job.id, signal), `links ${job.id}`);
   const { doing, problem, attempt } = useDoing();
   const [term, setTerm] = useState<Term>('week');
@@ -26,7 +28,7 @@ export default function SharePanel({ job }: { job: Job }) {
 
   const create = (): Promise<void> =>
     attempt(async () => {
-      const link = await createLink(job.id, terms[term], everything ? null : shownTo(job));
+      const link = await createLink(job.id, terms[term], everything ? null : openedIn(job, kind));
       if (link.page) setMade((pages) => ({ ...pages, [link.id]: link.page as string }));
       links.reload();
     });
@@ -91,7 +93,5 @@ export default function SharePanel({ job }: { job: Job }) {
 }
 
 /** What a link opens unless it is to open everything. */
-const shownTo = (job: Job): string[] => {
-  const { opened } = kindOf(job.kind).shared;
-  return Object.keys(job.artifacts).filter((name) => opened.test(name));
-};
+const openedIn = (job: Job, { shared }: Kind): string[] =>
+  Object.keys(job.artifacts).filter((name) => shared.opened.test(name));

@@ -1,7 +1,7 @@
 /** A link as a QR code: whoever points a phone at it opens the link there. Drawn here, so that no other host is told. */
 
 import qrcode from 'qrcode-generator';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 /** Light modules around the code that readers need. */
 const MARGIN = 4;

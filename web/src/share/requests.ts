@@ -1,8 +1,8 @@
 /** How a program asks for what a job made: the request, ready to be copied. */
 
 import type { Job } from '../api';
-import { kindOf } from '../kinds';
-import { isFileId } from '../names';
+import type { Kind } from '../kind/kind';
+import { isFileId } from '../works/inputs';
 import { pictureName } from '../works/names';
 
 /** For a shell: nothing in it is read as more than text. */
@@ -18,9 +18,9 @@ const pythonic = (value: unknown): string => {
 };
 
 /** Inputs that are files stand for files of the visitor's own, by names that say which is which. */
-function inputsOf(job: Job): { name: string; file: boolean; value: string }[] {
-  const picture = pictureName(job).toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'picture';
-  const { endings, pictureInput } = kindOf(job.kind);
+function inputsOf(job: Job, kind: Kind): { name: string; file: boolean; value: string }[] {
+  const picture = pictureName(job, kind).toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '') || 'picture';
+  const { endings, pictureInput } = kind;
   return Object.entries(job.inputs).flatMap(([name, value]) => {
     if (typeof value !== 'string') return [];
     const file = isFileId(value);
@@ -29,20 +29,20 @@ function inputsOf(job: Job): { name: string; file: boolean; value: string }[] {
   });
 }
 
-export function curlOf(job: Job, origin: string, key: boolean): string {
+export function curlOf(job: Job, kind: Kind, origin: string, key: boolean): string {
   const options = Object.keys(job.options).length > 0;
   return [
     `curl ${quoted(`${origin}/v1/jobs`)}`,
     ...(key ? ['-H "Authorization: Bearer $GALATEA_KEY"'] : []),
     `-H 'Prefer: wait=60'`,
     `-F kind=${quoted(job.kind)}`,
-    ...inputsOf(job).map(({ name, file, value }) => `-F ${quoted(`${name}=${file ? '@' : ''}${value}`)}`),
+    ...inputsOf(job, kind).map(({ name, file, value }) => `-F ${quoted(`${name}=${file ? '@' : ''}${value}`)}`),
     ...(options ? [`-F ${quoted(`options=${JSON.stringify(job.options)}`)}`] : []),
   ].join(' \\\n  ');
 }
 
-export function pythonOf(job: Job, origin: string, key: boolean): string {
-  const inputs = inputsOf(job)
+export function pythonOf(job: Job, kind: Kind, origin: string, key: boolean): string {
+  const inputs = inputsOf(job, kind)
     .map(({ name, file, value }) => `${JSON.stringify(name)}: ${file ? `Path(${JSON.stringify(value)})` : JSON.stringify(value)}`)
     .join(', ');
   return `${key ? 'import os\n' : ''}from pathlib import Path

@@ -1,6 +1,6 @@
 /** The tools that every stage has: a nearer or further view, and the way back. */
 
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { canRedo, canUndo, type History, type Step } from './history';
 
 const words = strings.stage;

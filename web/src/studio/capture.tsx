@@ -2,7 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import { mayUseCamera } from '../camera/stream';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { later } from '../widgets/lazy';
 
 const windows = {

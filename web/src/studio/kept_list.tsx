@@ -1,10 +1,10 @@
 /** What the service keeps for the user under names, to rename and to delete. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { useDoing } from '../loading';
-import { keptName } from '../names';
-import { failureRemedy } from '../failures';
-import { strings } from '../strings';
+import { useDoing } from '../api/loading';
+import { keptName } from './kept_name';
+import { failureRemedy } from '../kind/failures';
+import { strings } from '../language/strings';
 import { Rename } from '../widgets/rename';
 import { ConfirmButton } from '../widgets/confirm';
 import '../styles/kept.css';

@@ -1,7 +1,7 @@
 /** What can be made here, each with a page of its own. */
 
-import { strings } from '../strings';
-import { useOffered } from './offered';
+import { strings } from '../language/strings';
+import { useOffered } from '../kind/offered';
 
 export function KindLinks({ current }: { current: string }) {
   return (

@@ -1,9 +1,9 @@
 /** The end of a form that orders something: what an earlier page left, what went wrong, how far it is, or the button. */
 
-import type { OrderNames } from '../kind';
-import { namesOf } from '../order';
-import type { useSending } from '../sending';
-import { strings } from '../strings';
+import type { OrderNames } from '../kind/kind';
+import { useKinds } from '../kind/kinds';
+import type { useSending } from '../sending/use_sending';
+import { strings } from '../language/strings';
 import { SendingBar } from './sending_bar';
 import { Trouble } from '../widgets/trouble';
 
@@ -19,8 +19,9 @@ interface Props {
 }
 
 export function Launch({ sending, missing, chosen, label }: Props) {
+  const kinds = useKinds();
   const { waiting } = sending;
-  const left = waiting && namesOf(waiting);
+  const left = waiting && kinds.of(waiting.kind).namesOf(waiting);
   return (
     <div class="launch">
       {waiting && left && (

@@ -1,32 +1,37 @@
 /** Pictures to begin with: one click puts one where a file of one's own would be. */
 
 import { useId, useState } from 'preact/hooks';
-import { figureSamples, isSample, sampleFile, type SampleName, smallUrl } from './sample_pictures';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
+import { isSample, sampleFile, type SamplePicture, smallUrl } from './sample_pictures';
 
 const words = strings.samples;
-const isFigure = (name: SampleName): boolean => (figureSamples as readonly SampleName[]).includes(name);
 
 interface Props {
-  names: readonly SampleName[];
+  samples: readonly SamplePicture[];
   chosen: File | null;
   onChoose: (file: File) => void;
 }
 
-export function Samples({ names, chosen, onChoose }: Props) {
+export function Samples({ samples, chosen, onChoose }: Props) {
   const label = useId();
   const [failed, setFailed] = useState(false);
-  const choose = (name: SampleName): void => {
+  const choose = (sample: SamplePicture): void => {
     setFailed(false);
-    sampleFile(name).then(onChoose, () => setFailed(true));
+    sampleFile(sample).then(onChoose, () => setFailed(true));
   };
   return (
     <div class="samples" role="group" aria-labelledby={label}>
       <h3 id={label}>{words.label}</h3>
       <div>
-        {names.map((name) => (
-          <button key={name} type="button" aria-pressed={isSample(chosen, name)} title={words.names[name]} onClick={() => choose(name)}>
-            <img src={smallUrl(name)} alt={words.names[name]} width="88" height={isFigure(name) ? 117 : 88} />
+        {samples.map((sample) => (
+          <button
+            key={sample.name}
+            type="button"
+            aria-pressed={isSample(chosen, sample)}
+            title={sample.alt}
+            onClick={() => choose(sample)}
+          >
+            <img src={smallUrl(sample)} alt={sample.alt} width="88" height={sample.smallHeight} />
           </button>
         ))}
       </div>

@@ -1,8 +1,8 @@
 /** How much of an order has been sent; it can be halted, taken up again, and given up. */
 
-import { percent } from '../format';
-import type { Sending } from '../order';
-import { plain, strings } from '../strings';
+import { percent } from '../language/format';
+import type { Sending } from '../sending/order';
+import { plain, strings } from '../language/strings';
 
 const words = strings.studio;
 

@@ -1,6 +1,6 @@
 /** How large a video is, how many frames it has, and of which kind it is. */
 
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { SelectField } from '../widgets/select';
 
 /** Width and height to fit into, in pixels; null for the picture's own. */

@@ -1,6 +1,6 @@
 /** Where a picture hangs, so that from its camera's eye all in it is where it was. */
 
-import type { PictureCamera } from '../api';
+import type { PictureCamera } from './skeleton';
 
 /**
  * Metres behind the person's middle. The film's wall is further off, where the floor of the picture looks right under the

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { Box3, Vector3 } from 'three';
 import { Transport } from '../result/transport';
-import { plain, strings } from '../strings';
+import { plain, strings } from '../language/strings';
 import { type Character, IN_PLACE } from './character';
 import { placeOf } from './reach';
 import { Playback } from './playback';

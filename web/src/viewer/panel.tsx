@@ -4,10 +4,10 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { later } from '../widgets/lazy';
 import { Trouble } from '../widgets/trouble';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { useSkeletonLines, useSurroundings, useWideView } from './around';
 import { Looking } from './looking';
-import { peopleOf, standTogether, type Woken } from './people';
+import { peopleOf, standTogether, type HasArtifacts } from './people';
 import { type Pose } from './pose';
 import { Posing } from './posing';
 import type { Stage } from './stage';
@@ -15,7 +15,7 @@ import { type Standing, useCast, useStage } from './staging';
 import { Tool } from '../stage/tools';
 import { mayHaveView, type PictureView, viewOf } from './view';
 import { Wall } from './wall';
-import { type Who, WhoChoice } from './who';
+import { type PersonChoice, PersonSelect } from './person_select';
 import '../styles/viewer.css';
 
 const Space = later(() => import('./space'));
@@ -24,9 +24,9 @@ const words = strings.viewer;
 type Mode = 'wall' | 'look' | 'pose' | 'film';
 
 export interface ViewerProps {
-  job: Woken;
+  job: HasArtifacts;
   /** The same with links that have only now been signed. */
-  renew: (signal: AbortSignal) => Promise<Woken>;
+  renew: (signal: AbortSignal) => Promise<HasArtifacts>;
   /** What is seen first, where the job has what it takes and the browser shows 3D. */
   first: 'wall' | 'look';
   /** The pose that they were made with. */
@@ -42,7 +42,7 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
   const place = useRef<HTMLDivElement>(null);
   const { shown, trouble, retry } = useStage(place, job);
   const [chosen, setMode] = useState<Mode>(first);
-  const [wanted, setWanted] = useState<Who>('all');
+  const [wanted, setWanted] = useState<PersonChoice>('all');
   const [inSpace, setInSpace] = useState(false);
   const wide = useWideView(section);
   const view = useMemo(() => viewOf(job, shown?.skeleton ?? null), [shown]);
@@ -86,7 +86,7 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
           {words.space}
         </button>
         {people.length > 1 && (
-          <WhoChoice
+          <PersonSelect
             people={people}
             together={shown ? together : 'skeleton.json' in job.artifacts}
             chosen={who}

@@ -1,13 +1,14 @@
 /** Who was woken: the files of each, and where they stood. */
 
-import type { Artifact, Skeleton } from '../api';
+import type { Artifact } from '../api';
+import type { Skeleton } from './skeleton';
 
 /** What a job left, or what a public link opens of it. */
-export interface Woken {
+export interface HasArtifacts {
   artifacts: Record<string, Artifact>;
 }
 
-export interface WokenPerson {
+export interface CharacterFiles {
   /** Which of the people found, counted from 1. */
   number: number;
   /** Of their files, without the ending. */
@@ -19,8 +20,8 @@ export interface WokenPerson {
 }
 
 /** The first is character.glb, the second character-2.glb, and so on. */
-export function peopleOf({ artifacts }: Woken, skeleton: Skeleton | null): WokenPerson[] {
-  const people: WokenPerson[] = [];
+export function peopleOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null): CharacterFiles[] {
+  const people: CharacterFiles[] = [];
   for (let index = 0; ; index++) {
     const name = nameOf(index);
     const glb = artifacts[`${name}.glb`];
@@ -34,5 +35,5 @@ export function peopleOf({ artifacts }: Woken, skeleton: Skeleton | null): Woken
 const nameOf = (index: number): string => (index === 0 ? 'character' : `character-${index + 1}`);
 
 /** Whether all can be shown together, where they stood. */
-export const standTogether = (people: readonly WokenPerson[]): boolean =>
+export const standTogether = (people: readonly CharacterFiles[]): boolean =>
   people.length > 1 && people.every(({ place }) => place !== null);

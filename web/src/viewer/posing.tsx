@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { begun, type History, type Step, step } from '../stage/history';
 import { HistoryTools, historyKey, Tool } from '../stage/tools';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { turnable } from './handles';
 import { resetView } from './looking';
 import { type Degrees, type Pose, rounded } from './pose';

@@ -3,23 +3,23 @@
 import '@google/model-viewer';
 import type { ModelViewerElement } from '@google/model-viewer';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { getSkeleton } from '../api';
+import { getSkeleton } from './skeleton';
 import { Trouble } from '../widgets/trouble';
 import { Dialog } from '../widgets/dialog';
-import { useLoaded } from '../loading';
-import { strings } from '../strings';
+import { useLoaded } from '../api/loading';
+import { strings } from '../language/strings';
 import { IN_PLACE, PICTURED } from './character';
-import { peopleOf, type Woken } from './people';
-import { WhoChoice } from './who';
+import { peopleOf, type HasArtifacts } from './people';
+import { PersonSelect } from './person_select';
 
 const words = strings.viewer;
 
 const said = { loading: words.loading, ready: words.spaceHint, flat: words.spaceNone, failed: '' };
 
 interface Props {
-  job: Woken;
+  job: HasArtifacts;
   /** The same with links that have only now been signed. */
-  renew: (signal: AbortSignal) => Promise<Woken>;
+  renew: (signal: AbortSignal) => Promise<HasArtifacts>;
   /** Who is shown first, of those who were woken. */
   who: number;
   onClose: () => void;
@@ -73,7 +73,7 @@ export default function Space({ job, renew, who: first, onClose }: Props) {
   return (
     <Dialog title={words.space} class="viewer-space" onClose={onClose}>
       {people.length > 1 && (
-        <WhoChoice
+        <PersonSelect
           people={people}
           together={false}
           chosen={who}

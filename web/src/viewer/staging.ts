@@ -2,9 +2,9 @@
 
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { getSkeleton, type Skeleton } from '../api';
+import { getSkeleton, type Skeleton } from './skeleton';
 import { type Character, loadCharacter } from './character';
-import { peopleOf, type Woken, type WokenPerson } from './people';
+import { peopleOf, type HasArtifacts, type CharacterFiles } from './people';
 import { NoWebGL, Stage } from './stage';
 
 /** Somebody who was woken, as a body. */
@@ -17,7 +17,7 @@ export interface Standing {
 export interface Shown {
   stage: Stage;
   skeleton: Skeleton | null;
-  people: readonly WokenPerson[];
+  people: readonly CharacterFiles[];
   /** In the same order; none of them is on the stage by itself. */
   standing: readonly Standing[];
 }
@@ -29,7 +29,7 @@ export interface Staged {
   retry: () => void;
 }
 
-export function useStage(place: RefObject<HTMLElement | null>, job: Woken): Staged {
+export function useStage(place: RefObject<HTMLElement | null>, job: HasArtifacts): Staged {
   const [shown, setShown] = useState<Shown | null>(null);
   const [trouble, setTrouble] = useState<Staged['trouble']>(null);
   const [turn, setTurn] = useState(0);

@@ -1,7 +1,7 @@
 /** From where the picture of a character was taken: what a wall needs to hang it there. */
 
-import type { PictureCamera, Skeleton } from '../api';
-import type { Woken } from './people';
+import type { PictureCamera, Skeleton } from './skeleton';
+import type { HasArtifacts } from './people';
 
 export interface PictureView {
   camera: PictureCamera;
@@ -10,10 +10,10 @@ export interface PictureView {
 }
 
 /** Whether a job may say it; those of earlier versions did not. */
-export const mayHaveView = ({ artifacts }: Woken): boolean => 'skeleton.json' in artifacts && 'background.png' in artifacts;
+export const mayHaveView = ({ artifacts }: HasArtifacts): boolean => 'skeleton.json' in artifacts && 'background.png' in artifacts;
 
 /** Null where the job does not say it. */
-export function viewOf({ artifacts }: Woken, skeleton: Skeleton | null): PictureView | null {
+export function viewOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null): PictureView | null {
   const background = artifacts['background.png']?.url;
   return skeleton?.camera && background ? { camera: skeleton.camera, background } : null;
 }

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Vector3 } from 'three';
 import { PlayButton } from '../result/transport';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { Emerging } from './emerging';
 import { hang } from './hanging';
 import { prefersStillness } from './looking';

@@ -13,9 +13,9 @@ import {
 import { Copyable } from '../widgets/copyable';
 import { ConfirmButton } from '../widgets/confirm';
 import { Trouble } from '../widgets/trouble';
-import { ago, moment } from '../format';
-import { useDoing } from '../loading';
-import { strings } from '../strings';
+import { ago, moment } from '../language/format';
+import { useDoing } from '../api/loading';
+import { strings } from '../language/strings';
 
 const words = strings.webhooks;
 

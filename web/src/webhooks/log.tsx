@@ -3,10 +3,10 @@
 import { useEffect, useState } from 'preact/hooks';
 import { type Delivery, type DeliveryDetail, getDelivery, listDeliveries, replayDelivery } from '../api';
 import { Trouble } from '../widgets/trouble';
-import { ago, count, moment } from '../format';
-import { useDoing, useLoaded } from '../loading';
+import { ago, count, moment } from '../language/format';
+import { useDoing, useLoaded } from '../api/loading';
 import { jobLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 const words = strings.webhooks;
 const REFRESH_MS = 3000;

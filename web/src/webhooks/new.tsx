@@ -3,8 +3,8 @@
 import { useId, useState } from 'preact/hooks';
 import { createWebhook, type NewWebhook, type WebhookEvent } from '../api';
 import { Trouble } from '../widgets/trouble';
-import { useDoing } from '../loading';
-import { strings } from '../strings';
+import { useDoing } from '../api/loading';
+import { strings } from '../language/strings';
 
 const words = strings.webhooks;
 const events: readonly WebhookEvent[] = ['job.succeeded', 'job.failed', 'job.canceled', 'job.progress'];

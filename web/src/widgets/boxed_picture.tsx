@@ -2,7 +2,7 @@
 
 import type { ComponentChildren } from 'preact';
 import type { Frame } from '../api';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 /** A picture to work on. */
 export interface Shown {

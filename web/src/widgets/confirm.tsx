@@ -1,7 +1,7 @@
 /** A step without a way back, taken only after a question. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props {
   label: string;

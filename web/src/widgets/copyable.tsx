@@ -1,7 +1,7 @@
 /** Something to be taken along as it stands: an address, a key, a secret. */
 
 import { useEffect, useId, useRef, useState } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props {
   label: string;

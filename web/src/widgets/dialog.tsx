@@ -2,7 +2,7 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props {
   title: string;

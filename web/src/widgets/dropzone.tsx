@@ -1,8 +1,8 @@
 /** A place to drop, browse for, or be given one file; shows what it holds. */
 
 import { useEffect, useId, useMemo, useRef, useState } from 'preact/hooks';
-import { size } from '../format';
-import { strings } from '../strings';
+import { size } from '../language/format';
+import { strings } from '../language/strings';
 
 type Media = 'image' | 'video' | 'motion';
 

@@ -1,6 +1,6 @@
 /** At the end of every page: where help is. The service has these pages itself; none of them is elsewhere. */
 
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 const words = strings.footer;
 const links = [

@@ -1,7 +1,7 @@
 /** A page's heading takes the focus, so that a change of page is heard as well as seen. */
 
 import { useEffect, useRef } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props {
   text: string;

@@ -2,8 +2,8 @@
 
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import type { Load } from '../kind';
-import { strings } from '../strings';
+import type { Load } from '../kind/kind';
+import { strings } from '../language/strings';
 import { Trouble } from './trouble';
 
 /** Parts that have arrived, by what fetched them. */

@@ -2,9 +2,9 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef, useState } from 'preact/hooks';
-import { useDoing } from '../loading';
-import { failureRemedy } from '../failures';
-import { strings } from '../strings';
+import { useDoing } from '../api/loading';
+import { failureRemedy } from '../kind/failures';
+import { strings } from '../language/strings';
 
 const words = strings.rename;
 

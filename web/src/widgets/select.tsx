@@ -1,7 +1,7 @@
 /** One of a few things, from a list that unfolds. */
 
 import { useId } from 'preact/hooks';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 
 interface Props<Value, Choice extends Value> {
   label: string;

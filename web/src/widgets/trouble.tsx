@@ -1,7 +1,8 @@
 /** What went wrong and what to do, in plain words. */
 
 import type { ComponentChildren } from 'preact';
-import { failureRemedy, failureTitle } from '../failures';
+import { failureRemedy, failureTitle } from '../kind/failures';
+import { useKinds } from '../kind/kinds';
 
 interface Props {
   code: string;
@@ -10,9 +11,10 @@ interface Props {
 }
 
 export function Trouble({ code, detail, children }: Props) {
+  const { all } = useKinds();
   return (
     <div class="trouble" role="alert">
-      <strong>{failureTitle(code)}</strong>
+      <strong>{failureTitle(all, code)}</strong>
       <p>{failureRemedy(code, detail)}</p>
       {children && <div class="actions">{children}</div>}
     </div>

@@ -1,8 +1,8 @@
 /** What was changed from one version of a work to the next, in words. */
 
 import type { Job } from '../api';
-import { kindOf } from '../kinds';
-import { plain, strings } from '../strings';
+import type { Kind } from '../kind/kind';
+import { plain, strings } from '../language/strings';
 
 const words = strings.history;
 
@@ -15,8 +15,7 @@ function changed(job: Job, before: Job, known: readonly string[]): string[] {
 }
 
 /** Each change once, in the order of their words; empty where nothing was changed. */
-export function differences(job: Job, before: Job): string[] {
-  const kind = kindOf(job.kind);
+export function differences(job: Job, before: Job, kind: Kind): string[] {
   const told = changed(job, before, Object.keys(kind.differences)).map((name) => {
     const what = kind.differences[name] ?? plain(name).toLowerCase();
     const value = kind.valueOf(job, name);

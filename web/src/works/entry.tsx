@@ -1,34 +1,37 @@
 /** A job among others: a small picture of it, its name, and where it stands. */
 
 import type { Job } from '../api';
-import { ago, percent } from '../format';
-import { performanceName, pictureUrl, workName } from './names';
+import { ago, percent } from '../language/format';
+import { useKind } from '../kind/kinds';
+import { pictureUrl, workName } from './names';
 import { jobLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { Picture } from '../widgets/picture';
 
 export function Entry({ job }: { job: Job }) {
+  const kind = useKind(job.kind);
   return (
     <a class="entry" href={jobLink(job.id)}>
       <Poster job={job} />
-      <span class="name">{workName(job)}</span>
+      <span class="name">{workName(job, kind)}</span>
       <Details job={job} />
     </a>
   );
 }
 
 export function Poster({ job }: { job: Job }) {
+  const kind = useKind(job.kind);
   // Jobs of earlier versions have no thumbnail.
   const picture = ['thumbnail.jpg', 'poster.jpg', 'preview.jpg'].map((name) => job.artifacts[name]).find(Boolean);
   return (
     <span class={`poster ${job.kind}`}>
-      <Picture url={picture?.url ?? pictureUrl(job)} alt="" lazy />
+      <Picture url={picture?.url ?? pictureUrl(job, kind)} alt="" lazy />
     </span>
   );
 }
 
 export function Details({ id, job }: { id?: string; job: Job }) {
-  const performance = performanceName(job);
+  const performance = useKind(job.kind).performance(job);
   return (
     <span class="details" id={id}>
       {performance && <span>{performance}</span>}

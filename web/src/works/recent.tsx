@@ -2,7 +2,7 @@
 
 import { everything, useWorks } from './works';
 import { historyLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { Entry } from './entry';
 
 const MAX_RECENT = 6;

@@ -2,11 +2,13 @@
 
 import { useState } from 'preact/hooks';
 import { type Job, listRevisions } from '../api';
+import type { Kind } from '../kind/kind';
+import { useKind } from '../kind/kinds';
 import { differences } from './differences';
-import { useLoaded } from '../loading';
+import { useLoaded } from '../api/loading';
 import { MAX_TITLE_CHARACTERS, workName } from './names';
 import { jobLink } from '../route';
-import { strings } from '../strings';
+import { strings } from '../language/strings';
 import { useTitle } from './titles';
 import { Details, Poster, State } from './entry';
 import { Rename } from '../widgets/rename';
@@ -15,8 +17,9 @@ import { Trouble } from '../widgets/trouble';
 const words = strings.history;
 
 export function Work({ job, versions }: { job: Job; versions: number }) {
+  const kind = useKind(job.kind);
   const [titled, rename] = useTitle(job);
-  const name = workName(titled);
+  const name = workName(titled, kind);
   return (
     <li class="work">
       <div class="entry">
@@ -35,12 +38,13 @@ export function Work({ job, versions }: { job: Job; versions: number }) {
 
 /** The versions beside the one that is shown. */
 function Others({ job, number }: { job: Job; number: number }) {
+  const kind = useKind(job.kind);
   const [open, setOpen] = useState(false);
   return (
     <details class="others" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
         {words.others(number)}
-        <span class="unseen"> {words.of(workName(job))}</span>
+        <span class="unseen"> {words.of(workName(job, kind))}</span>
       </summary>
       {open && <Tree job={job} number={number} />}
     </details>
@@ -48,6 +52,7 @@ function Others({ job, number }: { job: Job; number: number }) {
 }
 
 function Tree({ job, number }: { job: Job; number: number }) {
+  const kind = useKind(job.kind);
   const tree = useLoaded((signal) => listRevisions(job.id, signal), `${job.id} ${number}`);
   if (tree.problem) return <Trouble code={tree.problem.code} detail={tree.problem.detail} />;
   if (!tree.value) return <div class="later" aria-busy="true" />;
@@ -57,7 +62,7 @@ function Tree({ job, number }: { job: Job; number: number }) {
     <>
       {place >= 0 && (
         <p>
-          <strong>{words.above(place + 1)}</strong> <span>{changesOf(all[place]!, all)}</span>
+          <strong>{words.above(place + 1)}</strong> <span>{changesOf(all[place]!, all, kind)}</span>
         </p>
       )}
       <ol reversed>
@@ -71,7 +76,7 @@ function Tree({ job, number }: { job: Job; number: number }) {
                 <Poster job={version} />
                 <span>
                   <strong>{words.version(place + 1)}</strong>
-                  <span>{changesOf(version, all)}</span>
+                  <span>{changesOf(version, all, kind)}</span>
                   <State job={version} />
                 </span>
               </a>
@@ -83,10 +88,10 @@ function Tree({ job, number }: { job: Job; number: number }) {
 }
 
 /** What a version changed of the one that it revises; nothing where that was erased. */
-function changesOf(version: Job, all: readonly Job[]): string {
+function changesOf(version: Job, all: readonly Job[], kind: Kind): string {
   if (version.revision_of === null) return words.first;
   const before = all.find((one) => one.id === version.revision_of);
   if (!before) return '';
-  const changes = differences(version, before);
+  const changes = differences(version, before, kind);
   return changes.length ? words.changed(changes.join(', ')) : words.same;
 }

@@ -2,8 +2,8 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { type Job, listWorks, type Problem, type Wanted } from '../api';
-import { asProblem, useLoaded } from '../loading';
-import { useOffered } from '../studio/offered';
+import { asProblem, useLoaded } from '../api/loading';
+import { useOffered } from '../kind/offered';
 
 const REFRESH_MS = 4000;
 

@@ -1,11 +1,12 @@
 /** What a revision of a character asks for: nothing but what differs from the job before. */
 
-import { characterOptions, type CharacterChanges, type Frame, type Job, type MotionJoints } from '../../api';
-import type { Pose } from './types';
-import { stem } from '../../format';
+import type { Frame, Job } from '../../api';
+import { characterOptions, type CharacterChanges, type MotionJoints } from './types';
+import type { Pose } from '../../viewer/pose';
+import { stem } from '../../language/format';
 import { DEFAULT_MOTION } from './motion_names';
 import type { Motion } from './order';
-import { plain } from '../../strings';
+import { plain } from '../../language/strings';
 import { changedOptions, type Choices, choicesOf } from './choices';
 import type { Joints } from './skeleton';
 import type { LabelStroke, MaskStroke } from './strokes';

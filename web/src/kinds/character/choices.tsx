@@ -1,11 +1,11 @@
 /** The options of a character, and what of them is worth sending. */
 
 import { useId } from 'preact/hooks';
-import type { BodyPart, CharacterOptions } from '../../api';
+import type { BodyPart, CharacterOptions } from './types';
 import { Checkbox } from '../../widgets/checkbox';
 import { SelectField } from '../../widgets/select';
 import { type Format, FormatField, RateField, type Size, SizeField } from '../../studio/video_fields';
-import { count, duration } from '../../format';
+import { count, duration } from '../../language/format';
 import { words as characterWords } from './words';
 
 const words = characterWords.character;

@@ -1,9 +1,9 @@
 /** Characters: somebody steps out of their picture, and can be taken along in 3D. */
 
-import { characterOptions } from '../../api';
-import { textOf } from '../../names';
-import { strings } from '../../strings';
-import type { Kind } from '../../kind';
+import { characterOptions } from './types';
+import { textOf } from '../../works/inputs';
+import { strings } from '../../language/strings';
+import type { Kind } from '../../kind/kind';
 import { DEFAULT_MOTION, motionName } from './motion_names';
 import { type CharacterOrder, namesOf, request } from './order';
 import { words } from './words';

@@ -1,10 +1,10 @@
 /** Which animation of a motion's file, and which of its joints moves which of the character's; folded away. */
 
 import { useEffect, useId, useState } from 'preact/hooks';
-import type { MotionDetails, MotionJoints } from '../../api';
+import type { MotionDetails, MotionJoints } from './types';
 import { Trouble } from '../../widgets/trouble';
-import { useLoaded } from '../../loading';
-import { strings } from '../../strings';
+import { useLoaded } from '../../api/loading';
+import { strings } from '../../language/strings';
 import { detailsOf, keyOf, type OwnMotion } from './motiondetails';
 import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './motionjoints';
 import { words as characterWords } from './words';

@@ -1,6 +1,6 @@
 /** Files in place of a mask or of a map of the parts: whether they fit, and what the service will read in them. */
 
-import type { BodyPart } from '../../api';
+import type { BodyPart } from './types';
 import { partColours } from './strokes';
 
 export type Painted = 'mask' | 'labels';

@@ -1,6 +1,6 @@
 /** What motions are called. */
 
-import type { MotionName } from '../../api';
+import type { MotionName } from './types';
 import { words } from './words';
 
 /** A built-in motion in the page's language. */

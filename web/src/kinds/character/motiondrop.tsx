@@ -1,7 +1,7 @@
 /** The place for a motion's file. */
 
 import { Dropzone } from '../../widgets/dropzone';
-import { isMotion, motionTypes } from '../../media';
+import { isMotion, motionTypes } from '../../studio/media_types';
 import { words as characterWords } from './words';
 
 const words = characterWords.character;

@@ -1,11 +1,13 @@
 /** The motion of a character that is made again: as before, another of ours or one's own, or a file. */
 
 import { useId, useState } from 'preact/hooks';
-import { canMove, type Job, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName } from '../../api';
-import { useLoaded } from '../../loading';
-import { isFileId, isUrl } from '../../names';
+import { type Job, listOwnMotions } from '../../api';
+import { canMove } from './motiondetails';
+import type { MotionDetails, MotionJoints, MotionName } from './types';
+import { useLoaded } from '../../api/loading';
+import { isFileId, isUrl } from '../../works/inputs';
 import { motionName } from './motion_names';
-import { plain } from '../../strings';
+import { plain } from '../../language/strings';
 import { type Held, type Wishes, wishesOf } from './changes';
 import { JointMap } from './jointmap';
 import { MotionDrop } from './motiondrop';

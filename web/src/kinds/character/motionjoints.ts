@@ -1,7 +1,7 @@
 /** Which joint of a motion's file moves which of a character's: as it was found, and as it is wanted. */
 
-import type { MotionDetails, MotionJoints } from '../../api';
-import { strings } from '../../strings';
+import type { MotionDetails, MotionJoints } from './types';
+import { strings } from '../../language/strings';
 import { words as characterWords } from './words';
 
 const sides = ['Left', 'Right'] as const;

@@ -1,12 +1,14 @@
 /** The motions on offer: ours as drawn figures, or a file at hand. */
 
-import { canMove, deleteMotion, type KeptMotion, listOwnMotions, type MotionDetails, type MotionJoints, type MotionName, renameMotion } from '../../api';
+import { deleteMotion, type KeptMotion, listOwnMotions, renameMotion } from '../../api';
+import { canMove } from './motiondetails';
+import type { MotionDetails, MotionJoints, MotionName } from './types';
 import { SymbolCard } from '../portrait/performance_card';
 import { KeptList } from '../../studio/kept_list';
-import { useLoaded } from '../../loading';
+import { useLoaded } from '../../api/loading';
 import { DEFAULT_MOTION, motionName } from './motion_names';
 import type { Motion } from './order';
-import { plain } from '../../strings';
+import { plain } from '../../language/strings';
 import { JointMap } from './jointmap';
 import { MotionDrop } from './motiondrop';
 import { words as characterWords } from './words';

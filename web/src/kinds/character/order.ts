@@ -1,10 +1,11 @@
 /** An order of a character: the picture, and how it is to move. */
 
-import type { CharacterOptions, JobRequest, MotionName } from '../../api';
-import { randomKey } from '../../key';
-import { fileTitle } from '../../names';
-import { plain } from '../../strings';
-import type { Order, OrderNames, Upload } from '../../kind';
+import type { JobRequest } from '../../api';
+import type { CharacterOptions, MotionName } from './types';
+import { randomKey } from '../../api/idempotency';
+import { fileTitle } from '../../language/format';
+import { plain } from '../../language/strings';
+import type { Order, OrderNames, Upload } from '../../kind/kind';
 import { motionName } from './motion_names';
 
 /** How a character moves: one of our clips, or a file. */

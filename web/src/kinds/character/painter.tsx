@@ -1,7 +1,7 @@
 /** Painting over what was cut out, or over the parts of the body: a window of its own over the page. */
 
 import { useId, useState } from 'preact/hooks';
-import type { BodyPart } from '../../api';
+import type { BodyPart } from './types';
 import { Checkbox } from '../../widgets/checkbox';
 import { act, arrows, useEditing, zoomKeys } from '../../stage/editing';
 import { EditorDialog } from '../../stage/editor';

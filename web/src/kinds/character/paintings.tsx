@@ -1,11 +1,12 @@
 /** What was cut out, and what belongs to which part of the body: painted over where it is wrong, or given as a file. */
 
 import { useEffect, useId, useState } from 'preact/hooks';
-import { characterOptions, type Job } from '../../api';
+import type { Job } from '../../api';
+import { characterOptions } from './types';
 import type { Shown } from '../../widgets/boxed_picture';
 import { FileButton } from '../../widgets/file_button';
 import { later } from '../../widgets/lazy';
-import { maskTypes } from '../../media';
+import { maskTypes } from '../../studio/media_types';
 import type { Wishes } from './changes';
 import { type Misfit, misfitOf, type Painted, previewOf, sizeOf } from './maskfile';
 import { Painting } from './painting';

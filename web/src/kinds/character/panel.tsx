@@ -1,15 +1,18 @@
 /** Everything about a character that can be put right by hand, and the order to make it again. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { foundPeople, getReport, getSkeleton, type Pose } from '../../api';
+import { getReport } from '../../api';
+import { type CharacterReport, foundPeople } from './types';
+import type { Pose } from '../../viewer/pose';
+import { getSkeleton } from '../../viewer/skeleton';
 import { later } from '../../widgets/lazy';
-import type { CorrectionsProps } from '../../kind';
+import type { CorrectionsProps } from '../../kind/kind';
 import { SendingBar } from '../../studio/sending_bar';
 import { usePicture } from '../../result/use_picture';
-import { randomKey } from '../../key';
-import { useLoaded } from '../../loading';
-import { mayRepeat } from '../../mending';
-import { strings } from '../../strings';
+import { randomKey } from '../../api/idempotency';
+import { useLoaded } from '../../api/loading';
+import { mayRepeat } from '../../result/next_step';
+import { strings } from '../../language/strings';
 import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
 import { CharacterFields, KeepField, VideoFields } from './choices';
 import { MotionField } from './motionfield';
@@ -30,7 +33,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
   const [wishes, setWishes] = useState<Wishes>(before);
   const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
   const key = useRef(randomKey());
-  const report = useLoaded((signal) => getReport(job, signal), job.id).value;
+  const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id).value;
   const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
   const picture = usePicture(job, skeleton?.size ?? null);
   const people = report?.inputs.people ?? foundPeople(job);

@@ -1,20 +1,22 @@
 /** A finished character: the video, the character itself to take along, and what the run has to say. */
 
-import { type Artifact, characterOptions, getJob, getReport, getSkeleton, type Job } from '../../api';
-import { size } from '../../format';
-import { useLoaded } from '../../loading';
+import { type Artifact, getJob, getReport, type Job } from '../../api';
+import { type CharacterReport, characterOptions } from './types';
+import { getSkeleton } from '../../viewer/skeleton';
+import { size } from '../../language/format';
+import { useLoaded } from '../../api/loading';
 import { peopleOf } from '../../viewer/people';
 import { later } from '../../widgets/lazy';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
-import type { ResultProps } from '../../kind';
+import type { ResultProps } from '../../kind/kind';
 import { words as characterWords } from './words';
 
 const Viewer = later(() => import('../../viewer/panel'));
 const words = characterWords.character;
 
 export default function CharacterResult({ job, onPropose }: ResultProps) {
-  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id);
   const { artifacts } = job;
   const several = peopleOf(job, null).length > 1;
   const skeleton = useLoaded(async (signal) => (several ? getSkeleton(job, signal) : null), job.id).value;

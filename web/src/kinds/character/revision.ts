@@ -2,11 +2,11 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { type Job, type Problem, reviseJob } from '../../api';
-import { asProblem } from '../../loading';
-import type { Sending } from '../../order';
-import { usePausing } from '../../pausing';
+import { asProblem } from '../../api/loading';
+import type { Sending } from '../../sending/order';
+import { usePausing } from '../../sending/pausing';
 import { jobLink } from '../../route';
-import { GIVEN_UP, uploadFile } from '../../upload';
+import { GIVEN_UP, uploadFile } from '../../api/upload';
 import { changesOf, fileOf, fileParts, isChanged, notesFor, type Sent, type Wishes } from './changes';
 
 type Part = keyof Sent;

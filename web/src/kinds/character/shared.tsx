@@ -1,7 +1,7 @@
 /** What a public link shows of characters: them in 3D, their video at hand. */
 
 import { later } from '../../widgets/lazy';
-import type { SharedProps } from '../../kind';
+import type { SharedProps } from '../../kind/kind';
 
 const Viewer = later(() => import('../../viewer/panel'));
 

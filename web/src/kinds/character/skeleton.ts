@@ -1,6 +1,7 @@
 /** The joints of a person in a picture, by the names of skeleton.json; "left" is the person's own. */
 
-import type { Frame, Skeleton } from '../../api';
+import type { Frame } from '../../api';
+import type { Skeleton } from '../../viewer/skeleton';
 import type { Point } from '../../stage/place';
 import { words as characterWords } from './words';
 

@@ -1,6 +1,6 @@
 /** Strokes of a brush over the picture: as they are drawn, and as they are sent. */
 
-import type { BodyPart, Stroke } from '../../api';
+import type { BodyPart, Stroke } from './types';
 import { type Point, toSegment } from '../../stage/place';
 
 export type MaskStroke = Stroke & { person: boolean };

@@ -1,26 +1,22 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
-import { useEffect } from 'preact/hooks';
-import type { CharacterOptions, MotionJoints } from '../../api';
+import type { CharacterOptions, MotionJoints } from './types';
 import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from './choices';
 import { Motions } from './motions';
-import { Capture } from '../../studio/capture';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
-import { Dropzone } from '../../widgets/dropzone';
-import { Launch } from '../../studio/launch';
-import { KindLinks } from '../../studio/kind_links';
+import { StudioForm, useStudioTitle } from '../../studio/form';
+import { PicturePanel } from '../../studio/picture_panel';
 import { Recent } from '../../works/recent';
-import { Samples } from '../../studio/samples';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
-import { isMotion, isPicture, pictureTypes } from '../../media';
-import type { StudioProps } from '../../kind';
+import { isMotion, isPicture } from '../../studio/media_types';
+import type { StudioProps } from '../../kind/kind';
 import { DEFAULT_MOTION } from './motion_names';
-import { characterOrder, type Motion, namesOf } from './order';
-import { figureSamples } from '../../studio/sample_pictures';
-import { useSending } from '../../sending';
-import { strings } from '../../strings';
+import { characterOrder, type Motion } from './order';
+import { samples } from './samples';
+import { useSending } from '../../sending/use_sending';
+import { strings } from '../../language/strings';
 import { words as characterWords } from './words';
 
 const words = characterWords.character;
@@ -56,6 +52,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
     alter({ photo: null });
   };
   const sending = useSending();
+  useStudioTitle(kind);
   // another motion has other joints, and other animations
   const move = (motion: Motion): void => {
     accept('motion');
@@ -71,27 +68,18 @@ export default function CharacterStudio({ kind }: StudioProps) {
     else return false;
     return true;
   }, refusePhoto);
-  useEffect(() => {
-    document.title = `${kind.label} · ${strings.name}`;
-  }, []);
 
   const wrong = refused.photo ? strings.studio.wrongPicture : refused.motion ? words.wrongMotion : null;
   const missing = wrong ?? (photo ? '' : words.needPhoto);
   const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
-  const start = (event: Event): void => {
-    event.preventDefault();
-    if (order && !missing) sending.begin(order());
-  };
   const change = (part: Partial<Choices>): void => alter({ choices: { ...choices, ...part } });
   return (
     <>
-      <form class="studio" onSubmit={start}>
-        <header>
-          <div>
-            <KindLinks current={kind.name} />
-            <h1>{words.title}</h1>
-            <p>{words.lead}</p>
-          </div>
+      <StudioForm
+        kind={kind}
+        title={words.title}
+        lead={words.lead}
+        demo={
           <Demo
             still="/samples/woman-in-red-still.jpg"
             moving="/samples/woman-in-red-walk.mp4"
@@ -99,30 +87,23 @@ export default function CharacterStudio({ kind }: StudioProps) {
             width={400}
             height={532}
           />
-        </header>
-        <div class="beside">
-          <section class="panel" aria-labelledby="photo-title">
-            <h2 id="photo-title">{words.photo}</h2>
-            <p class="hint">{words.photoHint}</p>
-            <Samples names={figureSamples} chosen={photo} onChoose={setPhoto} />
-            <Dropzone
-              media="image"
-              file={photo}
-              accept={pictureTypes}
-              accepts={isPicture}
-              words={{
-                drop: strings.studio.portraitDrop,
-                browse: strings.studio.portraitBrowse,
-                chosen: words.photoChosen,
-                wrong: strings.studio.wrongPicture,
-              }}
-              onFile={setPhoto}
-              refused={refused.photo === true}
-              onRefused={refusePhoto}
-            />
-            <Capture media="image" of="body" onFile={setPhoto} />
-          </section>
-        </div>
+        }
+        sending={sending}
+        missing={missing}
+        order={order}
+        label={words.start}
+      >
+        <PicturePanel
+          title={words.photo}
+          hint={words.photoHint}
+          samples={samples}
+          of="body"
+          file={photo}
+          chosenLabel={words.photoChosen}
+          refused={refused.photo === true}
+          onFile={setPhoto}
+          onRefused={refusePhoto}
+        />
         <section class="panel" aria-labelledby="motion-title">
           <h2 id="motion-title">{words.motion}</h2>
           <p class="hint">{words.motionHint}</p>
@@ -145,8 +126,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
             </div>
           </details>
         </section>
-        <Launch sending={sending} missing={missing} chosen={order && namesOf(order())} label={words.start} />
-      </form>
+      </StudioForm>
       <Recent />
     </>
   );

@@ -1,9 +1,6 @@
 /** What a character takes, and what it leaves that is read here. */
 
-import type { components } from '../../openapi';
-import type { Frame } from '../../report';
-
-type Schemas = components['schemas'];
+import type { Frame, Job, Report, Schemas } from '../../api';
 
 /** A path of a brush over the picture, both in its pixels. */
 export interface Stroke {
@@ -36,33 +33,6 @@ export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof 
   };
 export type MotionName = NonNullable<CharacterOptions['motion']>;
 
-/** The joints that a job found in its picture, or was given, in pixels of the picture (skeleton.json). */
-export interface Skeleton {
-  size: [number, number];
-  joints: Record<string, { place: [number, number]; confidence: number }>;
-  /** From where the picture was taken; earlier versions did not say it. */
-  camera?: PictureCamera;
-  /** Who character.glb, character-2.glb and so on are, in their order; earlier versions did not say it. */
-  woken?: Woken[];
-}
-
-/** The picture's camera in the character's world: y up, ground at 0, looking along -z. */
-export interface PictureCamera {
-  /** Metres. */
-  eye: [number, number, number];
-  /** Pixels of the picture. */
-  focal: number;
-  centre: [number, number];
-  size: [width: number, height: number];
-}
-
-export interface Woken {
-  /** Which of the people found, counted from 0. */
-  person: number;
-  /** Where the origin of their world is in that of the first, in metres. */
-  place: [x: number, y: number, z: number];
-}
-
 /** What is in a motion file (motion.json); only what this page reads. */
 export interface MotionDetails {
   /** The joints of its skeleton. */
@@ -81,5 +51,13 @@ export interface CharacterChanges {
   metadata?: Schemas['JobOut']['metadata'];
 }
 
-/** Joints turned on from the pictured pose, by name: degrees about x, y and z. */
-export type Pose = Record<string, [number, number, number]>;
+export const characterOptions = (of: Job): CharacterOptions => of.options as CharacterOptions;
+
+export type CharacterReport = Report<{
+  /** The people found in the picture, the largest first; and which of them was taken. */
+  people?: Frame[];
+  person?: number | 'all' | null;
+}>;
+
+/** The boxes of the people that a failed job has found. */
+export const foundPeople = (of: Job): Frame[] => (of.error?.found as { people?: Frame[] } | undefined)?.people ?? [];

@@ -1,6 +1,6 @@
 /** The words of characters, in the page's language. */
 
-import { inLanguage } from '../../strings';
+import { inLanguage } from '../../language/strings';
 import english, { type CharacterWords } from './words/en';
 
 export const words: CharacterWords = await inLanguage(

@@ -2,7 +2,7 @@
 
 import type { Artifact } from '../../api';
 import { later } from '../../widgets/lazy';
-import { strings } from '../../strings';
+import { strings } from '../../language/strings';
 
 const Model = later(() => import('./model'));
 const words = strings.job;

@@ -1,7 +1,7 @@
 /** A form for options, as their schema wants it. What is left alone is not sent, so that the service's defaults hold. */
 
 import { useId } from 'preact/hooks';
-import { plain, strings } from '../../strings';
+import { plain, strings } from '../../language/strings';
 import { Checkbox } from '../../widgets/checkbox';
 import { SelectField } from '../../widgets/select';
 import type { Field } from './schema';

@@ -1,8 +1,8 @@
 /** A kind without a folder of its own: what the page shows of it comes from the service's description of it, GET /v1/kinds. */
 
-import { isFileId, isUrl, textOf } from '../../names';
-import { plain, strings } from '../../strings';
-import type { Kind } from '../../kind';
+import { isFileId, isUrl, textOf } from '../../works/inputs';
+import { plain, strings } from '../../language/strings';
+import type { Kind } from '../../kind/kind';
 import { type GenericOrder, namesOf, request } from './order';
 
 const loadStudio = () => import('./studio');

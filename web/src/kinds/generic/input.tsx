@@ -1,9 +1,9 @@
 /** An input of a job: a file, several, or the name of something that the service keeps. */
 
 import { type InputDescription, listDrivers, listMotions } from '../../api';
-import { useLoaded } from '../../loading';
-import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../media';
-import { plain, strings } from '../../strings';
+import { useLoaded } from '../../api/loading';
+import { isMotion, isPicture, isVideo, motionTypes, pictureTypes, videoTypes } from '../../studio/media_types';
+import { plain, strings } from '../../language/strings';
 import { Dropzone } from '../../widgets/dropzone';
 import { SelectField } from '../../widgets/select';
 import type { Given } from './order';

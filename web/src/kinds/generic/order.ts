@@ -1,10 +1,10 @@
 /** An order of any kind: its inputs as files or names, and the options that were set. */
 
 import type { JobRequest } from '../../api';
-import { randomKey } from '../../key';
-import { fileTitle } from '../../names';
-import { plain } from '../../strings';
-import type { Order, OrderNames, Upload } from '../../kind';
+import { randomKey } from '../../api/idempotency';
+import { fileTitle } from '../../language/format';
+import { plain } from '../../language/strings';
+import type { Order, OrderNames, Upload } from '../../kind/kind';
 
 /** Of an input: files at hand, or the name of something that the service keeps. */
 export type Given = readonly File[] | string;

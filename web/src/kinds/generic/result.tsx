@@ -1,20 +1,21 @@
 /** What a finished job of any kind has left. */
 
-import { getReport } from '../../api';
-import { size } from '../../format';
-import { useLoaded } from '../../loading';
+import { getReport, type Report } from '../../api';
+import { size } from '../../language/format';
+import { useLoaded } from '../../api/loading';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
-import { kindOf } from '..';
-import type { ResultProps } from '../../kind';
+import { useKind } from '../../kind/kinds';
+import type { ResultProps } from '../../kind/kind';
 import { ShownArtifacts, shownIn } from './artifacts';
 
 export default function GenericResult({ job }: ResultProps) {
-  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const kind = useKind(job.kind);
+  const report = useLoaded((signal) => getReport<Report>(job, signal), job.id);
   const [main] = shownIn(job.artifacts);
   const file = main === undefined ? undefined : job.artifacts[main];
   return (
     <div class="result">
-      <ShownArtifacts artifacts={job.artifacts} alt={kindOf(job.kind).shared.alt} />
+      <ShownArtifacts artifacts={job.artifacts} alt={kind.shared.alt} />
       <ResultActions job={job} filesOpen={!file}>
         {main !== undefined && file && (
           <a class="button primary" href={file.url} download={main}>

@@ -1,6 +1,6 @@
 /** The fields of a form, from the JSON Schema of an object. */
 
-import { plain } from '../../strings';
+import { plain } from '../../language/strings';
 
 type Schema = Readonly<Record<string, unknown>>;
 type Value = string | number | boolean;

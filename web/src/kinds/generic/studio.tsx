@@ -1,19 +1,17 @@
 /** Where a job of any kind is ordered: its inputs and options as the service describes them. */
 
-import { useEffect } from 'preact/hooks';
 import type { KindDescription } from '../../api';
-import { useSending } from '../../sending';
-import { plain, strings } from '../../strings';
+import { useSending } from '../../sending/use_sending';
+import { plain, strings } from '../../language/strings';
 import { useDraft } from '../../studio/draft';
-import { KindLinks } from '../../studio/kind_links';
-import { Launch } from '../../studio/launch';
-import { useDescriptions } from '../../studio/offered';
+import { StudioForm, useStudioTitle } from '../../studio/form';
+import { useDescriptions } from '../../kind/offered';
 import { useRefusals } from '../../studio/refusals';
 import { Recent } from '../../works/recent';
-import type { Kind, StudioProps } from '../../kind';
+import type { Kind, StudioProps } from '../../kind/kind';
 import { OptionFields, type Options } from './fields';
 import { InputField } from './input';
-import { genericOrder, type Given, namesOf } from './order';
+import { genericOrder, type Given } from './order';
 import { fieldsOf } from './schema';
 
 const words = strings.generic;
@@ -28,9 +26,7 @@ const EMPTY_DRAFT: Draft = { inputs: {}, options: {} };
 export default function GenericStudio({ kind }: StudioProps) {
   const descriptions = useDescriptions();
   const description = descriptions?.find(({ name }) => name === kind.name);
-  useEffect(() => {
-    document.title = `${kind.label} · ${strings.name}`;
-  }, []);
+  useStudioTitle(kind);
   if (!descriptions) return <div aria-busy="true" />;
   return (
     <>
@@ -53,20 +49,17 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
   };
   const many = description.inputs.filter((input) => input.many).map(({ name }) => name);
   const order = () => genericOrder(kind.name, inputs, many, options);
-  const start = (event: Event): void => {
-    event.preventDefault();
-    if (absent === undefined) sending.begin(order());
-  };
   const fields = fieldsOf(description.options_schema);
   return (
-    <form class="studio" onSubmit={start}>
-      <header>
-        <div>
-          <KindLinks current={kind.name} />
-          <h1>{kind.label}</h1>
-          <p>{description.summary}</p>
-        </div>
-      </header>
+    <StudioForm
+      kind={kind}
+      title={kind.label}
+      lead={description.summary}
+      sending={sending}
+      missing={absent === undefined ? '' : words.required(plain(absent))}
+      order={absent === undefined ? order : null}
+      label={words.start}
+    >
       {description.inputs.map((input) => (
         <InputField
           key={input.name}
@@ -90,12 +83,6 @@ function Form({ kind, description }: { kind: Kind; description: KindDescription 
           </details>
         </section>
       )}
-      <Launch
-        sending={sending}
-        missing={absent === undefined ? '' : words.required(plain(absent))}
-        chosen={absent === undefined ? namesOf(order()) : null}
-        label={words.start}
-      />
-    </form>
+    </StudioForm>
   );
 }

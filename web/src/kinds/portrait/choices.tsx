@@ -1,9 +1,10 @@
 /** The options of a portrait, and what of them is worth sending. */
 
 import { useId } from 'preact/hooks';
-import type { Part, PortraitOptions } from '../../api';
-import { strings } from '../../strings';
+import type { Part, PortraitOptions } from './types';
+import { strings } from '../../language/strings';
 import { Checkbox } from '../../widgets/checkbox';
+import { words as portraitWords } from './words';
 
 export const parts: readonly Part[] = ['eyes', 'brows', 'mouth', 'head'];
 
@@ -86,7 +87,7 @@ export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
           {parts.map((part) => (
             <Checkbox
               key={part}
-              label={strings.parts[part]}
+              label={portraitWords.parts[part]}
               checked={value.follow.includes(part)}
               // one part has to stay: nothing would move otherwise
               disabled={value.follow.length === 1 && value.follow.includes(part)}

@@ -1,9 +1,9 @@
 /** Portraits: a picture of a face acts out a performance. */
 
-import { portraitOptions } from '../../api';
-import { isFileId, isUrl, textOf } from '../../names';
-import { plain, strings } from '../../strings';
-import type { Kind } from '../../kind';
+import { portraitOptions } from './types';
+import { isFileId, isUrl, textOf } from '../../works/inputs';
+import { plain, strings } from '../../language/strings';
+import type { Kind } from '../../kind/kind';
 import { namesOf, type PortraitOrder, request } from './order';
 import { words } from './words';
 

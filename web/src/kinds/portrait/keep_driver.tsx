@@ -2,13 +2,13 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { createDriver, type Problem } from '../../api';
-import { stem } from '../../format';
-import { asProblem } from '../../loading';
+import { stem } from '../../language/format';
+import { asProblem } from '../../api/loading';
 import { driverName } from './drivers';
-import type { Sending } from '../../order';
-import { usePausing } from '../../pausing';
-import { strings } from '../../strings';
-import { GIVEN_UP, uploadFile } from '../../upload';
+import type { Sending } from '../../sending/order';
+import { usePausing } from '../../sending/pausing';
+import { strings } from '../../language/strings';
+import { GIVEN_UP, uploadFile } from '../../api/upload';
 import { SendingBar } from '../../studio/sending_bar';
 import { Trouble } from '../../widgets/trouble';
 

@@ -1,13 +1,15 @@
 /** The same portrait in another mood, at one click. */
 
 import { useRef } from 'preact/hooks';
-import { createJob, type Driver, type Job, listDrivers, type PortraitOptions, portraitOptions } from '../../api';
-import { randomKey } from '../../key';
-import { useDoing, useLoaded } from '../../loading';
-import { isFileId } from '../../names';
+import { createJob, type Driver, type Job, listDrivers } from '../../api';
+import { type PortraitOptions, portraitOptions } from './types';
+import { randomKey } from '../../api/idempotency';
+import { useDoing, useLoaded } from '../../api/loading';
+import { isFileId } from '../../works/inputs';
+import { useKind } from '../../kind/kinds';
 import { pictureName } from '../../works/names';
 import { jobLink } from '../../route';
-import { strings } from '../../strings';
+import { strings } from '../../language/strings';
 import { labelOf } from './performance_card';
 import { Trouble } from '../../widgets/trouble';
 
@@ -19,6 +21,7 @@ export const carriedOver = (options: PortraitOptions): PortraitOptions =>
 
 export function Moods({ job }: { job: Job }) {
   const drivers = useLoaded(listDrivers, 'drivers').value ?? [];
+  const kind = useKind(job.kind);
   const { doing, problem, attempt } = useDoing();
   const keys = useRef(new Map<string, string>()); // a click that is repeated after a broken line orders nothing twice
   const { image, driver: played } = job.inputs;
@@ -30,7 +33,7 @@ export function Moods({ job }: { job: Job }) {
     attempt(async () => {
       const key = keys.current.get(driver.name) ?? randomKey();
       keys.current.set(driver.name, key);
-      const metadata = { portrait: pictureName(job), performance: labelOf(driver) };
+      const metadata = { portrait: pictureName(job, kind), performance: labelOf(driver) };
       const options = carriedOver(portraitOptions(job));
       const made = await createJob({ kind: 'portrait', inputs: { image, driver: driver.name }, options, metadata }, key);
       location.hash = jobLink(made.id);

@@ -1,10 +1,11 @@
 /** An order of a portrait: the picture, and what it is to act out. */
 
-import type { JobRequest, PortraitOptions } from '../../api';
-import { randomKey } from '../../key';
-import { fileTitle } from '../../names';
-import { plain, strings } from '../../strings';
-import type { Order, OrderNames, Upload } from '../../kind';
+import type { JobRequest } from '../../api';
+import type { PortraitOptions } from './types';
+import { randomKey } from '../../api/idempotency';
+import { fileTitle } from '../../language/format';
+import { plain, strings } from '../../language/strings';
+import type { Order, OrderNames, Upload } from '../../kind/kind';
 import { AUTO } from './drivers';
 
 /** By `reactive` there is no one performance: the portrait is to show many, on demand. */

@@ -3,7 +3,7 @@
 import { useState } from 'preact/hooks';
 import type { Driver, Moment } from '../../api';
 import { momentName } from './drivers';
-import { plain, strings } from '../../strings';
+import { plain, strings } from '../../language/strings';
 
 const words = strings.studio;
 

@@ -2,10 +2,10 @@
 
 import { useState } from 'preact/hooks';
 import { deleteDriver, type Driver, renameDriver } from '../../api';
-import { isVideo, videoTypes } from '../../media';
+import { isVideo, videoTypes } from '../../studio/media_types';
 import { AUTO, ofDriver } from './drivers';
 import type { Performance } from './order';
-import { plain, strings } from '../../strings';
+import { plain, strings } from '../../language/strings';
 import { Capture } from '../../studio/capture';
 import { Card, shownOf, SymbolCard, symbols } from './performance_card';
 import { Dropzone } from '../../widgets/dropzone';

@@ -1,7 +1,7 @@
 /** A reactive portrait, alive: it answers the pointer, and buttons lead it from state to state. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { strings } from '../../strings';
+import { strings } from '../../language/strings';
 import { Trouble } from '../../widgets/trouble';
 
 const words = strings.job;

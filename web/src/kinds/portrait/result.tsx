@@ -1,11 +1,12 @@
 /** A finished job: its video beside the performance, downloads, and what the run has to say. */
 
-import { type Artifact, getReport, type Job, portraitOptions } from '../../api';
-import { size } from '../../format';
-import { useLoaded } from '../../loading';
-import type { ResultProps } from '../../kind';
+import { type Artifact, getReport, type Job } from '../../api';
+import { type PortraitReport, portraitOptions } from './types';
+import { size } from '../../language/format';
+import { useLoaded } from '../../api/loading';
+import type { ResultProps } from '../../kind/kind';
 import { performanceUrl } from './drivers';
-import { strings } from '../../strings';
+import { strings } from '../../language/strings';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Living } from './reactive_player';
 import { Moods } from './moods';
@@ -21,7 +22,7 @@ function animation(job: Job): [string, Artifact] | null {
 }
 
 export default function PortraitResult({ job }: ResultProps) {
-  const report = useLoaded((signal) => getReport(job, signal), job.id);
+  const report = useLoaded((signal) => getReport<PortraitReport>(job, signal), job.id);
   const found = animation(job);
   const profile = job.artifacts['profile.json'];
   const bundle = job.artifacts['profile.zip'];

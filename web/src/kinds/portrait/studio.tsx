@@ -2,27 +2,24 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { listDrivers } from '../../api';
-import { Capture } from '../../studio/capture';
 import { type Choices, FoldedChoices, optionsOf, usual as defaults } from './choices';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
-import { Dropzone } from '../../widgets/dropzone';
-import { Launch } from '../../studio/launch';
-import { KindLinks } from '../../studio/kind_links';
 import { Performances } from './performances';
+import { StudioForm, useStudioTitle } from '../../studio/form';
+import { PicturePanel } from '../../studio/picture_panel';
 import { Recent } from '../../works/recent';
-import { Samples } from '../../studio/samples';
 import { Trouble } from '../../widgets/trouble';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
-import { useLoaded } from '../../loading';
-import { isPicture, isVideo, pictureTypes } from '../../media';
-import type { StudioProps } from '../../kind';
-import { namesOf, type Performance, portraitOrder } from './order';
+import { useLoaded } from '../../api/loading';
+import { isPicture, isVideo } from '../../studio/media_types';
+import type { StudioProps } from '../../kind/kind';
+import { type Performance, portraitOrder } from './order';
 import { words as portraitWords } from './words';
-import { portraitSamples } from '../../studio/sample_pictures';
-import { useSending } from '../../sending';
-import { strings } from '../../strings';
+import { samples } from './samples';
+import { useSending } from '../../sending/use_sending';
+import { strings } from '../../language/strings';
 
 const words = strings.studio;
 
@@ -71,15 +68,13 @@ export default function PortraitStudio({ kind }: StudioProps) {
     return () => clearInterval(timer);
   }, [searching]);
   const sending = useSending();
+  useStudioTitle(kind);
   useDropsAnywhere(async (file) => {
     if (await isPicture(file)) setPortrait(file);
     else if (await isVideo(file)) setPerformance({ by: 'file', file });
     else return false;
     return true;
   }, refusePortrait);
-  useEffect(() => {
-    document.title = strings.name;
-  }, []);
 
   const hasSound = performance?.by === 'file';
   const wrong = refused.portrait ? words.wrongPicture : refused.video ? words.wrongVideo : null;
@@ -87,20 +82,14 @@ export default function PortraitStudio({ kind }: StudioProps) {
   const missing = keeping ? words.keepingFirst : needed;
   const order =
     portrait && performance ? () => portraitOrder(portrait, performance, optionsOf(choices, hasSound)) : null;
-  const start = (event: Event): void => {
-    event.preventDefault();
-    if (order && !keeping) sending.begin(order());
-  };
 
   return (
     <>
-      <form class="studio" onSubmit={start}>
-        <header>
-          <div>
-            <KindLinks current={kind.name} />
-            <h1>{words.title}</h1>
-            <p>{words.lead}</p>
-          </div>
+      <StudioForm
+        kind={kind}
+        title={words.title}
+        lead={words.lead}
+        demo={
           <Demo
             still="/samples/grace-hopper-still.jpg"
             moving="/samples/grace-hopper-happy.mp4"
@@ -108,30 +97,23 @@ export default function PortraitStudio({ kind }: StudioProps) {
             width={400}
             height={480}
           />
-        </header>
-        <div class="beside">
-          <section class="panel" aria-labelledby="portrait-title">
-            <h2 id="portrait-title">{words.portrait}</h2>
-            <p class="hint">{words.portraitHint}</p>
-            <Samples names={portraitSamples} chosen={portrait} onChoose={setPortrait} />
-            <Dropzone
-              media="image"
-              file={portrait}
-              accept={pictureTypes}
-              accepts={isPicture}
-              words={{
-                drop: words.portraitDrop,
-                browse: words.portraitBrowse,
-                chosen: words.portraitChosen,
-                wrong: words.wrongPicture,
-              }}
-              onFile={setPortrait}
-              refused={refused.portrait === true}
-              onRefused={refusePortrait}
-            />
-            <Capture media="image" onFile={setPortrait} />
-          </section>
-        </div>
+        }
+        sending={sending}
+        missing={missing}
+        order={order}
+        label={words.start}
+      >
+        <PicturePanel
+          title={words.portrait}
+          hint={words.portraitHint}
+          samples={samples}
+          of="face"
+          file={portrait}
+          chosenLabel={words.portraitChosen}
+          refused={refused.portrait === true}
+          onFile={setPortrait}
+          onRefused={refusePortrait}
+        />
         <section class="panel" aria-labelledby="performance-title">
           <h2 id="performance-title">{words.performance}</h2>
           <p class="hint">{words.performanceHint}</p>
@@ -154,8 +136,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
           />
           <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
         </section>
-        <Launch sending={sending} missing={missing} chosen={order && namesOf(order())} label={words.start} />
-      </form>
+      </StudioForm>
       <Recent />
     </>
   );

@@ -1,6 +1,6 @@
 /** The words of portraits, in the page's language. */
 
-import { inLanguage } from '../../strings';
+import { inLanguage } from '../../language/strings';
 import english, { type PortraitWords } from './words/en';
 
 export const words: PortraitWords = await inLanguage(

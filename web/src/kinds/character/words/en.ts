@@ -1,10 +1,14 @@
 /** English: characters: their studio, what is put right by hand, and what is said of them wherever kinds are named. */
 
-import type { BodyPart, CharacterCorrections, CharacterOptions, MotionName } from '../../../api';
+import type { BodyPart, CharacterCorrections, CharacterOptions, MotionName } from '../types';
 
 const english = {
   label: 'Character',
   demo: 'The painted woman walking out of her picture',
+  samples: {
+    'woman-in-red': 'A woman in red, painted for Galatea',
+    'man-in-green': 'A man in green, painted for Galatea',
+  },
   sharedTitle: 'A person who walked out of their picture',
 
   /** By the names that the engine gives them. */

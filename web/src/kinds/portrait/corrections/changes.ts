@@ -1,6 +1,6 @@
 /** What a revision asks for. */
 
-import type { PortraitChanges, PortraitOptions } from '../../../api';
+import type { PortraitChanges, PortraitOptions } from '../types';
 import { type Choices, choicesOf, parts, usual } from '../choices';
 import type { Format, Size } from '../../../studio/video_fields';
 

@@ -1,15 +1,15 @@
 /** The frame of the performance that shows what the picture shows, found by looking through the video. */
 
 import { useEffect, useId, useRef } from 'preact/hooks';
-import type { Report } from '../../../api';
-import { count } from '../../../format';
-import { strings } from '../../../strings';
+import type { PortraitReport } from '../types';
+import { count } from '../../../language/format';
+import { strings } from '../../../language/strings';
 
 const words = strings.redo;
 
 interface Props {
   video: string | null;
-  report: Report | null;
+  report: PortraitReport | null;
   /** Where in the video the used part begins, in seconds. */
   start: number;
   value: number | null;

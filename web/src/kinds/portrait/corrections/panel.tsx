@@ -1,22 +1,23 @@
 /** Everything about a portrait that can be put right by hand, and the order to make it again. */
 
 import { useMemo, useRef, useState } from 'preact/hooks';
-import { foundFaces, getLandmarks, getReport, portraitOptions, type PortraitChanges, reviseJob } from '../../../api';
+import { getReport, reviseJob } from '../../../api';
+import { foundFaces, type PortraitReport, getLandmarks, portraitOptions, type PortraitChanges } from '../types';
 import { Checkbox } from '../../../widgets/checkbox';
-import type { CorrectionsProps } from '../../../kind';
+import type { CorrectionsProps } from '../../../kind/kind';
 import { ChoiceFields } from '../choices';
 import { later } from '../../../widgets/lazy';
 import { SelectField } from '../../../widgets/select';
 import { FormatField, RateField, SizeField } from '../../../studio/video_fields';
-import { randomKey } from '../../../key';
+import { randomKey } from '../../../api/idempotency';
 import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
-import { asProblem, useLoaded } from '../../../loading';
-import { isFileId } from '../../../names';
-import { mayRepeat } from '../../../mending';
+import { asProblem, useLoaded } from '../../../api/loading';
+import { isFileId } from '../../../works/inputs';
+import { mayRepeat } from '../../../result/next_step';
 import { AUTO, performanceUrl } from '../drivers';
 import { jobLink } from '../../../route';
-import { strings } from '../../../strings';
+import { strings } from '../../../language/strings';
 import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
 import { NeutralFrame } from './neutral';
 import { DriverFaceField, TrimField } from './performance';
@@ -35,9 +36,9 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
   const [editing, setEditing] = useState(false);
   const [sending, setSending] = useState(false);
   const key = useRef(randomKey());
-  const report = useLoaded((signal) => getReport(job, signal), job.id).value;
+  const report = useLoaded((signal) => getReport<PortraitReport>(job, signal), job.id).value;
   const found = useLoaded((signal) => getLandmarks(job, signal), job.id).value;
-  const picture = usePicture(job, found?.size ?? null);
+  const picture = usePicture(job, found?.size ?? null, (made.crop ?? 'none') !== 'none');
   const faces = report?.inputs.faces ?? foundFaces(job);
   const mayPlace = job.error?.correctable?.includes('landmarks') ?? false;
 

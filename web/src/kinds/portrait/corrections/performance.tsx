@@ -1,7 +1,7 @@
 /** Which part of the performance is used, and whose of those who are seen in it. */
 
 import { useId } from 'preact/hooks';
-import { strings } from '../../../strings';
+import { strings } from '../../../language/strings';
 import type { Wishes } from './changes';
 
 const words = strings.redo;

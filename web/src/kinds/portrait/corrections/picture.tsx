@@ -1,15 +1,15 @@
 /** The portrait with what was found in it; where it shows several faces, one is chosen by a click. */
 
-import type { Report } from '../../../api';
+import type { PortraitReport } from '../types';
 import { BoxedPicture, type Shown } from '../../../widgets/boxed_picture';
 import { lines, type Points } from '../landmarks/scheme';
-import { strings } from '../../../strings';
+import { strings } from '../../../language/strings';
 
 const words = strings.redo;
 
 interface Props {
   picture: Shown;
-  faces: Report['inputs']['faces'];
+  faces: PortraitReport['inputs']['faces'];
   chosen: number;
   landmarks: Points | null;
   onChoose: (face: number) => void;

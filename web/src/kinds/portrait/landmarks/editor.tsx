@@ -6,7 +6,7 @@ import { EditorDialog } from '../../../stage/editor';
 import { boxAround, middle, moved, resized } from '../../../stage/moving';
 import { Tool } from '../../../stage/tools';
 import { around } from '../../../stage/view';
-import { strings } from '../../../strings';
+import { strings } from '../../../language/strings';
 import { type Selection, shares } from './moving';
 import { type Feature, features, membersOf, type Points } from './scheme';
 import { Stage } from './stage';

@@ -1,11 +1,19 @@
 /** English: what is said of portraits wherever kinds are named. */
 
-import type { PortraitOptions } from '../../../api';
+import type { Part, PortraitOptions } from '../types';
 
 const english = {
   label: 'Portrait',
   demo: 'The portrait smiling',
+  samples: {
+    'grace-hopper': 'Grace Hopper, photographed by the US Navy',
+    'eileen-collins': 'Eileen Collins, photographed by NASA',
+    'painted-man': 'A man, painted for Galatea',
+    'rendered-man': 'A man, rendered for Galatea',
+  },
   sharedTitle: 'A portrait brought to life',
+
+  parts: { eyes: 'Eyes', brows: 'Brows', mouth: 'Mouth', head: 'Head' } satisfies Record<Part, string>,
 
   /** By the names that the engine gives them. */
   stages: {

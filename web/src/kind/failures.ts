@@ -1,10 +1,10 @@
 /** What went wrong and what to do, by the service's codes: the page's own words, and those of the kinds. */
 
-import { kinds } from './kinds';
-import { strings } from './strings';
+import { strings } from '../language/strings';
+import type { Kind } from './kind';
 
 /** A code means one thing, whichever kind of job meets it. */
-export const failureTitle = (code: string): string =>
+export const failureTitle = (kinds: readonly Kind[], code: string): string =>
   strings.failures[code] ?? kinds.find(({ failures }) => code in failures)?.failures[code] ?? strings.failed;
 
 /** The sentence that says what to do comes from the service, but where it does not answer. */

@@ -1,7 +1,7 @@
 /** A job as it changes: read once, then followed over server-sent events. */
 
 import { useEffect, useReducer } from 'preact/hooks';
-import { eventsUrl, getJob, type Job, Problem, type Progress } from './api';
+import { eventsUrl, getJob, type Job, Problem, type Progress } from '.';
 
 export interface Followed {
   job: Job | null;

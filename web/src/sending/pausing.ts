@@ -1,7 +1,7 @@
 /** Whether what is being sent is halted, for a button that halts it and takes it up again. */
 
 import { useRef, useState } from 'preact/hooks';
-import { Valve } from './upload';
+import { Valve } from '../api/upload';
 
 export function usePausing() {
   const [paused, setPaused] = useState(false);

@@ -1,8 +1,8 @@
 /** The words of the page, in the first of the visitor's languages that there is a file for; English where there is none. */
 
-import english, { type Strings } from './languages/en';
+import english, { type Strings } from './words/en';
 
-const files = import.meta.glob<{ default: Strings }>(['./languages/*.ts', '!./languages/en.ts']);
+const files = import.meta.glob<{ default: Strings }>(['./words/*.ts', '!./words/en.ts']);
 const tagOf = (path: string): string => path.replace(/^.*\/|\.ts$/g, '');
 
 /** The first wish that is offered, as it is or for another region; tags as in BCP 47. */

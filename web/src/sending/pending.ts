@@ -1,6 +1,6 @@
 /** The order that is under way, kept by the browser: should the page be closed or loaded anew, it can go on. */
 
-import type { Order } from './kind';
+import type { Order } from '../kind/kind';
 
 const DATABASE = 'galatea';
 const STORE = 'orders';

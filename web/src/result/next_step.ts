@@ -1,6 +1,6 @@
 /** What a job that was not made asks for: another picture, something changed, or only another try. */
 
-import type { Job } from './api';
+import type { Job } from '../api';
 
 /** Codes of what the picture itself is in the way of. */
 const OF_PICTURE =

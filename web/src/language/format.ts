@@ -1,6 +1,6 @@
 /** Numbers and dates, as the visitor's language writes them. */
 
-import { locale, strings } from './strings';
+import { locale, plain, strings } from './strings';
 
 const numbers = new Map<string, Intl.NumberFormat>();
 
@@ -66,3 +66,6 @@ export const moment = (iso: string): string =>
 export function stem(name: string): string {
   return name.replace(/\.[A-Za-z0-9]{1,5}$/, '') || name;
 }
+
+/** What a file of the visitor's own is called: `Aunt mary`. */
+export const fileTitle = (file: File): string => plain(stem(file.name));

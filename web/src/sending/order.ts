@@ -1,20 +1,17 @@
 /** Sending an order: the files first, then the job. */
 
-import { createJob, type Job } from './api';
-import { kindOf } from './kinds';
-import type { Order, OrderNames } from './kind';
+import { createJob, type Job } from '../api';
+import type { Kind, Order } from '../kind/kind';
 import { keepPending } from './pending';
-import { uploadFile, type Valve } from './upload';
+import { uploadFile, type Valve } from '../api/upload';
 
 export type Sending =
   /** How much has arrived of the file that is this to the order. */
   { step: 'uploading'; part: string; fraction: number } | { step: 'ordering' };
 
-/** What an order is called: its picture, and what the picture is to do. */
-export const namesOf = (order: Order): OrderNames => kindOf(order.kind).namesOf(order);
-
 export async function send(
   order: Order,
+  kind: Kind,
   onStep: (step: Sending) => void,
   valve: Valve,
   signal: AbortSignal,
@@ -30,7 +27,7 @@ export async function send(
     await keepPending(order);
     return id;
   };
-  const request = await kindOf(order.kind).request(order, upload);
+  const request = await kind.request(order, upload);
   onStep({ step: 'ordering' });
   return createJob({ kind: order.kind, ...request }, order.key);
 }

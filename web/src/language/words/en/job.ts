@@ -1,6 +1,6 @@
 /** English: a job: its page, what is made of it again, and who may see it. */
 
-import type { Status } from '../../api';
+import type { Status } from '../../../api';
 
 export const job = {
   job: {

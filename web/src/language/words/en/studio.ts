@@ -1,19 +1,8 @@
 /** English: the start page of portraits, and the camera. */
 
-import type { Part } from '../../api';
-import type { SampleName } from '../../studio/sample_pictures';
-
 export const studio = {
   samples: {
     label: 'Try one of these',
-    names: {
-      'grace-hopper': 'Grace Hopper, photographed by the US Navy',
-      'eileen-collins': 'Eileen Collins, photographed by NASA',
-      'painted-man': 'A man, painted for Galatea',
-      'rendered-man': 'A man, rendered for Galatea',
-      'woman-in-red': 'A woman in red, painted for Galatea',
-      'man-in-green': 'A man in green, painted for Galatea',
-    } satisfies Record<SampleName, string>,
     failed: 'The picture could not be fetched. Please try again.',
   },
 
@@ -29,8 +18,8 @@ export const studio = {
     lead: 'Choose a portrait and a performance. The portrait acts it out, and nothing leaves this machine.',
     portrait: 'Portrait',
     portraitHint: 'A photo, painting or drawing of a face from the front, eyes open, mouth closed.',
-    portraitDrop: 'Drop a picture here',
-    portraitBrowse: 'or choose one, or paste it',
+    pictureDrop: 'Drop a picture here',
+    pictureBrowse: 'or choose one, or paste it',
     portraitChosen: (name: string) => `Portrait: ${name}. Choose another`,
     performance: 'Performance',
     performanceHint: 'A built-in one, or your own video of a face that starts with a neutral look.',
@@ -108,8 +97,6 @@ export const studio = {
     format: 'File format',
     formats: { mp4: 'MP4', webm: 'WebM', webp: 'WebP (animated)' },
   },
-
-  parts: { eyes: 'Eyes', brows: 'Brows', mouth: 'Mouth', head: 'Head' } satisfies Record<Part, string>,
 
   camera: {
     openPicture: 'Take a picture',

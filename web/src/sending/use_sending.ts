@@ -1,14 +1,15 @@
 /** An order on its way. When it has arrived, the page turns to its job. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { Problem } from './api';
-import { asProblem } from './loading';
-import type { Order } from './kind';
+import type { Problem } from '../api';
+import { asProblem } from '../api/loading';
+import type { Order } from '../kind/kind';
+import { useKinds } from '../kind/kinds';
 import { send, type Sending } from './order';
 import { usePausing } from './pausing';
 import { forgetPending, keepPending, readPending } from './pending';
-import { jobLink } from './route';
-import { GIVEN_UP } from './upload';
+import { jobLink } from '../route';
+import { GIVEN_UP } from '../api/upload';
 
 /** Answers that say that it is too early, too much at once, or that a key is wanted: later the same may be welcome. */
 const LATER = [401, 408, 409, 425, 429];
@@ -17,6 +18,7 @@ const LATER = [401, 408, 409, 425, 429];
 export const isRefusal = ({ status }: Problem): boolean => status >= 400 && status < 500 && !LATER.includes(status);
 
 export function useSending() {
+  const kinds = useKinds();
   const [step, setStep] = useState<Sending | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
   const { valve, paused, pause } = usePausing();
@@ -38,7 +40,7 @@ export function useSending() {
     pause(false);
     setStep({ step: 'ordering' });
     void keepPending(next);
-    send(next, setStep, valve, signal).then(
+    send(next, kinds.of(next.kind), setStep, valve, signal).then(
       (job) => {
         setStep(null);
         void forgetPending();

@@ -1,7 +1,7 @@
 /** What the page knows of a kind of job. Whatever differs from kind to kind is said in the kind's own folder. */
 
 import type { ComponentType, VNode } from 'preact';
-import type { Job, JobRequest, Problem, Shared } from './api';
+import type { Job, JobRequest, Problem, Shared } from '../api';
 
 /** What is wanted. Sent again after a broken line, or by a later page, it neither uploads nor orders anything twice. */
 export interface Order {

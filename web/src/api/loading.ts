@@ -1,7 +1,7 @@
 /** Something fetched once for a component that shows it. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { Problem } from './api';
+import { Problem } from '.';
 
 export type Loading<T> = { value: T | null; problem: Problem | null; reload: () => void };
 

@@ -1,26 +1,26 @@
 /** Which of the people who were woken is meant, or all of them. */
 
-import { strings } from '../strings';
-import type { WokenPerson } from './people';
+import { strings } from '../language/strings';
+import type { CharacterFiles } from './people';
 
 const words = strings.viewer;
 
 /** The place in their row. */
-export type Who = number | 'all';
+export type PersonChoice = number | 'all';
 
 interface Props {
-  people: readonly WokenPerson[];
+  people: readonly CharacterFiles[];
   /** Whether all can be chosen. */
   together: boolean;
-  chosen: Who;
+  chosen: PersonChoice;
   disabled?: boolean;
-  onChoose: (who: Who) => void;
+  onChoose: (who: PersonChoice) => void;
 }
 
-export function WhoChoice({ people, together, chosen, disabled = false, onChoose }: Props) {
-  const offered: Who[] = [...(together ? ['all' as const] : []), ...people.keys()];
+export function PersonSelect({ people, together, chosen, disabled = false, onChoose }: Props) {
+  const offered: PersonChoice[] = [...(together ? ['all' as const] : []), ...people.keys()];
   return (
-    <div class="actions viewer-who" role="group" aria-label={words.who}>
+    <div class="actions viewer-people" role="group" aria-label={words.people}>
       {offered.map((who) => (
         <button
           key={who}

@@ -1,6 +1,6 @@
 /** Sending a file in a way that a pause, a broken line or a reload of the page cannot undo (tus 1.0). */
 
-import { Problem, problemFrom } from './api';
+import { Problem, problemFrom } from '.';
 
 /** Where uploading can be halted and taken up again; one for all files of an order. */
 export class Valve {

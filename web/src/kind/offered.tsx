@@ -3,9 +3,9 @@
 import { type ComponentChildren, createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import { type KindDescription, listKinds } from '../api';
-import { kinds, offeredKinds } from '../kinds';
-import type { Kind } from '../kind';
-import { useLoaded } from '../loading';
+import { useLoaded } from '../api/loading';
+import type { Kind } from './kind';
+import { useKinds } from './kinds';
 
 const Described = createContext<readonly KindDescription[] | null>(null);
 
@@ -24,6 +24,7 @@ export function OfferedKinds({ guest, children }: Props) {
 export const useDescriptions = (): readonly KindDescription[] | null => useContext(Described);
 
 export const useOffered = (): readonly Kind[] => {
+  const kinds = useKinds();
   const described = useDescriptions();
-  return described ? offeredKinds(described.map(({ name }) => name)) : kinds;
+  return described ? kinds.offered(described.map(({ name }) => name)) : kinds.all;
 };

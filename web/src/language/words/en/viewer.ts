@@ -7,7 +7,7 @@ export const viewer = {
     modeNames: { wall: 'On the wall', look: 'Look around', pose: 'Change the pose', film: 'Video' },
     stage: 'The character in 3D: arrow keys circle around it, plus and minus go nearer and further',
     stageOfSeveral: 'The characters in 3D: arrow keys circle around them, plus and minus go nearer and further',
-    who: 'Who',
+    people: 'Who',
     everybody: 'Everyone',
     person: (number: number) => `Person ${number}`,
     tools: 'View',
