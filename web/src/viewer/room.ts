@@ -19,6 +19,9 @@ import { painted } from './painted';
 
 /** Metres. */
 const MOULDING = 0.09;
+const GILT = 0.018;
+/** From the edge of the picture to that of its frame. */
+export const FRAME_WIDTH = GILT + MOULDING;
 const MOULDING_DEPTH = 0.06;
 const AROUND = 3;
 const HIGHEST = 0.9;
@@ -93,7 +96,7 @@ export class Room {
     const wood = this.lambert('#6b4a2b');
     const gilt = this.lambert('#b98d4a');
     // the outer moulding, and a thin gilt one next to the picture
-    for (const [material, off, thick, deep] of [[wood, 0.018, MOULDING, MOULDING_DEPTH], [gilt, 0, 0.018, 0.036]] as const) {
+    for (const [material, off, thick, deep] of [[wood, GILT, MOULDING, MOULDING_DEPTH], [gilt, 0, GILT, 0.036]] as const) {
       for (const side of [-1, 1]) {
         const across = side * (width / 2 + off + thick / 2);
         const along = side * (height / 2 + off + thick / 2);
