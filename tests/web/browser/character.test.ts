@@ -271,8 +271,8 @@ describe('a finished character', () => {
 
 describe('corrections of a character', () => {
   it('knows the joints that the engine lets be placed, and the colours of its labels', async () => {
-    const { limbs, needed } = await import('@web/kinds/character/skeleton');
-    const { partColours } = await import('@web/kinds/character/strokes');
+    const { limbs, needed } = await import('@web/kinds/character/joints/skeleton');
+    const { partColours } = await import('@web/kinds/character/masks/strokes');
     expect([...needed].sort()).toEqual([...engine[1]].sort());
     for (const { from, to } of limbs) expect(engine[0]).toEqual(expect.arrayContaining([from, to]));
     expect(Object.values(partColours)).toEqual(engine[2].slice(0, 6).map((colour) => `rgb(${colour.join(' ')})`));

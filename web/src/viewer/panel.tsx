@@ -5,20 +5,20 @@ import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { later } from '../widgets/lazy';
 import { Trouble } from '../widgets/trouble';
 import { strings } from '../language/strings';
-import { useSkeletonLines, useSurroundings, useWideView } from './around';
-import { Looking } from './looking';
-import { peopleOf, standTogether, type HasArtifacts } from './people';
-import { type Pose } from './pose';
-import { Posing } from './posing';
-import type { Stage } from './stage';
-import { type Standing, useCast, useStage } from './staging';
+import { useSkeletonLines, useSurroundings, useWideView } from './scene/surroundings';
+import { OrbitView } from './orbit/orbit_view';
+import { peopleOf, standTogether, type HasArtifacts } from './artifacts/people';
+import { type Pose } from './posing/pose';
+import { Posing } from './posing/posing';
+import type { Stage } from './scene/stage';
+import { type StagedCharacter, useCast, useStage } from './scene/staging';
 import { Tool } from '../stage/tools';
-import { mayHaveView, type PictureView, viewOf } from './view';
-import { Wall } from './wall';
+import { mayHaveView, type PictureView, viewOf } from './artifacts/picture_view';
+import { Wall } from './wall/wall';
 import { type PersonChoice, PersonSelect } from './person_select';
 import '../styles/viewer.css';
 
-const Space = later(() => import('./space'));
+const Space = later(() => import('./ar/ar_dialog'));
 const words = strings.viewer;
 
 type Mode = 'wall' | 'look' | 'pose' | 'film';
@@ -145,7 +145,7 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
 
 interface ModesProps {
   stage: Stage;
-  cast: readonly Standing[];
+  cast: readonly StagedCharacter[];
   /** How many were woken. */
   people: number;
   mode: Exclude<Mode, 'film'>;
@@ -172,5 +172,5 @@ function Modes({ stage, cast, people, mode, view, pose, onPose, tools }: ModesPr
     return <Posing stage={stage} cast={[one]} people={people} start={pose} tools={common} onPose={onPose} />;
   }
   if (mode === 'wall' && view) return <Wall stage={stage} cast={cast} view={view} dark={around.dark} tools={common} />;
-  return <Looking stage={stage} cast={cast} tools={common} />;
+  return <OrbitView stage={stage} cast={cast} tools={common} />;
 }

@@ -1,7 +1,7 @@
 /** Which of the people who were woken is meant, or all of them. */
 
 import { strings } from '../language/strings';
-import type { CharacterFiles } from './people';
+import type { CharacterFiles } from './artifacts/people';
 
 const words = strings.viewer;
 

@@ -4,7 +4,7 @@ import { characterOptions } from './types';
 import { textOf } from '../../works/inputs';
 import { strings } from '../../language/strings';
 import type { Kind } from '../../kind/kind';
-import { DEFAULT_MOTION, motionName } from './motion_names';
+import { DEFAULT_MOTION, motionName } from './motion/motion_names';
 import { type CharacterOrder, namesOf, request } from './order';
 import { words } from './words';
 
@@ -16,7 +16,7 @@ export const character: Kind<CharacterOrder> = {
   link: '#/character',
   loadStudio: () => import('./studio'),
   loadResult: () => import('./result'),
-  loadCorrections: () => import('./panel'),
+  loadCorrections: () => import('./corrections/panel'),
   loadShared: () => import('./shared'),
   stages: words.stages,
   failures: words.failures,

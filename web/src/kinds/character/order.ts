@@ -6,7 +6,7 @@ import { randomKey } from '../../api/idempotency';
 import { fileTitle } from '../../language/format';
 import { plain } from '../../language/strings';
 import type { Order, OrderNames, Upload } from '../../kind/kind';
-import { motionName } from './motion_names';
+import { motionName } from './motion/motion_names';
 
 /** How a character moves: one of our clips, or a file. */
 export type Motion =

@@ -2,10 +2,10 @@
 
 import { type Artifact, getJob, getReport, type Job } from '../../api';
 import { type CharacterReport, characterOptions } from './types';
-import { getSkeleton } from '../../viewer/skeleton';
+import { getSkeleton } from '../../viewer/artifacts/skeleton';
 import { size } from '../../language/format';
 import { useLoaded } from '../../api/loading';
-import { peopleOf } from '../../viewer/people';
+import { peopleOf } from '../../viewer/artifacts/people';
 import { later } from '../../widgets/lazy';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';

@@ -2,7 +2,7 @@
 
 import type { CharacterOptions, MotionJoints } from './types';
 import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from './choices';
-import { Motions } from './motions';
+import { Motions } from './motion/motion_picker';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { StudioForm, useStudioTitle } from '../../studio/form';
@@ -12,7 +12,7 @@ import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { isMotion, isPicture } from '../../studio/media_types';
 import type { StudioProps } from '../../kind/kind';
-import { DEFAULT_MOTION } from './motion_names';
+import { DEFAULT_MOTION } from './motion/motion_names';
 import { characterOrder, type Motion } from './order';
 import { samples } from './samples';
 import { useSending } from '../../sending/use_sending';

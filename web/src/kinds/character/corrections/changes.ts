@@ -1,0 +1,124 @@
+/** What a revision of a character asks for: nothing but what differs from the job before. */
+
+import type { Frame, Job } from '../../../api';
+import { characterOptions, type CharacterChanges, type MotionJoints } from '../types';
+import type { Pose } from '../../../viewer/posing/pose';
+import { stem } from '../../../language/format';
+import { DEFAULT_MOTION } from '../motion/motion_names';
+import type { Motion } from '../order';
+import { plain } from '../../../language/strings';
+import { changedOptions, type Choices, choicesOf } from '../choices';
+import type { Joints } from '../joints/skeleton';
+import type { LabelStroke, MaskStroke } from '../masks/strokes';
+
+/** What is kept of a job: the file that it had before. */
+export type Held = { by: 'held'; input: string };
+
+export interface Wishes extends Choices {
+  /** Which of the people found, counted from the largest; null where that is asked. */
+  person: number | 'all' | null;
+  /** Where the person is looked for; null for the whole picture. */
+  box: Frame | null;
+  /** Joints that are placed by hand. */
+  joints: Joints;
+  mask: readonly MaskStroke[];
+  labels: readonly LabelStroke[];
+  /** Files in place of what is found; strokes are painted over them. */
+  maskFile: File | Held | null;
+  labelsFile: File | Held | null;
+  motion: Motion | Held;
+  motionJoints: MotionJoints;
+  /** Which of the motion's animations; null for the first in which something moves. */
+  motionClip: string | null;
+  pose: Pose;
+}
+
+/** What of the wishes is files to be sent, and their ids once they are. */
+export const fileParts = ['motion', 'mask', 'labels'] as const;
+export type Sent = { [Part in (typeof fileParts)[number]]?: string };
+
+/** The file to be sent for a part; null where there is none. */
+export function fileOf(wishes: Wishes, part: keyof Sent): File | null {
+  const { motion, maskFile, labelsFile } = wishes;
+  if (part === 'motion') return motion.by === 'file' ? motion.file : null;
+  const file = part === 'mask' ? maskFile : labelsFile;
+  return file instanceof File ? file : null;
+}
+
+/** What a job was made with. */
+export function wishesOf(job: Job): Wishes {
+  const made = characterOptions(job);
+  const held = (name: string): Held | null => {
+    const input = job.inputs[name];
+    return typeof input === 'string' ? { by: 'held', input } : null;
+  };
+  return {
+    ...choicesOf(made),
+    person: made.person_index ?? (job.error?.code === 'crowd' ? null : 0),
+    box: made.person_box ?? null,
+    joints: made.joints ?? {},
+    mask: made.mask_strokes ?? [],
+    labels: made.label_strokes ?? [],
+    maskFile: held('mask'),
+    labelsFile: held('labels'),
+    motion: held('motion') ?? { by: 'name', name: made.motion ?? DEFAULT_MOTION },
+    motionJoints: made.motion_joints ?? {},
+    motionClip: made.motion_clip ?? null,
+    pose: (made.pose as Pose | undefined) ?? {},
+  };
+}
+
+/**
+ * Somebody else in the picture: what was put right of the one before is no longer wanted. A box stands for whoever is chosen;
+ * they are again once it is taken away.
+ */
+export const another = (who: { person: number | 'all' } | { box: Frame | null }): Partial<Wishes> => ({
+  ...('person' in who ? { person: who.person, box: null } : who),
+  ...{ joints: {}, mask: [], labels: [], maskFile: null, labelsFile: null, pose: {} },
+});
+
+/** Whether all of the people are wanted. */
+export const isEverybody = ({ person, box }: Wishes): boolean => person === 'all' && !box;
+
+/** A box holds one person: beside it there is a number, of whoever is chosen when it goes. */
+const indexOf = ({ person, box }: Wishes): Wishes['person'] => (box && typeof person !== 'number' ? 0 : person);
+
+const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
+
+/** `sent`: the ids of the files that were sent. */
+export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterChanges {
+  const filled = <T extends object>(value: T): T | null => (Object.keys(value).length ? value : null);
+  const { motion } = now;
+  const renamed = motion.by === 'name' && !same(before.motion, motion);
+  const corrections = {
+    ...(!same(indexOf(before), indexOf(now)) && { person_index: indexOf(now) }),
+    ...(!same(before.box, now.box) && { person_box: now.box }),
+    ...(!same(before.joints, now.joints) && { joints: filled(now.joints) }),
+    ...(before.maskFile && !now.maskFile && { mask: null }),
+    ...(before.labelsFile && !now.labelsFile && { labels: null }),
+    ...(!same(before.mask, now.mask) && { mask_strokes: filled(now.mask) }),
+    ...(!same(before.labels, now.labels) && { label_strokes: filled(now.labels) }),
+    ...(renamed && before.motion.by === 'held' && { motion: null }),
+    ...(motion.by === 'kept' && { motion: motion.name }),
+    ...(!same(before.motionClip, now.motionClip) && { motion_clip: now.motionClip }),
+    ...(!same(before.motionJoints, now.motionJoints) && { motion_joints: filled(now.motionJoints) }),
+    ...sent,
+  };
+  const options = {
+    ...changedOptions(before, now),
+    ...(renamed && { motion: motion.name }),
+    ...(!same(before.pose, now.pose) && { pose: filled(now.pose) }),
+  };
+  return { corrections, options } as CharacterChanges;
+}
+
+export const isChanged = (before: Wishes, now: Wishes): boolean => {
+  const { corrections, options } = changesOf(before, now, {});
+  return fileParts.some((part) => fileOf(now, part)) || Object.keys({ ...corrections, ...options }).length > 0;
+};
+
+/** The job's own notes, with the name of its new motion; nothing where it has none. */
+export function notesFor(job: Job, { motion }: Wishes): { metadata?: Job['metadata'] } {
+  const name = motion.by === 'file' ? stem(motion.file.name) : motion.by === 'kept' ? motion.name : null;
+  return name === null ? {} : { metadata: { ...job.metadata, motion: plain(name) } };
+}

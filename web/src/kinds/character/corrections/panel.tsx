@@ -1,0 +1,217 @@
+/** Everything about a character that can be put right by hand, and the order to make it again. */
+
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { getReport } from '../../../api';
+import { type CharacterReport, foundPeople } from '../types';
+import type { Pose } from '../../../viewer/posing/pose';
+import { getSkeleton } from '../../../viewer/artifacts/skeleton';
+import { later } from '../../../widgets/lazy';
+import type { CorrectionsProps } from '../../../kind/kind';
+import { SendingBar } from '../../../studio/sending_bar';
+import { usePicture } from '../../../result/use_picture';
+import { randomKey } from '../../../api/idempotency';
+import { useLoaded } from '../../../api/loading';
+import { mayRepeat } from '../../../result/next_step';
+import { strings } from '../../../language/strings';
+import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
+import { CharacterFields, KeepField, VideoFields } from '../choices';
+import { MotionField } from '../motion/motion_field';
+import { Paintings } from '../masks/masks_field';
+import { People } from '../people/people_picture';
+import { useRevision } from './use_revision';
+import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from '../joints/skeleton';
+import { words as characterWords } from '../words';
+import '../../../styles/corrections.css';
+import '../../../styles/character.css';
+
+const JointEditor = later(() => import('../joints/joint_editor'));
+const FrameEditor = later(() => import('../people/box_editor'));
+const words = characterWords.correct;
+
+export default function CharacterPanel({ job, proposal, onProposalTaken, onProblem }: CorrectionsProps) {
+  const before = useMemo(() => wishesOf(job), [job.id]);
+  const [wishes, setWishes] = useState<Wishes>(before);
+  const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
+  const key = useRef(randomKey());
+  const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id).value;
+  const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
+  const picture = usePicture(job, skeleton?.size ?? null);
+  const people = report?.inputs.people ?? foundPeople(job);
+  const mendable = job.error?.correctable ?? [];
+
+  const wish = (part: Partial<Wishes>): void => {
+    key.current = randomKey(); // another wish is another order
+    setWishes((known) => ({ ...known, ...part }));
+  };
+  const sending = useRevision(job, key, onProblem);
+  useEffect(() => {
+    if (!proposal) return;
+    const pose = proposal.pose as Pose; // from the viewer: it is to be made
+    onProposalTaken();
+    wish({ pose });
+    sending.send(before, { ...wishes, pose }); // whatever else is wished for comes along
+  }, [proposal]);
+
+  const again = isChanged(before, wishes) || mayRepeat(job);
+  /** Whether the person is still the one that the job found. */
+  const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
+  const together = isEverybody(wishes);
+  /** Whether there is an outline to be put right, or one was wanting. */
+  const outlined = 'mask.png' in job.artifacts || mendable.some((name) => /^(mask|label)/.test(name));
+  const found = useMemo<Joints | null>(
+    () => (skeleton && samePerson && !together ? jointsOf(skeleton) : null),
+    [skeleton, samePerson, together],
+  );
+  const placed = Object.keys(wishes.joints).length;
+  const shown = found || placed ? { ...found, ...wishes.joints } : null;
+  const start = useMemo<Joints | null>(() => {
+    if (!picture) return null;
+    const box = wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : undefined);
+    return { ...(found ?? skeletonIn(box ?? middleOf(picture.size))), ...wishes.joints };
+  }, [picture, found, wishes.joints, wishes.box, wishes.person, report]);
+
+  const jointsHint = (): string => {
+    if (placed) return words.jointsPlaced(placed);
+    return mendable.includes('joints') && !found ? words.jointsNeeded : words.jointsHint;
+  };
+  return (
+    <form
+      class="corrections character"
+      onSubmit={(event) => {
+        event.preventDefault();
+        sending.send(before, wishes);
+      }}
+    >
+      <section class="panel" aria-label={words.person}>
+        <h3>{words.person}</h3>
+        {picture && (
+          <People
+            picture={picture}
+            people={people}
+            chosen={wishes.box ? null : wishes.person}
+            box={wishes.box}
+            joints={shown}
+            onChoose={(person) => wish(another({ person }))}
+          />
+        )}
+        {picture === false && <p class="hint">{words.noPicture}</p>}
+        {!together && (
+          <>
+            <div class="actions">
+              {picture && (
+                <button
+                  type="button"
+                  class={mendable.includes('joints') && !placed ? 'button primary' : 'button'}
+                  onClick={() => setEditing('joints')}
+                >
+                  {found || placed ? words.joints : words.placeJoints}
+                </button>
+              )}
+              {placed > 0 && (
+                <button type="button" class="button quiet" onClick={() => wish({ joints: {} })}>
+                  {words.jointsBack}
+                </button>
+              )}
+            </div>
+            <p class="hint" role="status">
+              {jointsHint()}
+            </p>
+          </>
+        )}
+        <div class="actions">
+          {picture && (
+            <button type="button" class="button" onClick={() => setEditing('box')}>
+              {words.box}
+            </button>
+          )}
+          {wishes.box && (
+            <button type="button" class="button quiet" onClick={() => wish(another({ box: null }))}>
+              {words.boxBack}
+            </button>
+          )}
+        </div>
+        <p class="hint">{wishes.box ? words.boxPlaced : words.boxHint}</p>
+      </section>
+      <section class="panel" aria-label={words.move}>
+        <h3>{words.move}</h3>
+        <MotionField
+          job={job}
+          value={wishes.motion}
+          before={before.motion}
+          joints={wishes.motionJoints}
+          clip={wishes.motionClip}
+          onChange={wish}
+        />
+        <KeepField value={wishes} onChange={wish} />
+        {Object.keys(wishes.pose).length > 0 && (
+          <div class="actions">
+            <p class="hint" role="status">
+              {words.posed(Object.keys(wishes.pose).length)} {together && words.posedAll}
+            </p>
+            <button type="button" class="button quiet" onClick={() => wish({ pose: {} })}>
+              {words.poseBack}
+            </button>
+          </div>
+        )}
+      </section>
+      <section class="panel framing" aria-label={words.video}>
+        <h3>{words.video}</h3>
+        <VideoFields value={wishes} onChange={wish} />
+      </section>
+      <section class="panel framing" aria-label={words.character}>
+        <h3>{words.character}</h3>
+        <CharacterFields value={wishes} onChange={wish} />
+      </section>
+      {picture && samePerson && !together && outlined && (
+        <Paintings
+          job={job}
+          picture={picture}
+          wishes={wishes}
+          onPaint={wish}
+        />
+      )}
+      <div class="launch">
+        {sending.step ? (
+          <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
+        ) : (
+          <button
+            type="submit"
+            class="button primary large"
+            disabled={sending.busy || !again}
+            aria-describedby="unchanged"
+          >
+            {strings.redo.send}
+          </button>
+        )}
+        <p id="unchanged" class="hint" aria-live="polite">
+          {again ? '' : strings.redo.unchanged}
+        </p>
+      </div>
+      {editing === 'joints' && picture && start && (
+        <JointEditor
+          url={picture.url}
+          size={picture.size}
+          start={start}
+          found={found !== null || placed > 0}
+          onDone={(joints) => {
+            setEditing(null);
+            wish({ joints: placedJoints(joints, found, wishes.joints, picture.size) });
+          }}
+          onClose={() => setEditing(null)}
+        />
+      )}
+      {editing === 'box' && picture && (
+        <FrameEditor
+          url={picture.url}
+          size={picture.size}
+          start={wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : null) ?? middleOf(picture.size)}
+          onDone={(box) => {
+            setEditing(null);
+            wish(another({ box }));
+          }}
+          onClose={() => setEditing(null)}
+        />
+      )}
+    </form>
+  );
+}

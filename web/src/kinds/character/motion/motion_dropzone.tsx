@@ -1,0 +1,34 @@
+/** The place for a motion's file. */
+
+import { Dropzone } from '../../../widgets/dropzone';
+import { isMotion, motionTypes } from '../../../studio/media_types';
+import { words as characterWords } from '../words';
+
+const words = characterWords.character;
+
+interface Props {
+  file: File | null;
+  onFile: (file: File) => void;
+  refused: boolean;
+  onRefused: () => void;
+}
+
+export function MotionDrop({ file, onFile, refused, onRefused }: Props) {
+  return (
+    <Dropzone
+      media="motion"
+      file={file}
+      accept={motionTypes}
+      accepts={isMotion}
+      words={{
+        drop: words.motionDrop,
+        browse: words.motionBrowse,
+        chosen: words.motionChosen,
+        wrong: words.wrongMotion,
+      }}
+      onFile={onFile}
+      refused={refused}
+      onRefused={onRefused}
+    />
+  );
+}
