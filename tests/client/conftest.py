@@ -14,8 +14,8 @@ from galatea_client import Client
 
 
 @pytest.fixture(scope="session")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    """A service that several tests use."""
+def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A service that the tests of this folder share."""
     service = Running(tmp_path_factory.mktemp("data") / "data", image_mb=1, allowed_networks="127.0.0.0/8")
     yield service
     service.stop()

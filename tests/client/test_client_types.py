@@ -43,8 +43,8 @@ SCHEMAS: dict[type[BaseModel], str] = {
 
 
 @pytest.fixture(scope="module")
-def document(running: Running) -> dict[str, Any]:
-    return running.client.get("/v1/openapi.json").raise_for_status().json()
+def document(shared_service: Running) -> dict[str, Any]:
+    return shared_service.client.get("/v1/openapi.json").raise_for_status().json()
 
 
 def test_every_operation_is_where_the_client_looks_for_it(document: dict[str, Any]) -> None:

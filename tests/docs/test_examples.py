@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from made_motion import bvh
 from missing import missing
+from PIL import Image
 from running import ROOT, Running
 
 from engine.character.sample import sample_picture
@@ -24,7 +25,7 @@ ADDRESS = "http://127.0.0.1:8000"
 
 
 @pytest.fixture(scope="module")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     service = Running(tmp_path_factory.mktemp("data") / "data", kinds="engine.kinds:KINDS", wait_seconds=200)
     yield service
     service.stop()
@@ -36,7 +37,8 @@ def folder(tmp_path: Path) -> Path:
     package = find_spec("matplotlib")
     assert package is not None and package.origin is not None
     portrait = Path(package.origin).parent / "mpl-data/sample_data/grace_hopper.jpg"
-    shutil.copy(portrait, tmp_path / "portrait.jpg")
+    with Image.open(portrait) as whole:  # a quarter of its pixels, for what is made of it several times
+        whole.reduce(2).save(tmp_path / "portrait.jpg", quality=95)
     write_image(tmp_path / "person.jpg", sample_picture())
     (tmp_path / "swing.bvh").write_bytes(bvh())
     return tmp_path

@@ -17,8 +17,9 @@ from running import Running
 
 
 @pytest.fixture(scope="session")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    """A service that several tests use, with small limits for what is uploaded."""
+def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A service that lives as long as the tests, with small limits for what is uploaded. A module or a folder may have
+    another one under this name."""
     page = tmp_path_factory.mktemp("page")
     (page / "index.html").write_text("<title>The page</title>")
     (page / "app.js").write_text("start()")
@@ -33,6 +34,13 @@ def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     service = Running(data, image_mb=1, video_mb=2, job_memory_mb=1500, web_dir=page, allowed_networks="127.0.0.0/8")
     yield service
     service.stop()
+
+
+@pytest.fixture
+def running(shared_service: Running) -> Iterator[Running]:
+    """The shared service, in which no job waits or runs: what a test leaves is ended with the test."""
+    yield shared_service
+    shared_service.end_jobs()
 
 
 @pytest.fixture

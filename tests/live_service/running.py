@@ -85,6 +85,15 @@ class Running:
         self.client.close()
         self._end()
 
+    def end_jobs(self, client: httpx.Client | None = None) -> None:
+        """End all jobs of this client's key that have not ended, and wait until nobody works on any."""
+        client = client or self.client
+        under_way = {"status": ["queued", "running"], "limit": 200}
+        while jobs := client.get("/v1/jobs", params=under_way).raise_for_status().json()["items"]:
+            for job in jobs:
+                assert client.post(f"/v1/jobs/{job['id']}/cancel").status_code in (200, 409), "409: it has just ended"
+        eventually(lambda: not list((self.data_dir / "jobs").glob("*/attempt-*")), "no job is worked on")
+
     def _end(self) -> None:
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGTERM)
@@ -106,6 +115,12 @@ class Running:
         file = self.client.post("/v1/files", files={"file": ("picture.png", picture)}).raise_for_status().json()
         job = {"kind": "tiny", "inputs": {"image": file["id"]}, "options": options}
         return self.client.post("/v1/jobs", json=job).raise_for_status().json()
+
+    def rest(self, picture: bytes, **options: Any) -> str:
+        """A job that is at rest, for longer than any test takes; its id."""
+        job = self.submit(picture, **{"seconds": 3000, **options})
+        self.until_at_rest(job["id"])
+        return str(job["id"])
 
     def job(self, job_id: str) -> dict[str, Any]:
         return self.client.get(f"/v1/jobs/{job_id}").raise_for_status().json()

@@ -52,8 +52,10 @@ from tests.worker.test_killed import attempts, test_a_worker_killed_in_mid_job_f
 
 
 @pytest.fixture(scope="module")
-def running(tmp_path_factory: pytest.TempPathFactory, postgres: PostgresServer, s3: S3Server) -> Iterator[Running]:
-    """A service that the tests of this module share; the borrowed ones find it under this name too."""
+def shared_service(
+    tmp_path_factory: pytest.TempPathFactory, postgres: PostgresServer, s3: S3Server
+) -> Iterator[Running]:
+    """The service that the tests of this module share, the borrowed ones too."""
     data = tmp_path_factory.mktemp("shared") / "data"
     service = Running(data, database_url=postgres.new_database(), **s3.new_bucket())
     yield service
@@ -143,4 +145,4 @@ def test_a_storage_that_is_away_is_said_and_costs_no_job(
     assert (refused.status_code, refused.json()["code"]) == (503, "unavailable")
     assert running.client.delete(f"/v1/jobs/{ended['id']}").status_code == 204, "housekeeping will see to its media"
     way.open()
-    running.until(waiting["id"], "succeeded", seconds=90)
+    running.until(waiting["id"], "succeeded")
