@@ -5,7 +5,7 @@ SHELL := /bin/bash
 BIN := .venv/bin
 REPORTS := var/test-reports
 
-.PHONY: help setup tools demo test lint types imports unit coverage s3-trial web-test web-unit web-browser client lock bench picture pictures samples docs licences wheel clean
+.PHONY: help setup tools demo test lint types imports compiled unit coverage s3-trial web-test web-unit web-browser client lock bench picture pictures samples docs licences wheel clean
 
 help:  ## this list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z0-9-]+):[^#]*## /\1\t/' | expand -t 14
@@ -34,13 +34,17 @@ imports:  ## which package may import which
 # Tests of the service wait for processes half of their time: three of them keep two cores at work. What computes has one
 # thread for its algebra then, since threads of one that wait for each other in turns would take it from the others. In
 # the order of their folders the last files are short ones: nobody works alone at the end.
-PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --disable-warnings
+PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --disable-warnings
 
-unit:  ## pytest: engine, service, worker, shell
+# Once for all three, which would compile the same at the same time.
+compiled:
+	@$(BIN)/python -m scripts.compiled
+
+unit: compiled  ## pytest: engine, service, worker, shell
 	@mkdir -p $(REPORTS)
 	@$(PYTEST) --junitxml=$(REPORTS)/python.xml
 
-coverage:  ## the same, and then which lines none of them reached
+coverage: compiled  ## the same, and then which lines none of them reached
 	@failed=0; $(PYTEST) --cov --cov-report= || failed=1; $(BIN)/coverage report --show-missing; exit $$failed
 
 web-test: web-unit web-browser  ## the page: its parts, and the whole in a browser against a running service

@@ -6,7 +6,9 @@ cd "$(dirname "$0")/.."
 [ -t 1 ] || export NO_COLOR=1
 failed=()
 rm -rf var/test-reports
+make --no-print-directory compiled &  # beside checks that have one core enough
 for check in lint types imports web-unit unit web-browser; do
+  [ "$check" = unit ] && wait
   printf '\n\033[1m== %s ==\033[0m\n' "$check"
   make --no-print-directory "$check" || failed+=("$check")
 done

@@ -12,10 +12,10 @@ from running import HERE, Running
 from servers import PostgresServer
 
 SEED = 4711
-EXAMPLES, SECONDS = 4, 50
+EXAMPLES, SECONDS = 4, 25
 """Requests of each kind for each operation; how long the random phases go on."""
 
-MORE_EXAMPLES, MORE_SECONDS = 40, 25
+MORE_EXAMPLES, MORE_SECONDS = 40, 15
 """The same where one phase has a service to itself."""
 
 SETTINGS = {"image_mb": 1, "video_mb": 2, "wait_seconds": 0.3, "allowed_networks": "127.0.0.0/8"}
