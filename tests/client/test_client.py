@@ -112,7 +112,7 @@ def test_a_download_that_was_left_is_taken_up_and_a_wrong_one_is_noticed(
 
 def test_who_waits_so_long_for_a_job_of_which_nothing_is_heard_is_told_then(galatea: Client, picture: Path) -> None:
     """The one worker has another job; of this one there is nothing to tell before that has ended."""
-    first = galatea.submit("tiny", {"image": picture}, {"seconds": 20})
+    first = galatea.submit("tiny", {"image": picture}, {"seconds": 3000})
     second = galatea.submit("tiny", {"image": picture})
     try:
         with pytest.raises(TimeoutError, match=second.id):
@@ -145,7 +145,7 @@ def test_jobs_are_listed_revised_canceled_and_erased(galatea: Client, picture: P
     assert second.id in listed and first.id not in listed
     assert galatea.rename(second.id, "Aunt Mary").title == first.refresh().title == "Aunt Mary"
     assert [job.id for job in galatea.jobs(q="aunt")] == [second.id, first.id]
-    long = galatea.submit("tiny", {"image": picture}, {"seconds": 30}, title="A long one")
+    long = galatea.submit("tiny", {"image": picture}, {"seconds": 3000}, title="A long one")
     assert long.title == "A long one"
     assert long.cancel().status is Status.CANCELED
     with pytest.raises(JobFailed, match="canceled"):

@@ -183,7 +183,7 @@ def test_whatever_happens_each_accepted_job_ends_once_and_whole(tmp_path: Path, 
             doomed, scene.doomed = scene.doomed, []
             ends.update(check_doomed(scene, job) for job in doomed)
             accepted.extend([*jobs, *doomed])
-            eventually(lambda: at_rest(running), "nothing is stuck", 30)
+            eventually(lambda: at_rest(running), "nothing is stuck", WITHIN_SECONDS)
             answer_again(scene)
             untold = f"all ends are told after: {fault.name}"
             eventually(lambda: undelivered(running) == 0, untold, WITHIN_SECONDS)

@@ -6,10 +6,11 @@ import socket
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import httpx
 import numpy as np
-from running import Running
+from running import Running, eventually
 
 TUS = {"Tus-Resumable": "1.0.0"}
 PIECE = TUS | {"Content-Type": "application/offset+octet-stream"}
@@ -54,6 +55,24 @@ def standing(running: Running, address: str) -> int:
     response = running.client.head(address, headers=TUS)
     assert response.status_code == 200, response.status_code
     return int(response.headers["upload-offset"])
+
+
+def until_taken(running: Running, connection: socket.socket) -> None:
+    """Wait until the service has taken all that was sent over an open line."""
+    here, there = connection.getsockname()[1], connection.getpeername()[1]
+
+    def on_the_way() -> int:
+        """Bytes that either end's system still holds."""
+        held = 0
+        for row in Path("/proc/net/tcp").read_text().splitlines()[1:]:
+            _, local, remote, _, queues, *_ = row.split()
+            ports = int(local.rpartition(":")[2], 16), int(remote.rpartition(":")[2], 16)
+            sending, receiving = (int(size, 16) for size in queues.split(":"))
+            held += sending if ports == (here, there) else receiving if ports == (there, here) else 0
+        return held
+
+    eventually(lambda: on_the_way() == 0, "all has come")
+    running.client.get("/v1/kinds").raise_for_status()  # and it has had its turn
 
 
 @contextmanager

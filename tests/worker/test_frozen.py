@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from running import Running, eventually
@@ -14,6 +14,13 @@ from tests.worker.test_killed import attempts
 Start = Callable[..., Running]
 
 
+@pytest.fixture(scope="module")
+def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
+    """A service that misses no job by the end of its lease."""
+    with Running(tmp_path_factory.mktemp("patient") / "data", lease_seconds=900) as running:
+        yield running
+
+
 def checks(running: Running) -> dict[str, bool]:
     return running.client.get("/readyz").json()["checks"]
 
@@ -21,29 +28,28 @@ def checks(running: Running) -> dict[str, bool]:
 def test_a_frozen_worker_is_missed_said_and_replaced_and_its_job_done(start: Start, picture: bytes) -> None:
     running = start(silent_seconds=6)
     assert checks(running)["worker"] is True
-    job = running.submit(picture, seconds=3)
-    running.until_at_rest(job["id"])
+    job = running.rest(picture, rest_once=True)
     (worker,) = running.processes("shell.main worker")
     worker.suspend()
     eventually(lambda: not checks(running)["worker"], "it is missed")
     eventually(lambda: not worker.is_running(), "it is ended")
     eventually(lambda: checks(running)["worker"], "another one lives")
-    assert running.until(job["id"], "succeeded", "failed")["status"] == "succeeded"
-    assert attempts(running, job["id"]) == 2
+    assert running.until(job, "succeeded", "failed")["status"] == "succeeded"
+    assert attempts(running, job) == 2
     assert "program_frozen" in running.output.read_text()
 
 
 @pytest.mark.parametrize("part", ["the process of the job", "the process that it was forked from"])
-def test_a_frozen_process_of_a_job_is_replaced(start: Start, picture: bytes, part: str) -> None:
-    running = start(lease_seconds=60)
-    job = running.submit(picture, seconds=20)
-    running.until_at_rest(job["id"])
+def test_a_frozen_process_of_a_job_is_replaced(running: Running, picture: bytes, part: str) -> None:
+    missed = "was stopped and did not go on"
+    before = running.output.read_text().count(missed)
+    job = running.rest(picture, rest_once=True)
     processes = sorted(running.processes("worker.job_process.child"), key=lambda process: process.create_time())
     assert len(processes) == 2, "the one that is ready, and the one that it forked"
     processes[1 if part.endswith("the job") else 0].suspend()
-    eventually(lambda: "was stopped and did not go on" in running.output.read_text(), "it is missed")
-    assert running.until(job["id"], "succeeded", "failed")["status"] == "succeeded"
-    assert attempts(running, job["id"]) == 2
+    eventually(lambda: running.output.read_text().count(missed) > before, "it is missed")
+    assert running.until(job, "succeeded", "failed")["status"] == "succeeded"
+    assert attempts(running, job) == 2
 
 
 def test_a_frozen_redis_is_missed_and_replaced_and_holds_nobody_up(start: Start, picture: bytes) -> None:

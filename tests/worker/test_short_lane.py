@@ -17,9 +17,7 @@ def busy(tmp_path_factory: pytest.TempPathFactory, picture: bytes) -> Iterator[t
     """A service whose only slot has a job that lasts, and that job."""
     data = tmp_path_factory.mktemp("busy") / "data"
     with Running(data, kinds=f"{KINDS},engine.motion_check:KIND", lease_seconds=5, sweep_seconds=0.5) as running:
-        long = running.submit(picture, seconds=3000)
-        running.until_at_rest(long["id"])
-        yield running, long
+        yield running, running.job(running.rest(picture))
 
 
 def submit(running: Running, kind: str, like: dict[str, Any], **options: Any) -> str:
@@ -53,10 +51,9 @@ def test_a_kind_has_limits_of_its_own(busy: tuple[Running, dict[str, Any]]) -> N
 
 
 def test_a_worker_that_stops_gives_its_short_job_back_too(start: Callable[..., Running], picture: bytes) -> None:
-    running = start(kinds=KINDS, lease_seconds=60)
-    long = running.submit(picture, seconds=3000)
-    running.until_at_rest(long["id"])
-    short = submit(running, "short", long, seconds=10)
+    running = start(kinds=KINDS, lease_seconds=900)
+    long = running.job(running.rest(picture))
+    short = submit(running, "short", long, seconds=500, rest_once=True)
     running.until_at_rest(short)
     (worker,) = running.processes("shell.main worker")
     worker.terminate()  # and another one is started

@@ -6,14 +6,14 @@ import hashlib
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from running import Running, eventually
 from servers import PostgresServer
 
-JOBS = 8
+JOBS = 4
 LEASE_SECONDS = 3
 
 
@@ -45,9 +45,23 @@ class Two:
         job = str(found[0][0]) if found else None
         return job if job and self.running.job(job)["progress"]["stage"] == "rest" else None
 
-    def until_at_work(self, worker: subprocess.Popen[bytes]) -> str:
-        eventually(lambda: self.at_work(worker) is not None, "it has a job")
-        return self.at_work(worker) or self.until_at_work(worker)
+    def freeze(self, worker: subprocess.Popen[bytes], submit: Callable[[], object]) -> str:
+        """Freeze a worker in the midst of a job, which is submitted where none waits; the job."""
+        held: list[str] = []
+
+        def frozen() -> bool:
+            if not self._postgres.run("SELECT id FROM jobs WHERE status = 'queued'", self._database):
+                submit()
+            if self.at_work(worker) is not None:
+                worker.send_signal(signal.SIGSTOP)
+                if job := self.at_work(worker):
+                    held.append(job)
+                else:
+                    worker.send_signal(signal.SIGCONT)  # it has ended meanwhile
+            return held != []
+
+        eventually(frozen, "it is frozen with a job")
+        return held[0]
 
     def said(self, what: str) -> bool:
         return any(what in log.read_text() for log in self._folder.glob("worker*.log"))
@@ -69,17 +83,19 @@ def two(tmp_path: Path, postgres: PostgresServer) -> Iterator[Two]:
 def test_whichever_worker_ends_or_freezes_each_job_is_done_once(two: Two, picture: bytes) -> None:
     running = two.running
     jobs = [running.submit(picture, seconds=2)["id"] for _ in range(JOBS)]
+
+    def submit() -> None:
+        jobs.append(running.submit(picture, seconds=4)["id"])
+
     for number in (0, 1):  # ended without a word, and replaced
         worker = two.workers[number]
-        two.until_at_work(worker)
+        two.freeze(worker, submit)
         worker.kill()
         worker.wait(30)
         two.workers[number] = two.start()
     for number in (0, 1):  # frozen until another one has its job, then thawed
         worker, other = two.workers[number], two.workers[1 - number]
-        jobs.append(running.submit(picture, seconds=4)["id"])
-        job = two.until_at_work(worker)
-        worker.send_signal(signal.SIGSTOP)
+        job = two.freeze(worker, submit)
         eventually(lambda job=job, pid=worker.pid: not two.owner(job).endswith(f":{pid}"), "it has lost its job")
         assert other.poll() is None
         worker.send_signal(signal.SIGCONT)

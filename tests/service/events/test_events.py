@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -29,15 +28,13 @@ def follow(running: Running, job_id: str, **headers: str) -> Iterator[dict[str, 
 
 def test_events_come_while_the_job_runs_and_end_with_it(running: Running, picture: bytes) -> None:
     job = running.submit(picture, seconds=1.5)
-    arrived = [(time.monotonic(), event) for event in follow(running, job["id"])]
-    events = [event for _, event in arrived]
+    events = list(follow(running, job["id"]))
     assert [e["data"]["status"] for e in events if e["event"] == "status"] == ["queued", "running", "succeeded"]
     assert events[-1]["data"] == {"status": "succeeded"}
     fractions = [e["data"]["fraction"] for e in events if e["event"] == "progress"]
     assert fractions == sorted(fractions) and len(fractions) > 2
     names = [e["data"]["name"] for e in events if e["event"] == "artifact"]
     assert names[0] == "preview.jpg" and set(names) == set(running.job(job["id"])["artifacts"])
-    assert arrived[-1][0] - arrived[0][0] > 1, "they came as they happened, not all at the end"
     ids = [int(e["id"]) for e in events]
     assert ids == sorted(set(ids))
 
@@ -74,8 +71,8 @@ def test_wrong_addresses_and_ids_are_problems(running: Running, picture: bytes) 
 
 
 def test_a_canceled_job_ends_its_stream(running: Running, picture: bytes) -> None:
-    job = running.submit(picture, seconds=60)
-    for event in follow(running, job["id"]):
+    job = running.submit(picture, seconds=3000)
+    for event in follow(running, job["id"]):  # they come as they happen, not all at the end
         if event["event"] == "progress":
             running.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
     assert event["data"] == {"status": "canceled"}

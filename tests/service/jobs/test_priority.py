@@ -7,16 +7,15 @@ from collections.abc import Callable
 from running import Running
 
 
-def test_an_urgent_job_that_comes_last_runs_first(start: Callable[..., Running], picture: bytes) -> None:
-    running = start()
-    busy = running.submit(picture, seconds=3)
-    running.until_at_rest(busy["id"])
+def test_an_urgent_job_that_comes_last_runs_first(running: Running, picture: bytes) -> None:
+    busy = running.job(running.rest(picture))
     asked = {"kind": "tiny", "inputs": busy["inputs"]}
     submitted = {
         name: running.client.post("/v1/jobs", json=asked | more).raise_for_status().json()
         for name, more in (("low", {"priority": "low"}), ("unsaid", {}), ("high", {"priority": "high"}))
     }
     assert [job["priority"] for job in submitted.values()] == ["low", "normal", "high"]
+    running.client.post(f"/v1/jobs/{busy['id']}/cancel").raise_for_status()
     started = {name: running.until(job["id"], "succeeded")["started_at"] for name, job in submitted.items()}
     assert sorted(started, key=lambda name: started[name]) == ["high", "unsaid", "low"]
     again = running.client.post(f"/v1/jobs/{submitted['high']['id']}/revisions", json={"options": {"seconds": 0.1}})

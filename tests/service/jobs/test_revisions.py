@@ -109,9 +109,8 @@ def test_what_is_wrong_is_shown_where_the_request_has_it(
     assert answer["detail"].startswith(pointers[0])
 
 
-def test_a_correction_may_be_a_file(start: Callable[..., Running], picture: bytes) -> None:
+def test_a_correction_may_be_a_file(running: Running, picture: bytes) -> None:
     """It is an input of the new job, stays with its revisions until it is taken back, and lives as long as they do."""
-    running = start()
     job = running.until(running.submit(picture)["id"], "succeeded")
     mask = running.client.post("/v1/files", files={"file": picture + bytes(3)}).json()["id"]
     second = revise(running, job["id"], {"corrections": {"mask": mask, "level": 5.0}}).json()
@@ -179,7 +178,7 @@ def test_files_that_are_no_correction(running: Running, done: dict[str, Any], vi
 def test_a_job_that_is_not_there_or_not_done_takes_none(running: Running, picture: bytes) -> None:
     assert problem(revise(running, new_id(), {})) == (404, "job_not_found")
     assert running.client.get(f"/v1/jobs/{new_id()}/revisions").status_code == 404
-    job = running.submit(picture, seconds=20)
+    job = running.submit(picture, seconds=3000)
     assert problem(revise(running, job["id"], {})) == (409, "job_not_finished")
     running.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
     assert revise(running, job["id"], {"options": {"seconds": 0}}).json()["status"] == "succeeded"

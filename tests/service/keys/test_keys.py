@@ -203,7 +203,7 @@ def test_requests_beyond_the_rate_are_told_when_to_come_again(another: Callable[
 def test_jobs_under_way_are_limited(another: Callable[..., httpx.Client], picture: bytes) -> None:
     client = another(jobs_at_once=2)
     file_id = upload(client, picture)
-    first, second, third = (submit(client, file_id, seconds=30) for _ in range(3))
+    first, second, third = (submit(client, file_id, seconds=3000) for _ in range(3))
     assert (first.status_code, second.status_code) == (202, 202)
     assert code(third) == (429, "too_many_jobs") and int(third.headers["Retry-After"]) > 0
     assert client.get("/v1/key").json()["jobs_under_way"] == 2
@@ -301,7 +301,7 @@ def test_erasing_a_key_leaves_nothing_on_disk(
     begin = TUS | {"Upload-Length": "100000", "Upload-Metadata": "filename " + b64encode(mark.encode()).decode()}
     client.patch(client.post("/v1/uploads", headers=begin).headers["location"], headers=PIECE, content=marked)
     eventually(lambda: client.get(f"/v1/jobs/{job['id']}").json()["status"] == "succeeded", "it succeeds")
-    client.post(f"/v1/jobs/{job['id']}/revisions", json={"options": {"seconds": 20}}).raise_for_status()
+    client.post(f"/v1/jobs/{job['id']}/revisions", json={"options": {"seconds": 3000}}).raise_for_status()
     owner = client.headers["X-Key-Id"]
     assert mark.encode() in b"".join(path.read_bytes() for path in keyed.data_dir.rglob("*") if path.is_file())
     keyed.client.delete(f"/v1/keys/{owner}", params={"erase": True}).raise_for_status()
@@ -335,7 +335,7 @@ def test_the_shell_makes_lists_and_revokes_keys(tmp_path: Path) -> None:
 
 
 def test_where_no_key_is_needed_one_still_counts(start: Callable[..., Running], picture: bytes) -> None:
-    service = start()
+    service = start(worker="false")
     key = service.client.post("/v1/keys", json={"name": "mine"}).raise_for_status().json()
     file_id = upload(service.client, picture)
     headers = {"Authorization": f"Bearer {key['token']}"}
@@ -373,7 +373,7 @@ def test_only_a_key_of_an_administrator_lets_jobs_come_first(
 
 
 def test_a_key_has_so_many_uploads_at_once(start: Callable[..., Running], picture: bytes) -> None:
-    running = start(uploads_at_once=2)
+    running = start(worker="false", uploads_at_once=2)
     made = running.client.post("/v1/keys", json={"name": "test"}).raise_for_status().json()
     with httpx.Client(base_url=running.client.base_url) as client:
         client.headers.update({"Authorization": f"Bearer {made['token']}", "Tus-Resumable": "1.0.0"})
@@ -433,7 +433,7 @@ def test_who_manages_keys_sees_and_revokes_all_links(
 
 def test_wrong_keys_are_slowed_down_and_good_ones_are_not(start: Callable[..., Running], tmp_path: Path) -> None:
     token = galatea(tmp_path / "data", "create", "root").stdout.strip()
-    running = start(require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
+    running = start(worker="false", require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
 
     def ask(key: str, address: str) -> httpx.Response:
         return running.client.get("/v1/jobs", headers={"Authorization": f"Bearer {key}", "X-Forwarded-For": address})
@@ -453,7 +453,7 @@ def test_wrong_keys_are_slowed_down_and_good_ones_are_not(start: Callable[..., R
 
 def test_wrong_keys_of_everybody_together_are_bounded(start: Callable[..., Running], tmp_path: Path) -> None:
     galatea(tmp_path / "data", "create", "root")
-    running = start(require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
+    running = start(worker="false", require_keys=True, wrong_keys_per_minute=1, trusted_proxies="127.0.0.0/8")
     answers = [
         running.client.get("/v1/jobs", headers={"Authorization": "Bearer x", "X-Forwarded-For": f"198.51.{one}.1"})
         for one in range(60)

@@ -63,7 +63,8 @@ def test_the_engines_kinds_have_the_names_and_inputs_of_the_contract() -> None:
     assert set(offered["portrait"].options_schema["properties"]) >= fixed
 
 
-def test_health_and_figures(running: Running) -> None:
+def test_health_and_figures(running: Running, picture: bytes) -> None:
+    running.until(running.submit(picture)["id"], "succeeded")
     assert running.client.get("/healthz").json() == {"status": "ok"}
     assert running.client.get("/readyz").json()["checks"] == {
         **{"database": True, "redis": True, "storage": True, "disk": True, "worker": True}
@@ -77,8 +78,7 @@ def test_what_was_counted_outlives_what_it_counts(start: Callable[..., Running],
     running = start()
     done = running.until(running.submit(picture, seconds=0.3)["id"], "succeeded")
     refused = running.until(running.submit(picture, crash="refuse")["id"], "failed")
-    long = running.submit(picture, seconds=20)
-    queued = running.submit(picture)
+    long, queued = running.submit(picture, seconds=3000), running.submit(picture)
     eventually(lambda: figure(running, 'galatea_queue_oldest_seconds{kind="tiny"}') > 0.5, "one has waited")
     for job in (long, queued):
         running.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
@@ -92,7 +92,7 @@ def test_what_was_counted_outlives_what_it_counts(start: Callable[..., Running],
     assert figure(running, ended % ("", "canceled")) == 2
     assert figure(running, 'galatea_uploaded_bytes_total{media="image"}') == 4 * len(picture)
     assert figure(running, 'galatea_stage_runs_total{kind="tiny",stage="rest"}') == 1
-    assert 0.3 <= figure(running, 'galatea_stage_seconds_total{kind="tiny",stage="rest"}') < 5
+    assert 0.3 <= figure(running, 'galatea_stage_seconds_total{kind="tiny",stage="rest"}') < 100, "no milliseconds"
     assert figure(running, 'galatea_queue_oldest_seconds{kind="tiny"}') == 0
 
 

@@ -163,7 +163,7 @@ def test_a_stage_that_was_under_way_breaks_off_with_its_job(
     service: Running, collector: Collector, picture: bytes
 ) -> None:
     trace = Trace()
-    job_id = submit(service, uploaded(service, picture), trace, options={"seconds": 60})
+    job_id = submit(service, uploaded(service, picture), trace, options={"seconds": 3000})
     service.until_at_rest(job_id)
     service.client.post(f"/v1/jobs/{job_id}/cancel").raise_for_status()
     spans = collector.until(lambda spans: named(spans, "job tiny") != [], "the attempt was told of", trace.id)
@@ -174,7 +174,7 @@ def test_a_stage_that_was_under_way_breaks_off_with_its_job(
 
 def test_a_stream_is_told_of_when_it_begins(service: Running, collector: Collector, picture: bytes) -> None:
     trace = Trace()
-    job_id = submit(service, uploaded(service, picture), Trace(), options={"seconds": 60})
+    job_id = submit(service, uploaded(service, picture), Trace(), options={"seconds": 3000})
     service.until_at_rest(job_id)
     with service.client.stream("GET", f"/v1/jobs/{job_id}/events?after=0", headers=trace.headers):
         (span,) = collector.until(lambda spans: spans != [], "the stream was told of", trace.id)

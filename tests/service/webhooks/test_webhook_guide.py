@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -13,13 +12,9 @@ import httpx
 import pytest
 from missing import missing
 from running import ROOT, Running, eventually
+from servers import free_port
 
 COMMANDS = {"python": ([sys.executable], "receiver.py"), "javascript": (["node"], "receiver.mjs")}
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return server.getsockname()[1]
 
 
 @pytest.mark.parametrize("language", COMMANDS)

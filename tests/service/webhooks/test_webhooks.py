@@ -354,12 +354,12 @@ def test_what_was_to_be_told_is_told_after_everything_was_killed(
     running.client.close()
     running.start()
     for job in jobs:
-        running.until(job, "succeeded", seconds=90)
+        running.until(job, "succeeded")
 
     def told() -> set[str]:
         return {one["job_id"] for one in deliveries(running, status="delivered")}
 
-    eventually(lambda: told() == set(jobs), "all were told", seconds=90)
+    eventually(lambda: told() == set(jobs), "all were told")
     assert {call.json["data"]["id"] for call in receiver.calls} == set(jobs)
 
 

@@ -75,6 +75,8 @@ def submit(running: Running, url: str, **options: Any) -> dict[str, Any]:
 
 def test_a_job_fetches_its_input_and_keeps_it(service: Running, host: Host, picture: bytes) -> None:
     url = host.url("/holiday.png?token=1")
+    files = service.data_dir / "storage" / "files"
+    before = set(files.glob("*"))
     job = submit(service, url)
     assert job["inputs"] == {"image": url}
     done = service.until(job["id"], "succeeded")
@@ -90,17 +92,16 @@ def test_a_job_fetches_its_input_and_keeps_it(service: Running, host: Host, pict
     revision = service.client.post(f"/v1/jobs/{job['id']}/revisions", json={"options": {"level": 1}}).json()
     service.until(revision["id"], "succeeded")
     assert len(host.asked) == asked, "a revision has the file already"
-    files = service.data_dir / "storage" / "files"
-    contents = {hashlib.sha256(path.read_bytes()).hexdigest() for path in files.iterdir()}
+    contents = {hashlib.sha256(path.read_bytes()).hexdigest() for path in set(files.iterdir()) - before}
     assert hashlib.sha256(picture).hexdigest() in contents
     for one in (job, revision):
         service.client.delete(f"/v1/jobs/{one['id']}").raise_for_status()
-    assert list(files.iterdir()) == []
+    assert set(files.iterdir()) == before
 
 
 @pytest.mark.parametrize(("path", "code"), [("/missing", "input_url_unreachable"), ("/endless", "input_url_timeout")])
 def test_an_input_that_cannot_be_had_ends_the_job(service: Running, host: Host, path: str, code: str) -> None:
-    failed = service.until(submit(service, host.url(path))["id"], "failed", seconds=90)
+    failed = service.until(submit(service, host.url(path))["id"], "failed")
     assert failed["error"]["code"] == code
     assert failed["error"]["detail"].endswith(".")
 
@@ -125,7 +126,7 @@ def test_a_job_is_canceled_while_it_fetches(service: Running, host: Host) -> Non
     eventually(lambda: service.job(job["id"])["progress"]["stage"] == "fetch", "it fetches")
     service.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
     folder = service.data_dir / "jobs" / job["id"]
-    eventually(lambda: not list(folder.glob("attempt-*")), "what had come is erased", seconds=10)
+    eventually(lambda: not list(folder.glob("attempt-*")), "what had come is erased")
     children = service.processes("worker.job_process.child")
     service.until(submit(service, host.url("/after.png"))["id"], "succeeded")
     assert service.processes("worker.job_process.child") == children, "the process that was ready is still good"
@@ -138,7 +139,7 @@ def test_a_killed_worker_leaves_the_fetching_to_the_next_attempt(service: Runnin
     host.slow = False
     worker.kill()
     try:
-        assert service.until(job["id"], "succeeded", seconds=90)
+        assert service.until(job["id"], "succeeded")
     finally:
         host.slow = True
 
@@ -146,7 +147,7 @@ def test_a_killed_worker_leaves_the_fetching_to_the_next_attempt(service: Runnin
 def test_what_an_earlier_attempt_fetched_is_not_fetched_again(service: Running, host: Host) -> None:
     before = host.asked.count("/kept.png")
     job = submit(service, host.url("/kept.png"), crash="segv", crash_once=True)
-    service.until(job["id"], "succeeded", seconds=90)
+    service.until(job["id"], "succeeded")
     assert host.asked.count("/kept.png") == before + 1
 
 
