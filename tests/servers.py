@@ -96,12 +96,12 @@ class PostgresServer:
     def stop(self) -> None:
         """Stop it as an operator would: connections are ended at once, what was committed is kept."""
         self._process.send_signal(signal.SIGINT)
-        self._process.wait(30)
+        self._process.wait(90)
 
     def remove(self) -> None:
         """Stop it for good, without leaving anything in order."""
         self._process.send_signal(signal.SIGQUIT)
-        self._process.wait(30)
+        self._process.wait(90)
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def new_database(self) -> str:
@@ -211,7 +211,7 @@ class Moto(S3Server):
 
     def stop(self) -> None:
         self._process.kill()
-        self._process.wait(30)
+        self._process.wait(90)
 
 
 class Gate:
@@ -258,7 +258,7 @@ class Gate:
                 end.shutdown(socket.SHUT_RDWR)
 
 
-def await_(true: Callable[[], bool], what: str, process: subprocess.Popen[bytes], seconds: float = 60) -> None:
+def await_(true: Callable[[], bool], what: str, process: subprocess.Popen[bytes], seconds: float = 180) -> None:
     """Wait until it is true; what cannot be asked yet is not true yet."""
     deadline = time.monotonic() + seconds
     while True:

@@ -75,7 +75,7 @@ def abort(scene: Scene) -> None:
 
 def kill_everything(scene: Scene) -> None:
     scene.running.process.kill()
-    scene.running.process.wait(30)
+    scene.running.process.wait(90)
 
 
 def restart(scene: Scene) -> None:

@@ -136,7 +136,9 @@ class Running:
 
 
 def eventually(true: Callable[[], bool], what: str, seconds: float = 180) -> None:
-    deadline = time.monotonic() + seconds
+    """Wait until it is true. Who has waited long asks less often: asking takes from what is waited for."""
+    began = time.monotonic()
     while not true():
-        assert time.monotonic() < deadline, f"not within {seconds} s: {what}"
-        time.sleep(0.05)
+        waited = time.monotonic() - began
+        assert waited < seconds, f"not within {seconds} s: {what}"
+        time.sleep(min(max(0.02, waited / 10), 0.5))

@@ -49,7 +49,7 @@ class Machine:
 
     def stop(self) -> None:
         self.process.terminate()
-        self.process.wait(30)
+        self.process.wait(90)
 
 
 class Installation:
