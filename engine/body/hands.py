@@ -20,7 +20,7 @@ FINGERTIP_DEPTH = 0.006
 
 @dataclass(frozen=True)
 class HandModel:
-    """A hand's landmarks at rest, linear in the body's coefficients, as `engine.perception.hands.JOINTS` orders them.
+    """A hand's landmarks at rest, linear in the body's coefficients, as `engine.perception.hands.HAND_JOINTS` orders them.
 
     `joints` (21,) int: the joint of the space that carries each; `mean` (21, 3) and `basis` (K, 21, 3): where they are in
     T-pose. `bend` (5, 3): the axis about which each finger's joints bend, towards the palm, `spread` (3,) that about

@@ -24,6 +24,6 @@ def part_of_bone(name: str) -> int:
 
 def vertex_parts(rig: Rig) -> NDArray[np.intp]:
     """The label of each of the template's vertices (V,), by the joint that moves it most. The rig's joints have Mixamo's
-    names: `engine.body.rig.HUMAN` or `mixamo`."""
+    names: `engine.body.rig.HUMAN_RIG` or `mixamo`."""
     of_bone = np.array([part_of_bone(name) for name in rig.names])
     return of_bone[rig.bones[:, 0]]

@@ -99,7 +99,7 @@ def write_vrm(
     Parameters
     ----------
     clips : become animations of the GLB, which viewers of VRM may pass over.
-    expressions : by name, VRM's own (`engine.export.vrm_expressions.PRESETS`) or others, mixed of `morphs`.
+    expressions : by name, VRM's own (`engine.export.vrm_expressions.PRESET_NAMES`) or others, mixed of `morphs`.
     look_at : whether the eyes look about by their joints or by the expressions `lookUp`, `lookDown`, `lookLeft` and
         `lookRight`.
 

@@ -40,7 +40,7 @@ MAX_DRIVER_TURN_DEGREES = 25.0
 """Degrees that a head can turn with the target's own turn included; see the limits in the documentation."""
 
 EXPRESSION_SPREAD = np.array([0.03, 0.08, 0.02, 0.06, 0.05, 0.06])
-"""By how much the measures of `engine.perception.expression.features.EXPRESSION` differ between people who do nothing: no difference
+"""By how much the measures of `engine.perception.expression.features.EXPRESSION_FEATURES` differ between people who do nothing: no difference
 up to here counts (from the pictures and clips that the project is tried with)."""
 
 TIE_MARGIN = 0.01

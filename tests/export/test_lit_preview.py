@@ -50,7 +50,7 @@ def test_a_machine_without_gl_is_told_so() -> None:
     script = (
         "from engine.errors import InputError\n"
         "from engine.export import lit_preview\n"
-        "lit_preview.PLATFORMS = {'egl': ('libof_no_machine.so.1',)}\n"
+        "lit_preview.PLATFORM_LIBRARIES = {'egl': ('libof_no_machine.so.1',)}\n"
         "try: lit_preview.LitPreview(None, (8, 8))\n"
         "except InputError as error: print(error.code)\n"
     )

@@ -17,9 +17,9 @@ assert isinstance(figure, matplotlib.figure.Figure)
 """
 OTHERS = """
 import sys
-from engine.perception.solutions import HELD, solution
+from engine.perception.solutions import UNNEEDED_MODULES, solution
 solution("face_mesh")
-assert not set(HELD) & set(sys.modules)
+assert not set(UNNEEDED_MODULES) & set(sys.modules)
 import mediapipe
 assert mediapipe.tasks.vision.FaceLandmarker.__module__.startswith("mediapipe.tasks.python.vision.")
 assert mediapipe.solutions.objectron.Objectron.__module__ == "mediapipe.python.solutions.objectron"
