@@ -35,7 +35,7 @@ from engine.character.options import CharacterOptions
 from engine.character.person import Person
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct, wake_up
 from engine.motion.library import CLIPS
-from engine.render.character import draw_character, prepare
+from engine.render.character import draw_character, prepare_character
 from engine.run import Run
 from engine.store import StageStore
 
@@ -103,7 +103,7 @@ def _quality(reported: Mapping[str, float], person: Person, written: Written) ->
     camera = picture_camera(person.character, person.fitted, (rgb.shape[0], rgb.shape[1]))
     mask = alpha > 0.5
     covered = outline(camera.project(written.pictured), written.mesh.triangles, camera.size)
-    drawn = draw_character(prepare(written.mesh), written.pictured.astype(np.float32), camera)
+    drawn = draw_character(prepare_character(written.mesh), written.pictured.astype(np.float32), camera)
     inside = (alpha > 0.95) & (drawn.alpha > 0.95)
     error = ((drawn.rgb[inside].astype(float) - rgb[inside]) ** 2).mean()
     return {

@@ -25,7 +25,7 @@ from engine.geometry.camera import Camera
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place
 from engine.motion.library import built_in
-from engine.render.character import draw_character, prepare
+from engine.render.character import draw_character, prepare_character
 
 ROW_HEIGHT = 420
 """Pixels of a row."""
@@ -46,7 +46,7 @@ SHOWN_MOMENTS = (
 def row(woken: Woken, title: str) -> Row:
     """The pictures of one character, `ROW_HEIGHT` pixels high."""
     figure, silhouette, character = woken.figure, woken.silhouette, woken.character
-    subject = prepare(character.mesh)
+    subject = prepare_character(character.mesh)
     labels = LABEL_COLOURS[woken.labels.labels.astype(int)]
     mask = np.repeat((silhouette.alpha * 255).astype(np.uint8)[..., None], 3, 2)
     panels = [at_height(picture, ROW_HEIGHT) for picture in (figure.rgb, mask, labels)]

@@ -14,7 +14,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.surface import vertex_normals
 from engine.media.image import read_image
 from engine.render.attributes import interpolate, sample_texture
-from engine.render.film import shrink
+from engine.render.film import box_downsample
 from engine.render.rasteriser import rasterise
 
 SUPERSAMPLING = 3
@@ -78,8 +78,8 @@ def render_head(
     normals = interpolate(vertex_normals(vertices, scan.triangles), scan.triangles, raster)
     lamp = np.clip(normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32), 0, 1)
     shaded = colours * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
-    alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
-    premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    alpha = box_downsample(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
+    premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
     behind = np.asarray(BACKGROUND_RGB if background is None else background, np.float32)
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return np.clip(picture + 0.5, 0, 255).astype(np.uint8), np.asarray(alpha, np.float32)

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from engine.geometry.camera import Camera
 from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
-from engine.render.film import shrink
+from engine.render.film import box_downsample
 from engine.render.rasteriser import Raster, rasterise
 
 SUPERSAMPLING = 3
@@ -78,8 +78,8 @@ def draw_into(person: Person, background: NDArray[np.uint8], shadow: bool = True
         normals @ (LIGHT_DIRECTION / np.linalg.norm(LIGHT_DIRECTION)).astype(np.float32)
     )  # cloth is a single sheet at times
     shaded = person.paint(raster) * (AMBIENT_SHARE + (1 - AMBIENT_SHARE) * lamp[..., None])
-    alpha = shrink(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
-    premultiplied = shrink(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
+    alpha = box_downsample(covered.astype(np.float32)[..., None], SUPERSAMPLING)[..., 0]
+    premultiplied = box_downsample(np.asarray(np.where(covered[..., None], shaded, 0), np.float32), SUPERSAMPLING)
     behind = background * _shadow(person, camera)[..., None] if shadow else background
     picture = premultiplied + (1 - alpha[..., None]) * behind
     return KnownPicture(np.clip(picture + 0.5, 0, 255).astype(np.uint8), alpha.astype(np.float32), camera, person)

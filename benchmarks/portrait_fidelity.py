@@ -24,7 +24,7 @@ from engine.imaging.mesh_warp import inverse_map
 from engine.media.image import read_image
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance
-from engine.perception.segmentation import believed_person
+from engine.perception.segmentation import person_confidence
 from engine.portrait.options import PortraitOptions
 
 MAX_FRAMES, FRAME_STEP = 240, 8
@@ -191,7 +191,7 @@ def _regions(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> dict[str, NDA
         return np.asarray(cv2.dilate(mask, np.ones((side, side), np.uint8)) > 0)
 
     unit = float(eye_distance(mesh[:, :2]))
-    face, person = hull(FACE_OVAL, 0), believed_person(rgb) > 0.5
+    face, person = hull(FACE_OVAL, 0), person_confidence(rgb) > 0.5
     return {
         "face": face,
         "mouth": hull(LIPS_OUTER, 0.06 * unit),

@@ -103,7 +103,7 @@ class Run:
         self._entered = False
         self._here = _Here()
         self._others: set[Future[Any]] = set()
-        self._at_work: set[Beside[Any]] = set()
+        self._at_work: set[ConcurrentStage[Any]] = set()
         self.seconds: dict[str, float] = {}
         self.reused: list[str] = []
         self.notices: list[Notice] = []
@@ -131,7 +131,9 @@ class Run:
                 name, function, arguments, (self._shared if shared else self._store) if stored else None
             )
 
-    def beside(self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False) -> Beside[T]:
+    def beside(
+        self, name: str, function: Callable[..., T], *arguments: Any, shared: bool = False
+    ) -> ConcurrentStage[T]:
         """Begin a stage on another core while the next ones run; calling what is returned waits for its output.
 
         What it reports on the way and warns of is heard where it is waited for, and its time is that of the wait.
@@ -142,10 +144,10 @@ class Run:
         """
         if not self._entered:
             raise RuntimeError(f"the stage {name} cannot run beside others outside of `with Run()`")
-        one: Beside[T] = Beside(self, name)
+        one: ConcurrentStage[T] = ConcurrentStage(self, name)
 
         def work() -> T:
-            ready = [other.output.result() if isinstance(other, Beside) else other for other in arguments]
+            ready = [other.output.result() if isinstance(other, ConcurrentStage) else other for other in arguments]
             self._here.beside = one
             self._at_work.add(one)
             try:
@@ -281,7 +283,7 @@ class Run:
         self._on_progress(Progress(self._current, self._furthest, message))
 
 
-class Beside(Generic[T]):
+class ConcurrentStage(Generic[T]):
     """A stage at work on another core; calling it waits for its `output`, unless the run is canceled."""
 
     output: Future[T]
@@ -317,7 +319,7 @@ def _reference(output: Any) -> Callable[[], Any]:
 class _Here(threading.local):
     """The stage `beside` the others that this thread works on, if it does."""
 
-    beside: Beside[Any] | None = None
+    beside: ConcurrentStage[Any] | None = None
 
 
 def content_hash(path: Path) -> str:

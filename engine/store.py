@@ -30,7 +30,7 @@ IN_USE_SECONDS = 3600.0
 
 
 @dataclass(frozen=True)
-class Found:
+class StoredOutput:
     """A stored output."""
 
     folder: Path
@@ -49,14 +49,14 @@ class StageStore:
     def __init__(self, folder: Path):
         self.folder = folder
 
-    def find(self, key: str) -> Found | None:
+    def find(self, key: str) -> StoredOutput | None:
         """The output stored under `key`, if there is one; it counts as just used."""
         folder = self.folder / key
         try:
             os.utime(folder)
         except FileNotFoundError:
             return None
-        return Found(folder)
+        return StoredOutput(folder)
 
     def load(self, key: str, kind: Any) -> tuple[list[Notice], Any] | None:
         """The notices and the output stored under `key`; None if there is none that can be read.

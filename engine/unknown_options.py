@@ -12,7 +12,7 @@ LONGEST_NAME = 80
 """As many characters of a name are compared, which takes time by the square of them."""
 
 
-def explained(errors: Sequence[ErrorDetails], options: type[BaseModel]) -> list[ErrorDetails]:
+def with_suggestions(errors: Sequence[ErrorDetails], options: type[BaseModel]) -> list[ErrorDetails]:
     """pydantic's errors, those of unknown options with what is nearest by name, or all there are."""
     return [_explained(error, sorted(options.model_fields)) for error in errors]
 

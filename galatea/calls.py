@@ -19,7 +19,7 @@ from engine.kind import AUTO, Candidates, Given
 from engine.performances import names, video
 from engine.run import Progress, Run
 from engine.store import StageStore
-from engine.unknown_options import explained
+from engine.unknown_options import with_suggestions
 from galatea.inputs import File, Picture, file, picture_file
 from galatea.noise import native_noise_left_out
 from galatea.options import CharacterOptions, PortraitOptions
@@ -129,7 +129,7 @@ def _checked(model: type[Options], given: Mapping[str, Any]) -> Options:
     try:
         return model.model_validate(given)
     except ValidationError as error:
-        first = explained(error.errors(), model)[0]
+        first = with_suggestions(error.errors(), model)[0]
         place = ".".join(str(part) for part in first["loc"])
         raise InputError("invalid_options", f"{place + ': ' if place else ''}{first['msg']}") from error
 

@@ -21,7 +21,7 @@ from engine.face_animation.neutral import choose_neutral_frame
 from engine.face_animation.registration import register_track
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
-from engine.imaging.composite import doubled, over, warp_layer
+from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.media.limits import Limits
 from engine.performances import video
 from engine.portrait.options import PortraitOptions
@@ -119,7 +119,7 @@ def _colours(origin: NDArray[np.float32]) -> Picture:
 
 def _warped(layers: Layers, rig: Rig, moved: NDArray[np.float32]) -> Picture:
     origin = rig.mesh.inverse_map(moved[:, :2], moved[:, 2], scale=2)
-    return np.asarray(over(warp_layer(doubled(layers.person), origin), layers.plate), np.uint8)
+    return np.asarray(composite_over(warp_layer(upsample_twice(layers.person), origin), layers.plate), np.uint8)
 
 
 def _on_checks(rgba: Picture) -> Picture:

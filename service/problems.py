@@ -20,7 +20,7 @@ from starlette.responses import Response
 from starlette.routing import Match
 from starlette.types import Scope
 
-from engine.unknown_options import explained
+from engine.unknown_options import with_suggestions
 from service.database.postgresql import UNTRANSLATABLE_CODE, error_code
 from service.database.sessions import database_unavailable
 from service.storage.files import StorageUnavailable
@@ -152,7 +152,7 @@ def invalid(
     told = error.errors(include_url=False, include_context=False, include_input=False)
     count = len(told)
     if options is not None:
-        told = explained(told[:MAX_ERRORS], options)
+        told = with_suggestions(told[:MAX_ERRORS], options)
     return _invalid(code, field_errors(told, prefix, elsewhere), count)
 
 

@@ -113,9 +113,9 @@ def _machine(settings: Settings) -> Iterator[Finding]:
 
 
 def _packages(settings: Settings) -> Iterator[Finding]:
-    from engine.perception.solutions import know_old_ways
+    from engine.perception.solutions import restore_message_lookup
 
-    know_old_ways()
+    restore_message_lookup()
     for distribution, module in REQUIRED_PACKAGES.items():
         try:
             importlib.import_module(module)

@@ -22,7 +22,7 @@ from engine.kind import AUTO, Candidates, Given, Input, Kind
 from engine.package_data import IncompleteInstallation
 from engine.run import Progress, Run
 from engine.store import StageStore, trim
-from engine.unknown_options import explained
+from engine.unknown_options import with_suggestions
 from service.catalogue import built_in
 from service.settings import MEGABYTE, Settings
 from shell.cli_error import CliError
@@ -129,7 +129,7 @@ def _options(kind: Kind, text: str, given: Mapping[str, Any], named: Mapping[str
     except OSError as error:
         raise CliError(f"--options: {error.filename} cannot be read: {error.strerror}") from error
     except ValidationError as error:
-        first = explained(error.errors(), kind.options)[0]
+        first = with_suggestions(error.errors(), kind.options)[0]
         place = [str(part) for part in first["loc"]]
         if place and place[0] in flags:
             form = form_of(kind.options.model_fields[place[0]]) if first["type"] in MISFORMED_ERRORS else None

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.hands import FINGERS, HandModel, chain
+from engine.body.hands import FINGERS, HandModel, finger_landmarks
 from engine.body.least_squares import levenberg_marquardt
 from engine.body.pose_prior import JOINT_LIMIT_SIGMA
 from engine.body.posing import rotation_matrices
@@ -44,7 +44,11 @@ has it elsewhere."""
 
 PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
 """From pixels, y down, to the world's axes."""
-HAND_BONES = tuple((a, b) for finger in FINGERS for a, b in zip((0, *chain(finger)[:3]), chain(finger), strict=True))
+HAND_BONES = tuple(
+    (a, b)
+    for finger in FINGERS
+    for a, b in zip((0, *finger_landmarks(finger)[:3]), finger_landmarks(finger), strict=True)
+)
 """The bones of a hand as pairs of landmarks."""
 
 
@@ -116,7 +120,7 @@ class _Hand:
         places = np.zeros((len(parameters), 21, 3))
         for k, finger in enumerate(FINGERS):
             axes, before = hand, 0
-            for joint, landmark in enumerate(chain(finger)):
+            for joint, landmark in enumerate(finger_landmarks(finger)):
                 step = self.rest[landmark] - self.rest[before]
                 places[:, landmark] = places[:, before] + np.einsum("nij,j->ni", axes, step)
                 if joint < 3:
@@ -144,7 +148,7 @@ def fit_hand(
     tried = [levenberg_marquardt(residuals, _start(hand, seen, turn)) for turn in (_turn(hand, seen), of_body)]
     parameters = min(tried, key=lambda found: float((residuals(found[None]) ** 2).sum()))
     off = np.linalg.norm(hand.pixels(parameters[None], hand(parameters[None]))[0] - seen[:, :2], axis=1)
-    turned = [0, *(landmark for finger in FINGERS for landmark in chain(finger)[:3])]
+    turned = [0, *(landmark for finger in FINGERS for landmark in finger_landmarks(finger)[:3])]
     return HandFit(
         model.joints[turned],
         hand.rotations(parameters[None])[0],
@@ -159,7 +163,7 @@ def openness(seen: NDArray[np.floating]) -> float:
     where all are stretched and seen whole."""
     reach = []
     for finger in FINGERS[1:]:
-        joints = seen[chain(finger)]
+        joints = seen[finger_landmarks(finger)]
         length = np.linalg.norm(np.diff(joints, axis=0), axis=1).sum()
         reach.append(np.linalg.norm(joints[-1, :2] - joints[0, :2]) / max(float(length), 1e-6))
     return float(min(reach))
@@ -167,15 +171,15 @@ def openness(seen: NDArray[np.floating]) -> float:
 
 def fingers_apart(seen: NDArray[np.floating]) -> float:
     """The least distance of neighbouring fingertips of a hand (21, 2 or more) in the picture, in lengths of the hand."""
-    tips = seen[[chain(finger)[3] for finger in FINGERS], :2]
+    tips = seen[[finger_landmarks(finger)[3] for finger in FINGERS], :2]
     return float(np.linalg.norm(np.diff(tips, axis=0), axis=1).min()) / hand_length(seen)
 
 
 def hand_length(points: NDArray[np.floating]) -> float:
     """For landmarks (21, 2 or more): pixels from the wrist along the middle finger, or across the palm if that is longer: the hand's length as seen."""
     points = points[:, :2]
-    finger = points[[0, *chain("Middle")]]
-    across = float(np.linalg.norm(points[chain("Index")[0]] - points[chain("Pinky")[0]]))
+    finger = points[[0, *finger_landmarks("Middle")]]
+    across = float(np.linalg.norm(points[finger_landmarks("Index")[0]] - points[finger_landmarks("Pinky")[0]]))
     return max(float(np.linalg.norm(np.diff(finger, axis=0), axis=1).sum()), 2 * across, 1.0)
 
 
@@ -190,7 +194,7 @@ def _start(hand: _Hand, seen: NDArray[np.floating], turn: NDArray[np.floating]) 
 
 def _turn(hand: _Hand, seen: NDArray[np.floating]) -> NDArray[np.float64]:
     """The hand's turn by which its palm lies as the one seen in space."""
-    palm = [chain(finger)[0] for finger in FINGERS[1:]]
+    palm = [finger_landmarks(finger)[0] for finger in FINGERS[1:]]
     turn, _ = Rotation.align_vectors(
         (seen[palm] - seen[0]) * PICTURE_TO_WORLD @ hand.anchor.forearm_axes, hand.rest[palm]
     )

@@ -66,7 +66,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Le
     )
 
 
-def chain(finger: str) -> list[int]:
+def finger_landmarks(finger: str) -> list[int]:
     """The landmarks of a finger from its first joint to its tip."""
     return [HAND_JOINTS.index(f"{finger}{k}") for k in (1, 2, 3, 4)]
 
@@ -76,16 +76,16 @@ def _axes(places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np
 
     Fingers bend in the plane of their own direction and the palm's; the thumb bends to where the little finger begins.
     """
-    index, little = places[chain("Index")[0]], places[chain("Pinky")[0]]
+    index, little = places[finger_landmarks("Index")[0]], places[finger_landmarks("Pinky")[0]]
     across = index - little
     along = (index + little) / 2 - places[0]
     palm = np.cross(along, across)
-    tips = places[[chain(finger)[3] for finger in FINGERS[1:]]].mean(0) - (index + little) / 2
+    tips = places[[finger_landmarks(finger)[3] for finger in FINGERS[1:]]].mean(0) - (index + little) / 2
     palm *= np.sign(palm @ tips)  # fingers at rest are a little bent, towards the palm
     palm /= np.linalg.norm(palm)
     axes = []
     for finger in FINGERS:
-        first, last = chain(finger)[1 if finger == "Thumb" else 0], chain(finger)[3]
+        first, last = finger_landmarks(finger)[1 if finger == "Thumb" else 0], finger_landmarks(finger)[3]
         out = places[last] - places[first]
         axes.append(np.cross(out, little - places[first] if finger == "Thumb" else palm))
     bend = np.stack(axes)

@@ -51,7 +51,7 @@ def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkMo
     found: dict[str, tuple[str, NDArray[np.intp] | None]] = {}
     for side, _ in SIDE_SIGNS:
         found |= {f"{side}{name}": (f"{side}{joint}", None) for name, joint in JOINT_LANDMARKS.items()}
-    found |= {name: (carrier(name), at) for name, at in surface_landmarks(template, space, rig).items()}
+    found |= {name: (carrying_joint(name), at) for name, at in surface_landmarks(template, space, rig).items()}
     means, bases = [], []
     for joint, vertices in found.values():
         if vertices is None:
@@ -70,7 +70,7 @@ def landmark_model(template: Template, space: BodySpace, rig: Rig) -> LandmarkMo
     )
 
 
-def carrier(name: str) -> str:
+def carrying_joint(name: str) -> str:
     """The joint that carries a point of the surface."""
     if name.endswith("Heel"):
         return name.removesuffix("Heel") + "Foot"

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from engine.character.measures import picture_camera, pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.mask_pieces import bounding_box, pieces_touching
 from engine.render.ground_shadow import GroundShadow
 
@@ -57,7 +57,7 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     left = int(max(0, columns.start - BESIDE * high))
     right = int(min(alpha.shape[1], columns.stop + BESIDE * high))
     part = slice(top, bottom), slice(left, right)
-    near = grown(alpha[part] > 0.02, 2)
+    near = dilate_mask(alpha[part] > 0.02, 2)
     small = cv2.GaussianBlur(rgb[part], (0, 0), 1.2)
     lab = cv2.cvtColor(small, cv2.COLOR_RGB2LAB).astype(np.float64)
     light = np.log(np.maximum(small.astype(np.float64).mean(-1), 4))
@@ -70,7 +70,7 @@ def find_cast_shadow(rgb: NDArray[np.uint8], alpha: NDArray[np.float32]) -> Cast
     dark = cv2.morphologyEx(dark.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0
     # it begins at the feet
     feet = near & (np.arange(top, bottom)[:, None] > lowest - 0.08 * high)
-    reach = grown(feet, max(2, high // 60))
+    reach = dilate_mask(feet, max(2, high // 60))
     found = dark & pieces_touching(dark | reach, reach, connectivity=8)
     if not LEAST * person.sum() < found.sum() < MOST * person.sum():
         return nothing

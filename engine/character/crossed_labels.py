@@ -19,7 +19,7 @@ from engine.body.rig import Rig
 from engine.character.crossed_arms import CrossedArms
 from engine.character.figure import SIDES, Figure
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.mask_distance import distance_inside, grown
+from engine.imaging.mask_distance import dilate_mask, distance_inside
 from engine.imaging.mask_pieces import largest_piece
 
 NARROWEST, WIDEST = 0.045, 0.085
@@ -76,7 +76,7 @@ def label_crossed(
     hands = {side: arm.hand(mask.shape) & mask for side, arm in own.items()}
     if arms.crossing.tucked_at is not None:  # at the outline the arm before it is too thin to hide it from all sides
         hands[back] &= distance_inside(mask) > RIM
-    reach = grown(hands[front] | covers[front], 2)
+    reach = dilate_mask(hands[front] | covers[front], 2)
     seen = largest_piece(covers[front] | (hands[front] & skin & reach))
     whole = covers[back] | hands[back]
     shown = np.full(mask.shape, -1, np.int8)

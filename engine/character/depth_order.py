@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.character.part_surface import Surface
 from engine.character.sheets import THINNEST, Layer
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 from engine.imaging.mask_pieces import largest_piece
 
 THIN = 0.5
@@ -49,7 +49,7 @@ def body_behind(body: Layer, limb: Layer, own: NDArray[np.bool_]) -> Layer:
     middle = (body.front.depth + body.back.depth) / 2
     reach = _reach(limb) - BENEATH
     shown = body.mask & ~own
-    beside = grown(shown, 1)  # or what is between pixels would gape
+    beside = dilate_mask(shown, 1)  # or what is between pixels would gape
     mask = largest_piece(body.mask & ~(hidden & (reach < middle) & ~_between(shown) & ~beside))
     front = body.front.depth.copy()
     front[hidden] = np.clip(reach, body.back.depth + THIN * (front - body.back.depth), front)[hidden]

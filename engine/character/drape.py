@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter1d
 from engine.character.free_cloth import FreeCloth
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 
 STEEPEST = 0.7
 """By how much half of the depth may grow with a step down."""
@@ -52,7 +52,7 @@ def _hem(mask: NDArray[np.bool_], cloth: FreeCloth) -> NDArray[np.float32]:
     first = cloth.rings[-1].row
     if cloth.legs is not None and cloth.parted:
         first = min(first, int(np.flatnonzero((cloth.legs >= 0).any(1))[0]) - 1)
-    hem = mask & cloth.worn & grown(~mask, 1)
+    hem = mask & cloth.worn & dilate_mask(~mask, 1)
     hem[:first] = False
     up, within = np.zeros(mask.shape, np.float32), hem
     for step in range(1, round(OPEN * cloth.even) + 1):

@@ -17,7 +17,7 @@ from engine.imaging.resample import even_size
 from engine.motion.clip import Clip
 from engine.render.backdrop import Backdrop
 from engine.render.camera_moves import Move, camera_at
-from engine.render.character import Actor, film_cast, prepare
+from engine.render.character import Actor, film_cast, prepare_character
 from engine.render.ground_shadow import GroundShadow
 
 LONGEST_SIDE = 1280
@@ -70,7 +70,7 @@ def cast_of(people: Sequence[tuple[Character, Clip]]) -> list[Actor]:
     cast = []
     for character, clip in sorted(people, key=lambda one: -float(one[0].eye[2] - one[1].root[0, 2])):
         x, y, z = (main.eye - character.eye).tolist()
-        cast.append(Actor(prepare(character.mesh), clip, (x, y, z)))
+        cast.append(Actor(prepare_character(character.mesh), clip, (x, y, z)))
     return cast
 
 

@@ -20,7 +20,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
-from engine.motion.confine import Room, confined
+from engine.motion.confine import MovementRoom, confine_clip
 from engine.motion.sole import leg_length
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ BACK = 0.6
 """How far anybody steps back, at most, leg lengths: one step of each foot."""
 BEHIND = 1.2
 """How far away from the viewer a motion may lead, metres: not into the wall of `engine.character.film`."""
-SPOT = Room(0.0, BEHIND, 0.0, 0.0)
+SPOT = MovementRoom(0.0, BEHIND, 0.0, 0.0)
 COMES = 0.3
 """Metres by which a motion comes nearer that is on its way, and no sway."""
 HALVINGS = 5
@@ -77,7 +77,7 @@ class _View:
         """Whether the clip stays in the box: with or without hands and arms, which must be in it in the last frame."""
         return self.outside(clip)[everything] <= 0
 
-    def room(self, clip: Clip) -> Room:
+    def room(self, clip: Clip) -> MovementRoom:
         """How far the clip may be moved as it is, before a camera at rest: nearer, and then to the sides."""
         x, y, z = np.moveaxis(self.posed(clip), 2, 0)
         camera = self.camera_at(0.0)
@@ -86,7 +86,7 @@ class _View:
         reach = np.where(y > eye[1], centre[1] - self.low[1], self.high[1] - centre[1])
         ahead = max(float((away - focal * np.abs(y - eye[1]) / np.maximum(reach, 1)).min()), 0.0)
         sides = [(bound - centre[0]) / focal * (away - ahead) - (x - eye[0]) for bound in (self.low[0], self.high[0])]
-        return Room(ahead, BEHIND, max(float(sides[1].min()), 0.0), max(float(-sides[0].max()), 0.0))
+        return MovementRoom(ahead, BEHIND, max(float(sides[1].min()), 0.0), max(float(-sides[0].max()), 0.0))
 
 
 def kept_in_frame(character: Character, camera_at: Callable[[float], Camera], film: Callable[[float], Clip]) -> Clip:
@@ -115,10 +115,10 @@ class _Maker:
         self._comes = float(ahead.max()) > COMES
         self.most = BACK * leg_length(self._skeleton)
 
-    def made(self, back: float, room: Room = SPOT, leap: float = 1.0) -> Clip:
+    def made(self, back: float, room: MovementRoom = SPOT, leap: float = 1.0) -> Clip:
         if back and self._comes:  # the steps that it takes anyway lead back
-            return confined(self._skeleton, self.first, replace(room, ahead=-back), leap)
-        return confined(self._skeleton, self._film(back) if back else self.first, room, leap)
+            return confine_clip(self._skeleton, self.first, replace(room, ahead=-back), leap)
+        return confine_clip(self._skeleton, self._film(back) if back else self.first, room, leap)
 
 
 def _framed(view: _View, maker: _Maker, everything: bool) -> Clip | None:
@@ -133,8 +133,8 @@ def _framed(view: _View, maker: _Maker, everything: bool) -> Clip | None:
     return maker.made(back, _shared(widest, 1 - less))
 
 
-def _shared(room: Room, share: float) -> Room:
-    return Room(share * room.ahead, room.behind, share * room.left, share * room.right)
+def _shared(room: MovementRoom, share: float) -> MovementRoom:
+    return MovementRoom(share * room.ahead, room.behind, share * room.left, share * room.right)
 
 
 def _least(fits: Callable[[float], bool]) -> float:

@@ -19,7 +19,7 @@ from engine.imaging.colour_segmentation import (
     ContrastGraph,
     log_likelihood_ratio,
 )
-from engine.imaging.mask_distance import distance_inside, distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.mask_pieces import bounding_box, mask_height, pieces_by_area, pieces_touching
 
 WORKING = 500
@@ -75,7 +75,7 @@ def gaps(
     if not found.any():
         return none
     found = _to_their_ends(small, mask, found, limbs, hands, height)
-    around = grown(found, EDGE)
+    around = dilate_mask(found, EDGE)
     large = cv2.resize(found.astype(np.float32), (rgb.shape[1], rgb.shape[0]), interpolation=cv2.INTER_LINEAR)
     reach = max(2, round(EDGE / scale))
     fine = cv2.ximgproc.guidedFilter(rgb, large, reach, CONTRAST**2)
@@ -142,7 +142,7 @@ def _large_with_edges(
     found = np.zeros(likely.shape, np.bool_)
     depth = np.asarray(cv2.distanceTransform(likely.astype(np.uint8), cv2.DIST_L2, 5))
     rest = (alpha > 0.5) & ~likely
-    edge = likely & grown(rest, 1)
+    edge = likely & dilate_mask(rest, 1)
     steps = np.linalg.norm(_around(lab, likely) - _around(lab, rest), axis=2) > CONTRAST
     for own in pieces_by_area(likely, LEAST * height**2):
         if belief[own].mean() > SURE or 2 * depth[own].max() < NARROWEST * height:
@@ -187,7 +187,7 @@ def _cut(
     """The `gap` (h, w) and what of the pixels that are `asked` (h, w) is more of it, up to where colours (h, w, 3) change: those of a
     white shirt before a white wall say little of themselves."""
     core = distance_inside(gap) > 1
-    zone = grown(asked | gap, 1)
+    zone = dilate_mask(asked | gap, 1)
     pixels = lab[zone]
     likelier = body.negative_log_likelihood(pixels) - behind.negative_log_likelihood(pixels)
     likelier = np.clip(likelier - CERTAIN, -MOST_AT_EDGES, MOST_AT_EDGES)

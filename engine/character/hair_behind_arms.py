@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from engine.body.parts import BODY_PARTS
 from engine.character.labels import ARMS, SPECK
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.mask_pieces import pieces_touching, without_small_pieces
 
 OUTLINE = 0.008
@@ -56,4 +56,4 @@ def hair_behind_arms(
 
 def _grown_by_share(mask: NDArray[np.bool_], share: float) -> NDArray[np.bool_]:
     """A mask (H, W) grown by a share of its height."""
-    return grown(mask, max(1, round(share * mask.shape[0])))
+    return dilate_mask(mask, max(1, round(share * mask.shape[0])))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 from engine.character.sheets import ClosedMesh
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 
 THINNEST = 4.0
 """Pixels from the outline to the middle from which a part of a head is round."""
@@ -37,7 +37,7 @@ def with_round_sides(mesh: ClosedMesh, head: NDArray[np.bool_], face: NDArray[np
     body = mesh.layer == body_layer
     met = mesh.pixels(np.flatnonzero(body), head.shape).astype(np.uint8)
     whole = cv2.morphologyEx(met, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8)) > 0  # its border lies between pixels
-    near = grown(head, 2)  # a border lies between pixels
+    near = dilate_mask(head, 2)  # a border lies between pixels
     rest = (whole & ~near).astype(np.uint8)
     on_head = body & near[_pixels(mesh, head.shape)]
     triangles = mesh.triangles

@@ -22,7 +22,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
 from engine.imaging.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
 BAND = 0.05
@@ -84,7 +84,7 @@ def legs_below(
     legs = np.where(band, shown, below)
     alone = (person & ~legs).astype(np.uint8)
     thread = person & ~(cv2.morphologyEx(alone, cv2.MORPH_OPEN, np.ones((THREAD, THREAD), np.uint8)) > 0)
-    legs |= thread & (rows > end) & grown(legs, THREAD)
+    legs |= thread & (rows > end) & dilate_mask(legs, THREAD)
     # what hangs together with no foot is cloth
     legs = pieces_touching(legs, rows > end + wide)
     found = np.full(labels.shape, -1, np.int8)
@@ -94,7 +94,7 @@ def legs_below(
         own = found == leg
         whole = largest_piece(own)
         if before not in (None, leg):
-            whole |= pieces_touching(without_small_pieces(own, LEAST), grown(found == before, 1))
+            whole |= pieces_touching(without_small_pieces(own, LEAST), dilate_mask(found == before, 1))
         found[own & ~whole if whole.sum() >= LEAST else own] = -1
     return found
 

@@ -16,7 +16,7 @@ from engine.imaging.colour_segmentation import (
     colour_costs,
     log_likelihood_ratio,
 )
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 from engine.imaging.mask_pieces import pieces_touching
 
 ARMS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
@@ -102,7 +102,7 @@ def hair_beside_arms(
     hair = (labels == head) & (template != head)
     for arm in ARMS:
         own = labels == arm
-        close = grown(template == arm, max(1, round(BARE_ARM * labels.shape[0])))
+        close = dilate_mask(template == arm, max(1, round(BARE_ARM * labels.shape[0])))
         doubtful = own & ~close & (sure != arm)
         if min(int(one.sum()) for one in (hair, doubtful, own & close)) < MIN_SAMPLES:
             continue
@@ -164,7 +164,7 @@ def _refine(
     colours: NDArray[np.float64], labels: NDArray[np.intp], region: NDArray[np.bool_], template: NDArray[np.integer]
 ) -> None:
     """Refine the labels within one region, in place."""
-    around = grown(region, 7)
+    around = dilate_mask(region, 7)
     near = around & (labels >= 0)
     meeting = [int(label) for label in np.unique(labels[region])]
     if len(meeting) < 2:

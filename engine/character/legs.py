@@ -15,7 +15,7 @@ from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 
 LEGS_APART = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""
@@ -25,7 +25,7 @@ HALF = 0.5
 
 def cut_along(labels: NDArray[np.integer], parting: NDArray[np.bool_]) -> NDArray[np.int8]:
     """Along the parting of the legs, the side to which a pixel belongs: 1 left, 2 right; 0 elsewhere (h, w)."""
-    near = grown(parting, 1)
+    near = dilate_mask(parting, 1)
     cut = np.zeros(labels.shape, np.int8)
     for side, name in ((1, "left_leg"), (2, "right_leg")):
         cut[near & (labels == BODY_PARTS.index(name))] = side

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 
 BESIDE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""
@@ -22,7 +22,7 @@ def border(limb: NDArray[np.bool_], person: NDArray[np.bool_], rgb: NDArray[np.u
     of the rest of the `person` (h, w) is near."""
     size = (limb.shape[1], limb.shape[0])
     soft = np.asarray(cv2.resize(soft_limbs(limb, rgb), size, interpolation=cv2.INTER_AREA), np.float32)
-    return np.where(grown(person & ~limb, APART), soft, 1).astype(np.float32)
+    return np.where(dilate_mask(person & ~limb, APART), soft, 1).astype(np.float32)
 
 
 def soft_limbs(limbs: NDArray[np.bool_], rgb: NDArray[np.uint8]) -> NDArray[np.float32]:

@@ -17,7 +17,7 @@ from engine.character.face_region import within_oval
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, OTHER_SIDE
 from engine.imaging.inpaint import inpaint
-from engine.imaging.mask_distance import distance_inside, distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_inside, distance_to
 from engine.imaging.nearest import continued_colours
 from engine.imaging.resample import enlarged_mask
 from engine.imaging.usual_colours import usual_colours
@@ -36,7 +36,7 @@ HARDLY = 0.25
 def own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The pixels (h, w) whose colours are the limbs': those `labelled` so where their surface is `shown`, and what it shows
     beyond slivers elsewhere. The others are on the body, whatever they are called."""
-    near = grown(shown, 1)
+    near = dilate_mask(shown, 1)
     more = cv2.morphologyEx((shown & ~labelled).astype(np.uint8), cv2.MORPH_OPEN, np.ones((SLIVER, SLIVER), np.uint8))
     return np.asarray((labelled & near) | (more > 0))
 
@@ -70,12 +70,12 @@ def paint_limbs(
         legs = enlarged_mask(distance_to(limbs & legs) < distance_to(limbs & ~legs), size)
         hole = enlarged_mask(reach & ~limbs, size)
         made = of_the_limbs(seen, around & own, hole, scale, legs)
-        near = enlarged_mask(grown(limbs | reach, SLIVER), size)  # what an unseen limb is like may be elsewhere
+        near = enlarged_mask(dilate_mask(limbs | reach, SLIVER), size)  # what an unseen limb is like may be elsewhere
         made = np.where(near[..., None], made, seen)
     for arm in sleeves:
         made = _like_the_other_sleeve(made, seen, labels, arm, sleeves, limbs, own)
     if (labels.hidden >= 0).any():
-        hands = grown(labels.hidden >= 0, SLIVER) & ~limbs
+        hands = dilate_mask(labels.hidden >= 0, SLIVER) & ~limbs
         made = _with_skin(made, seen, enlarged_mask(hands, size), face, own)
     return made
 
@@ -133,7 +133,7 @@ def behind_another(
     """The `limbs` (h, w, 3) with that which is `behind` another in its own colours there, as they are elsewhere on it."""
     size = (own.shape[1], own.shape[0])
     mine = labels.labels == behind.limb
-    edge = grown(behind.area, SLIVER // 2)
+    edge = dilate_mask(behind.area, SLIVER // 2)
     worn = usual_colours(limbs, enlarged_mask(mine & ~edge, size) & own)
     whole = inpaint(limbs, enlarged_mask(behind.area | (mine & edge), size), worn)
     return _with_skin(whole, seen, enlarged_mask(behind.hand, size), face, own)

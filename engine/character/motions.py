@@ -16,7 +16,7 @@ from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
-from engine.motion.edit import in_place, keep, travel
+from engine.motion.edit import in_place, keep_pictured_parts, loop_travel
 from engine.motion.library import CLIPS, built_in
 from engine.motion.reading import read_motion
 from engine.motion.retarget import retarget
@@ -91,11 +91,11 @@ def choose_motion(
 
     def stepped(back: float) -> Clip:
         film = _lasting(step_out(skeleton, start, clip, length=length, back=back), seconds)
-        return keep(skeleton, film, start, list(kept)) if kept else film
+        return keep_pictured_parts(skeleton, film, start, list(kept)) if kept else film
 
     film = replace(kept_in_frame(character, camera_at, stepped), name="step_out")
     if kept:
-        clip = keep(skeleton, clip, start, list(kept))
+        clip = keep_pictured_parts(skeleton, clip, start, list(kept))
     others = [_other_motion(skeleton, start, other, kept) for other in CLIPS if other != clip.name]
     clips = [character.pictured, film, clip, replace(in_place(clip), name=_in_place_name(clip)), *others]
     return Played(film, tuple(clips), mapping)
@@ -106,8 +106,8 @@ def _other_motion(skeleton: Skeleton, start: Clip, name: str, kept: Sequence[str
     whatever rate the film is, for players fill in between."""
     clip = built_in(name, skeleton)
     if kept:
-        clip = keep(skeleton, clip, start, list(kept))
-    if clip.loops and np.linalg.norm(travel(clip)) > TRAVELS:
+        clip = keep_pictured_parts(skeleton, clip, start, list(kept))
+    if clip.loops and np.linalg.norm(loop_travel(clip)) > TRAVELS:
         return replace(in_place(clip), name=_in_place_name(clip))
     return clip
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 from engine.imaging.mask_pieces import largest_piece, outline, pieces_by_area
 from engine.imaging.nearest import nearest_in
 
@@ -92,7 +92,7 @@ def completed(
     body = _one_piece(visible, hidden_by, template)
     border, reference = outline(body), outline(largest_piece(template))
     partners = match_boundaries(border, reference)
-    beside = grown(hidden_by, 1)
+    beside = dilate_mask(hidden_by, 1)
     at = border.astype(int)
     spurious = beside[at[:, 1], at[:, 0]] & near[at[:, 1], at[:, 0]]
     wider = body.copy()

@@ -15,7 +15,7 @@ from engine.body.rig import Rig
 from engine.character.labels import LEGS, OTHER_SIDE
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_maps import side_maps
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 
 CROSSING = 0.04
 """Metres around the place where legs cross within which is looked which of them is seen."""
@@ -76,7 +76,7 @@ def standing_off(labels: NDArray[np.integer], leg: int, away: NDArray[np.floatin
     """Pixels by which what is worn on a leg stands off from it: how far `away` (h, w) from the template's its edge lies, where
     nothing else of the person is beside it, on its lower half: further up may be a skirt."""
     rows = np.flatnonzero((labels == leg).any(1))
-    free = (labels == leg) & grown(labels < 0, 1)
+    free = (labels == leg) & dilate_mask(labels < 0, 1)
     free[: int(rows.mean()) if len(rows) else 0] = False
     return float(np.median(away[free])) if free.any() else 0.0
 
@@ -93,7 +93,7 @@ def as_the_template(labels: NDArray[np.integer], template: NDArray[np.integer], 
 
 def beside_the_other(labels: NDArray[np.integer], leg: int) -> NDArray[np.bool_]:
     """The pixels (h, w) of a leg beside which the other one shows."""
-    return (labels == leg) & grown(labels == OTHER_SIDE[leg], 1)
+    return (labels == leg) & dilate_mask(labels == OTHER_SIDE[leg], 1)
 
 
 def hidden_leg(

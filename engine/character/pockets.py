@@ -20,7 +20,7 @@ from engine.character.labels import ARMS, complete_labels
 from engine.character.template_maps import side_maps
 from engine.character.unfound_hands import SURE, UnfoundHand, unit
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 from engine.imaging.mask_pieces import pieces_touching
 
 UNSEEN = 0.7
@@ -139,5 +139,5 @@ def _joined(bare: NDArray[np.bool_], arm: NDArray[np.bool_]) -> NDArray[np.bool_
     if not bare.any():
         return bare
     both = cv2.morphologyEx((bare | arm).astype(np.uint8), cv2.MORPH_CLOSE, np.ones((SHADOW, SHADOW), np.uint8)) > 0
-    near = grown(bare, SHADOW)
+    near = dilate_mask(bare, SHADOW)
     return np.asarray(bare | (both & near))

@@ -21,7 +21,7 @@ from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.mask_distance import distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_to
 from engine.imaging.mask_pieces import largest_piece
 
 SHOULDER, HIP = 0.105, 0.125
@@ -95,10 +95,10 @@ def limb_in_one_piece(
     own, person = labels.labels == limb, labels.labels >= 0
     if labels.behind is not None and labels.behind.limb == limb:
         own = own | labels.behind.area
-    seen = own | (person & joint & grown(own, round(SHOULDER / 2 * template.pixels_per_metre)))
+    seen = own | (person & joint & dilate_mask(own, round(SHOULDER / 2 * template.pixels_per_metre)))
     lost, behind = not (largest_piece(seen) & joint).any(), False
     if lost or _torn(seen):
-        between = grown(template.covers(triangles, own.shape), UNDER)
+        between = dilate_mask(template.covers(triangles, own.shape), UNDER)
         beneath = between & np.isin(labels.labels, apart)
         led = between & person
         shown = template.shows(triangles, own.shape) & led
@@ -155,10 +155,10 @@ def _body(
         body = body | (crossing & hidden_leg(labels.labels, leg, template, part))
     whole = template.covers(triangles, before.shape)
     body = completed(body, before & covered, labels.occlusion | crossing, whole)
-    body = body | (before & np.where(crossing, grown(body, 1), grown(body, UNDER)))
+    body = body | (before & np.where(crossing, dilate_mask(body, 1), dilate_mask(body, UNDER)))
     for one in limbs:
         if one.behind:  # what lies between two borders of pixels would gape; a shoulder beside it is no trunk's
-            body = body | ((labels.labels == one.limb) & ~one.joint & grown(body, 1))
+            body = body | ((labels.labels == one.limb) & ~one.joint & dilate_mask(body, 1))
     for one in limbs:  # not behind another, as a hand that hangs beside the hip, where no trunk is
         of_both = before & one.joint & ((labels.labels == one.limb) | whole)
         body = largest_piece(body | (of_both & (_inner(labels) | ~crossing)))

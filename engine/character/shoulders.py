@@ -14,7 +14,7 @@ from engine.body.rig import Rig
 from engine.character.labels import ARMS
 from engine.character.posed_template import PosedTemplate
 from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.mask_pieces import pieces_touching
 
 REACH, TRUNK = 0.13, 0.35
@@ -54,7 +54,7 @@ def labelled_shoulders(
             whole = out.copy()
             whole[here] = np.array([BODY_PARTS.index("torso"), arm, BODY_PARTS.index("head")])[found]
             # a neck is as bare as a shoulder
-            astray = (whole == arm) & ~pieces_touching(whole == arm, (own & ~here) | grown(labels < 0, 1))
+            astray = (whole == arm) & ~pieces_touching(whole == arm, (own & ~here) | dilate_mask(labels < 0, 1))
             out[here & ~astray] = whole[here & ~astray]
             plain |= here
     return out, plain

@@ -17,14 +17,14 @@ from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
 from engine.character.strokes import read_mask, repaint_mask
 from engine.errors import InputError
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.models import MattingModel
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF, person_mask
-from engine.perception.segmentation import people_in
+from engine.perception.segmentation import people_confidence
 
 HEIGHT = 400
 """Pixels of the person's height on the grid."""
@@ -104,7 +104,7 @@ def cut_out(
             f"({rest / piece.sum():.0%} of it in size) belongs to them, paint over what parts them.",
         )
     doubt_mask(figure, piece, limbs, warn)
-    alpha = np.where(grown(piece, 4), alpha, 0).astype(np.float32)
+    alpha = np.where(dilate_mask(piece, 4), alpha, 0).astype(np.float32)
     rows, columns = bounding_box(piece)
     scale = HEIGHT / (rows.stop - rows.start)
     matrix = np.array([[scale, 0, -columns.start * scale], [0, scale, -rows.start * scale]])
@@ -133,7 +133,7 @@ def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     rgb = np.ascontiguousarray(figure.rgb[part])
     seed = _seen(figure) if figure.spatial else _limbs(figure)
     known = model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any())
-    people = None if known else people_in(rgb, whole=True)
+    people = None if known else people_confidence(rgb, whole=True)
     own = None if figure.alpha is None else figure.alpha[part]
     alpha = np.zeros(figure.rgb.shape[:2], np.float32)
     alpha[part] = person_mask(rgb, seed[part], own, model, figure.others[part], whole=True, people=people)

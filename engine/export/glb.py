@@ -42,7 +42,7 @@ MAX_PADDING_BYTES = 3
 
 
 @dataclass(frozen=True)
-class Written:
+class WrittenGlb:
     """A file of `size` bytes, whose texture is so many times `smaller` than the mesh's, a JPEG of this `quality`."""
 
     size: int
@@ -65,7 +65,7 @@ def write_glb(
     synthetic: bool = True,
     most: int | None = None,
     check: Callable[[], None] = lambda: None,
-) -> Written:
+) -> WrittenGlb:
     """Write a character; the file appears under its name when it is whole.
 
     Parameters
@@ -115,7 +115,7 @@ def write_glb(
                 how, data = (smaller, lower), with_texture(texture)
                 break
     save_glb(path, data)
-    return Written(len(data), *how)
+    return WrittenGlb(len(data), *how)
 
 
 def save_glb(path: Path, data: bytes) -> None:

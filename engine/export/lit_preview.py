@@ -17,7 +17,7 @@ from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import vertex_normals
-from engine.render.character import Drawn
+from engine.render.character import DrawnCharacter
 
 NEAR_PLANE, FAR_PLANE = 0.05, 100.0
 """Metres from the camera between which things are seen."""
@@ -63,7 +63,9 @@ class LitPreview:
     ) -> None:
         self._renderer.delete()
 
-    def draw(self, posed: NDArray[np.float32], camera: Camera, background: NDArray[np.uint8] | None = None) -> Drawn:
+    def draw(
+        self, posed: NDArray[np.float32], camera: Camera, background: NDArray[np.uint8] | None = None
+    ) -> DrawnCharacter:
         """The character as its vertices `posed` (V, 3) stand, as `engine.render.character.draw_character` gives it.
 
         Light falls from above the camera's left, whichever way the camera looks.
@@ -116,15 +118,15 @@ def _aimed(axes: NDArray[np.float64], towards: tuple[float, float, float], middl
     return pose
 
 
-def _composed(rgba: NDArray[np.uint8], background: NDArray[np.uint8] | None) -> Drawn:
-    """The renderer's picture, whose colours at edges are mixed with black, as a `Drawn`."""
+def _composed(rgba: NDArray[np.uint8], background: NDArray[np.uint8] | None) -> DrawnCharacter:
+    """The renderer's picture, whose colours at edges are mixed with black, as a `DrawnCharacter`."""
     alpha = rgba[..., 3].astype(np.float32) / np.float32(255)
     rgb = rgba[..., :3].astype(np.float32)
     if background is None:
         rgb /= np.maximum(alpha, 1 / 255)[..., None]
     else:
         rgb += (1 - alpha[..., None]) * background
-    return Drawn(np.clip(np.rint(rgb), 0, 255).astype(np.uint8), alpha)
+    return DrawnCharacter(np.clip(np.rint(rgb), 0, 255).astype(np.uint8), alpha)
 
 
 def _load() -> ModuleType:

@@ -34,35 +34,48 @@ class Expression:
     speaking: Override = "none"
 
 
-def both(unit: str, weight: float = 1.0) -> dict[str, float]:
+def both_sides(unit: str, weight: float = 1.0) -> dict[str, float]:
     """A face unit on both sides of the face."""
     return {f"{unit}Left": weight, f"{unit}Right": weight}
 
 
 ARKIT_MIXTURES: Mapping[str, Expression] = {
     "happy": Expression(
-        {**both("mouthSmile", 0.8), **both("cheekSquint", 0.6), **both("eyeSquint", 0.3)}, blinking="blend"
+        {**both_sides("mouthSmile", 0.8), **both_sides("cheekSquint", 0.6), **both_sides("eyeSquint", 0.3)},
+        blinking="blend",
     ),
     "angry": Expression(
-        {**both("browDown"), **both("noseSneer", 0.4), **both("mouthPress", 0.5), **both("eyeSquint", 0.4)}
+        {
+            **both_sides("browDown"),
+            **both_sides("noseSneer", 0.4),
+            **both_sides("mouthPress", 0.5),
+            **both_sides("eyeSquint", 0.4),
+        }
     ),
     "sad": Expression(
-        {"browInnerUp": 0.9, **both("mouthFrown", 0.8), "mouthShrugLower": 0.3, **both("eyeBlink", 0.15)}
+        {"browInnerUp": 0.9, **both_sides("mouthFrown", 0.8), "mouthShrugLower": 0.3, **both_sides("eyeBlink", 0.15)}
     ),
-    "relaxed": Expression({**both("mouthSmile", 0.3), **both("eyeBlink", 0.25)}),
-    "surprised": Expression({"browInnerUp": 0.9, **both("browOuterUp", 0.9), **both("eyeWide", 0.8), "jawOpen": 0.3}),
-    "aa": Expression({"jawOpen": 0.5, **both("mouthLowerDown", 0.2), **both("mouthUpperUp", 0.1)}),
-    "ih": Expression({"jawOpen": 0.15, **both("mouthStretch", 0.4), **both("mouthLowerDown", 0.3)}),
+    "relaxed": Expression({**both_sides("mouthSmile", 0.3), **both_sides("eyeBlink", 0.25)}),
+    "surprised": Expression(
+        {"browInnerUp": 0.9, **both_sides("browOuterUp", 0.9), **both_sides("eyeWide", 0.8), "jawOpen": 0.3}
+    ),
+    "aa": Expression({"jawOpen": 0.5, **both_sides("mouthLowerDown", 0.2), **both_sides("mouthUpperUp", 0.1)}),
+    "ih": Expression({"jawOpen": 0.15, **both_sides("mouthStretch", 0.4), **both_sides("mouthLowerDown", 0.3)}),
     "ou": Expression({"mouthPucker": 0.8, "mouthFunnel": 0.3, "jawOpen": 0.1}),
     "ee": Expression(
-        {"jawOpen": 0.1, **both("mouthSmile", 0.3), **both("mouthStretch", 0.3), **both("mouthLowerDown", 0.3)}
+        {
+            "jawOpen": 0.1,
+            **both_sides("mouthSmile", 0.3),
+            **both_sides("mouthStretch", 0.3),
+            **both_sides("mouthLowerDown", 0.3),
+        }
     ),
     "oh": Expression({"jawOpen": 0.3, "mouthFunnel": 0.7}),
-    "blink": Expression(both("eyeBlink")),
+    "blink": Expression(both_sides("eyeBlink")),
     "blinkLeft": Expression({"eyeBlinkLeft": 1.0}),
     "blinkRight": Expression({"eyeBlinkRight": 1.0}),
-    "lookUp": Expression(both("eyeLookUp")),
-    "lookDown": Expression(both("eyeLookDown")),
+    "lookUp": Expression(both_sides("eyeLookUp")),
+    "lookDown": Expression(both_sides("eyeLookDown")),
     "lookLeft": Expression({"eyeLookOutLeft": 1.0, "eyeLookInRight": 1.0}),
     "lookRight": Expression({"eyeLookInLeft": 1.0, "eyeLookOutRight": 1.0}),
     "neutral": Expression({}),

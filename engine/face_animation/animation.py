@@ -27,7 +27,7 @@ from engine.face_animation.motion import ControlMotion, carry_motion
 from engine.face_animation.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
-from engine.imaging.composite import doubled, over, warp_layer
+from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.imaging.fold_edges import smooth_folds
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import MESH_SIZE
@@ -97,7 +97,7 @@ class FaceAnimation:
         self._target, self._rig, self._track, self._neutral = target, rig, track, neutral
         self._options, self._residuals = options, residuals
         opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
-        self._person = doubled(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
+        self._person = upsample_twice(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and keep_alpha
         self._eyes = EyesAndLids(target) if parts.eyes else None
@@ -137,7 +137,7 @@ class FaceAnimation:
         moved[:, :2] -= corner
         origin = self._rig.mesh.inverse_map(moved[:, :2], moved[:, 2], 2, window.shape)
         layer = warp_layer(self._person, origin)
-        frame = over(layer, np.ascontiguousarray(self._plate[window.pixels]))
+        frame = composite_over(layer, np.ascontiguousarray(self._plate[window.pixels]))
         smooth_folds(frame, origin, FOLD_DISTANCE, self._rig.mesh.vertices + moved[:, :2], self._rig.mesh.triangles)
         face = self.face(motion) - corner
         if self._creases > 0:

@@ -50,13 +50,13 @@ class Eyeball:
     lashes: NDArray[np.float32]
 
 
-def gaze(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+def gaze_offsets(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) how far each iris has moved against the neutral frame, right eye first, in eye widths along
     and across the line between the eye's corners. A shut eye does not look anywhere: it moves back to rest."""
-    return look(meshes) - look(neutral[None])
+    return iris_positions(meshes) - iris_positions(neutral[None])
 
 
-def look(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
+def iris_positions(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N, 2, 2) where each iris stands between the eye's corners, right eye first, from their middle, in eye widths along
     and across the line between them."""
     return np.stack([_look(meshes, side) for side in EYE_VERTICES], axis=1)
@@ -174,7 +174,7 @@ def draw_eye(
 
     Parameters
     ----------
-    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `gaze`.
+    mesh : (478, 2) the face in this frame. side : 0 right, 1 left. look : (2,) from `gaze_offsets`.
     """
     contour, _, outer, inner = EYE_VERTICES[side]
     opening = mesh[list(contour), :2].astype(np.float32)
@@ -197,12 +197,12 @@ def draw_eye(
     below = frame[low[1] : high[1], low[0] : high[0]].astype(np.float32)
     alpha = _departure(eye, opening, look) * cover[..., None].astype(np.float32) / 255
     drawn = below + alpha * (ball - below)
-    seam = closing(eye, mesh, side) * _lash_line(opening - low, shape)[..., None]
+    seam = lid_closing_share(eye, mesh, side) * _lash_line(opening - low, shape)[..., None]
     drawn += seam * (eye.lashes - drawn)
     frame[low[1] : high[1], low[0] : high[0]] = np.clip(drawn + 0.5, 0, 255).astype(np.uint8)
 
 
-def closing(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
+def lid_closing_share(eye: Eyeball, mesh: NDArray[np.floating], side: int) -> float:
     """How far the upper lid of a face (478, 2) takes its own colours: 0 as long as it is open, 1 long before it is shut."""
     by = _open_by(eye, mesh[list(EYE_VERTICES[side][0]), :2].astype(np.float32))
     return float(np.clip((CLOSING_GAP_SHARES[0] - by) / (CLOSING_GAP_SHARES[0] - CLOSING_GAP_SHARES[1]), 0, 1))

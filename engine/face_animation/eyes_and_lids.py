@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes import closing, draw_eye, prepare_eyes
+from engine.face_animation.eyes import draw_eye, lid_closing_share, prepare_eyes
 from engine.face_animation.lid_skin import draw_lid, lid_skins
 from engine.face_animation.target_face import TargetFace
 
@@ -21,5 +21,5 @@ class EyesAndLids:
         """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `eyes.gaze`."""
         for side, eyeball in enumerate(self._eyeballs):
             if eyeball is not None:
-                draw_lid(frame, self._lids[side], face, side, closing(eyeball, face, side))
+                draw_lid(frame, self._lids[side], face, side, lid_closing_share(eyeball, face, side))
                 draw_eye(frame, eyeball, face, side, look[side])

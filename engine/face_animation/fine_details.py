@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.face_animation.head_motion import turns
+from engine.face_animation.head_motion import turn_angles
 from engine.face_animation.outliers import Outliers, find_outliers
 from engine.geometry.rigid import fit_similarity
 from engine.imaging.colour_segmentation import grab_cut
@@ -186,7 +186,7 @@ class RatioImages:
         self._triangles = delaunay(self._rest)
         self._neutral = luminance(track.crop(neutral))
         self._refined = refined
-        turn = np.rad2deg(turns(track.meshes, track.meshes[neutral]))
+        turn = np.rad2deg(turn_angles(track.meshes, track.meshes[neutral]))
         self._frontal = SHADING_SHARE * np.clip(1 - turn / NO_SHADING_TURN_DEGREES, 0, 1).astype(np.float32)
         self._trusted = np.clip(
             (NO_CREASE_TURN_DEGREES - turn) / (NO_CREASE_TURN_DEGREES - CREASE_TURN_DEGREES), 0, 1

@@ -29,7 +29,7 @@ class HeadMotion:
     expression: NDArray[np.float32]
 
 
-def turns(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+def turn_angles(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) angle in radians between each mesh's line of sight and the neutral's: turns out of the picture plane."""
     chosen = list(RIGID_VERTICES)
     rotation = fit_similarities(neutral[chosen].astype(float), meshes[:, chosen], np.ones(len(chosen)))[1]

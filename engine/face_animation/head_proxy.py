@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.head_motion import SOFT_WEIGHT, HeadMotion, turns
+from engine.face_animation.head_motion import SOFT_WEIGHT, HeadMotion, turn_angles
 from engine.geometry.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eye_distance
@@ -70,7 +70,7 @@ def _joined_rim(mesh: NDArray[np.floating]) -> NDArray[np.float64]:
     inside = apart.min(axis=1)
     t = np.clip(inside / (CONTOUR_BLEND_EYE_DISTANCES * float(eye_distance(mesh[:, :2]))), 0, 1)
     rise = t * t * (3 - 2 * t) * (mesh[:, 2] - rim)
-    slant = np.rad2deg(turns(mesh[None], canonical_face())[0])
+    slant = np.rad2deg(turn_angles(mesh[None], canonical_face())[0])
     bound = np.clip(
         (slant - SLOPE_BOUND_TURN_DEGREES[0]) / (SLOPE_BOUND_TURN_DEGREES[1] - SLOPE_BOUND_TURN_DEGREES[0]), 0, 1
     )

@@ -113,7 +113,7 @@ def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.asarray(brightness * colour / float(colour @ LUMINANCE_WEIGHTS), np.float32)
 
 
-def uncovered(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
+def unseen_mouth_share(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
     """How much of what is seen in the mouth of a frame's face (478, 2) the target does not show, from 0 to 1."""
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
     grown = (float(cv2.contourArea(inner)) / palette.area - AREA_FROM) / (AREA_FULLY - AREA_FROM)
@@ -134,7 +134,7 @@ def transfer_mouth(
     frame : (H, W, 3) the warped target, with its face at `mesh` (478, 2).
     crop : the driver's frame, with its face at `crop_mesh` (478, 2).
     """
-    blend = uncovered(mesh, palette)
+    blend = unseen_mouth_share(mesh, palette)
     if blend == 0:
         return
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)

@@ -47,7 +47,7 @@ class LandmarkResiduals:
         ----------
         faces : (N, 478, 2) the driver's face in its crop. placed : (N, 478, 2) the target's points as they were carried.
         """
-        measured = (_likeness(flat(faces), self.faces) @ self.weights).reshape(-1, MESH_SIZE, 2)
+        measured = (_likeness(flatten_residuals(faces), self.faces) @ self.weights).reshape(-1, MESH_SIZE, 2)
         right = placed[:, None, [263, 362]].mean(axis=2) - placed[:, None, [33, 133]].mean(axis=2)  # one eye distance
         down = right[..., ::-1] * (-1, 1)
         return _keep_closed(-_shares() * (measured[..., :1] * right + measured[..., 1:] * down), placed)
@@ -55,9 +55,9 @@ class LandmarkResiduals:
 
 def fit_residuals(faces: NDArray[np.floating], measured: NDArray[np.floating]) -> LandmarkResiduals:
     """From the residuals `measured` (K, 478, 2) of frames of the driver with these `faces` (K, 478, 2), pixels of its crop."""
-    known = flat(faces)
+    known = flatten_residuals(faces)
     size = np.linalg.norm(measured, axis=2, keepdims=True) / CROP_EYE_DISTANCE
-    believed = flat(measured * np.minimum(1, MAX_RESIDUAL / np.maximum(size, 1e-6)))
+    believed = flatten_residuals(measured * np.minimum(1, MAX_RESIDUAL / np.maximum(size, 1e-6)))
     weights = np.linalg.solve(_likeness(known, known) + REGRESSION_RIDGE * np.eye(len(known)), believed)
     return LandmarkResiduals(known, weights.astype(np.float32))
 
@@ -67,7 +67,7 @@ def no_residuals() -> LandmarkResiduals:
     return LandmarkResiduals(np.zeros((0, 2 * MESH_SIZE), np.float32), np.zeros((0, 2 * MESH_SIZE), np.float32))
 
 
-def flat(faces: NDArray[np.floating]) -> NDArray[np.float32]:
+def flatten_residuals(faces: NDArray[np.floating]) -> NDArray[np.float32]:
     """(K, 478, 2) pixels of the crop as (K, 956) eye distances."""
     return np.asarray(faces.reshape(len(faces), -1) / CROP_EYE_DISTANCE, np.float32)
 

@@ -54,7 +54,7 @@ def separate_layers(target: TargetFace, model: MattingModel | None = None, model
     return Layers((np.dstack([colours, alpha * 255]) + np.float32(0.5)).astype(np.uint8), plate)
 
 
-def uncut(target: TargetFace) -> Layers:
+def single_layer(target: TargetFace) -> Layers:
     """The whole picture as one layer, which is enough to look at the face; what is transparent is grey."""
     rgb = over_grey(target.rgb, target.alpha)
     return Layers(np.dstack([rgb, np.full(rgb.shape[:2], 255, np.uint8)]), rgb)

@@ -40,7 +40,7 @@ def lid_ratio(meshes: NDArray[np.floating], neutral: NDArray[np.floating]) -> ND
     return np.asarray(np.clip(ratio, 0, MAX_GAP_RATIO) * (shut * shut * (3 - 2 * shut)), float)
 
 
-def meet(
+def constrain_lids_and_lips(
     positions: NDArray[np.floating], target: NDArray[np.floating], ratio: NDArray[np.floating]
 ) -> NDArray[np.float64]:
     """Put lids and lips where they belong.

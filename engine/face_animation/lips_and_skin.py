@@ -41,7 +41,7 @@ NEIGHBOUR_WEIGHTS = np.array([1, 2, 3, 2, 1]) / 9
 """How much columns of a lip draw their neighbours along."""
 
 
-def lips_room(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
+def philtrum_compression(faces: NDArray[np.floating], neutral: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far the skin between nose and mouth is pressed together on the driver's faces (N, 478, 2 or 3), upright as
     the `neutral` one (478, 2 or 3) is: what is left of its breadth, from `MIN_SKIN_SHARE` to `MAX_SKIN_SHARE`."""
     lip, _, nose = SKIN_ABOVE_COLUMNS[4]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from engine.perception.face_track.face_crop import between
+from engine.perception.face_track.face_crop import interpolate_crops
 from engine.perception.face_track.track import FaceTrack
 
 EASE_SECONDS = 0.6
@@ -25,7 +25,7 @@ def close_loop(track: FaceTrack) -> FaceTrack:
     meshes, places = track.meshes.copy(), track.crop_places.copy()
     first, crops = track.face_crop(0), []
     for frame, share in zip(range(count - frames, count), weight.tolist(), strict=True):
-        look = between(track.face_crop(frame), first, share)
+        look = interpolate_crops(track.face_crop(frame), first, share)
         meshes[frame], places[frame] = look.mesh, look.place
         crops.append(look.crop)
     periphery, trust = track.periphery.copy(), track.trust.copy()

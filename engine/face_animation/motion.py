@@ -14,12 +14,12 @@ from engine.face_animation.alignment import align
 from engine.face_animation.contour import keep_inside, rim_distance
 from engine.face_animation.control_points import ControlPoints, carry_fiducials, carry_periphery
 from engine.face_animation.expression_transfer import carry_expression, local_maps
-from engine.face_animation.eyes import gaze
-from engine.face_animation.head_motion import HeadMotion, split_motion, turns
+from engine.face_animation.eyes import gaze_offsets
+from engine.face_animation.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.head_proxy import HeadProxy, build_head_proxy, move_head
 from engine.face_animation.landmark_residuals import LandmarkResiduals
-from engine.face_animation.lids_and_lips import lid_ratio, meet
-from engine.face_animation.lips_and_skin import keep_lips_off_skin, lips_room
+from engine.face_animation.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.geometry.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
@@ -82,19 +82,19 @@ def carry_motion(
         motion = split_motion(track.meshes[some], rest)
         around = track.periphery[some] - track.periphery[neutral]
         if proxy is not None:
-            around = around - predicted(motion, track.periphery[neutral])
+            around = around - proxy_offsets(motion, track.periphery[neutral])
         trust = track.trust[some] * track.trust[neutral]
         around = head * carry_periphery(
             phi, track.periphery[neutral], around, trust, control.points[control.periphery], unit
         )
         if proxy is not None:
-            around = correction(around, proxy.share[control.periphery], rim, motion, unit)
+            around = tracked_correction(around, proxy.share[control.periphery], rim, motion, unit)
         expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
         upright, acted = rest + motion.expression, target + expression
         ratio = 1 + eyes * (lid_ratio(upright, rest) - 1)
-        keep_lips_off_skin(acted, target, lips_room(upright, rest))
-        expression = meet(acted, target, np.maximum(ratio, 0)) - target
-        look = eyes * gaze(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
+        expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
+        look = eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
         if proxy is None:
             frames = _in_plane(phi, motion, expression, around, target, control, head)
         else:
@@ -133,7 +133,7 @@ def _face_in_plane(
     return carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2] + expression[..., :2]
 
 
-def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
+def proxy_offsets(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
     """What a proxy of the driver's own head says of its tracked points (K, 2): offsets (N, K, 2), pixels."""
     neutral = motion.neutral
     proxy = build_head_proxy(np.concatenate([neutral[:, :2], points]), neutral)
@@ -141,7 +141,7 @@ def predicted(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.fl
     return np.asarray(proxy.share[MESH_SIZE:, None] * (moved - points), float)
 
 
-def correction(
+def tracked_correction(
     carried: NDArray[np.floating],
     share: NDArray[np.floating],
     rim: NDArray[np.floating],
@@ -181,7 +181,7 @@ def _in_space(
 
 def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
     """(478,) how much equation 1 in the plane counts beside the head turned in space, for a target's mesh."""
-    slant = float(np.rad2deg(turns(target[None], canonical_face())[0]))
+    slant = float(np.rad2deg(turn_angles(target[None], canonical_face())[0]))
     inside = -rim_distance(target, target[:, :2]) / float(eye_distance(target[:, :2]))
     return (
         PLANE_SHARE

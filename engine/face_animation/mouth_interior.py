@@ -7,9 +7,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.hidden_regions import match_palette, transfer_mouth, uncovered
+from engine.face_animation.hidden_regions import match_palette, transfer_mouth, unseen_mouth_share
 from engine.face_animation.target_face import TargetFace
-from engine.face_animation.teeth import draw_teeth, shown_teeth
+from engine.face_animation.teeth import draw_teeth, find_teeth
 from engine.perception.face_track.track import FaceTrack
 
 
@@ -27,12 +27,12 @@ class DriverMouth:
 
     def __init__(self, target: TargetFace, track: FaceTrack, neutral: int):
         self._track = track
-        self._teeth = shown_teeth(target.rgb, target.mesh)
+        self._teeth = find_teeth(target.rgb, target.mesh)
         self._palette = match_palette(target.rgb, target.mesh, track.crop(neutral), track.in_crop(neutral))
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], driver_frame: int) -> None:
         """As `MouthInterior.draw`."""
-        share = uncovered(face, self._palette)
+        share = unseen_mouth_share(face, self._palette)
         if self._teeth is not None:
             draw_teeth(frame, self._teeth, face, 1 - share)
         if share > 0:

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from engine.errors import InputError
-from engine.face_animation.eyes import look
-from engine.face_animation.head_motion import turns
-from engine.perception.expression.features import lopsided
+from engine.face_animation.eyes import iris_positions
+from engine.face_animation.head_motion import turn_angles
+from engine.perception.expression.features import lip_asymmetry
 from engine.perception.expression.measures import (
     FACE_MEASURES,
     LID_MEASURES,
@@ -27,7 +27,7 @@ from engine.perception.expression.measures import (
     SPREAD_BETWEEN_PEOPLE,
     USUAL_BELOW,
     general_rest,
-    lowered,
+    lid_lowering,
     measure,
 )
 from engine.perception.face_track.track import FaceTrack
@@ -96,23 +96,23 @@ def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen:
             )
         return NeutralFrame(chosen, "chosen")
     values = measure(track.meshes)
-    rest = probable_rest(values[track.found])
-    worn = worn_expression(target)
+    rest = estimate_rest(values[track.found])
+    worn = expression_beyond_rest(target)
     face = (
         _face_unlike(values, rest + worn)
         + _torn(track, target, values, rest)
-        + LOWERED_LIDS_WEIGHT * lowered(values, rest[LID_MEASURES])
+        + LOWERED_LIDS_WEIGHT * lid_lowering(values, rest[LID_MEASURES])
     )
     face = np.where(track.found, face, np.inf)
-    place = (turns(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
+    place = (turn_angles(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
     frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
     taken = values[[frame]]
     if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
         return NeutralFrame(frame, "like_the_target")
-    return NeutralFrame(frame, "at_rest" if unlike_rest(taken)[0] <= CALM_FACE else "nearest_to_rest")
+    return NeutralFrame(frame, "at_rest" if distance_from_rest(taken)[0] <= CALM_FACE else "nearest_to_rest")
 
 
-def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
+def warn_if_never_at_rest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
     """Warn (`driver_never_at_rest`) where the driver shows a face at rest in none of its frames."""
     if choice.reason == "nearest_to_rest":
         warn(
@@ -122,7 +122,7 @@ def warn_of_unrest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> No
         )
 
 
-def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+def estimate_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """The measures (12,) of this person at rest, from those of all frames (N, 12) that show the face.
 
     The most probable one, where people at rest are distributed about the general rest by `SPREAD_BETWEEN_PEOPLE`, and one person at rest
@@ -135,8 +135,8 @@ def probable_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MAX_COMPARED_FRAMES, len(values))).astype(int))].astype(
         float
     )
-    blinking = lowered(seen, np.quantile(seen[:, LID_MEASURES], 0.7, axis=0))
-    cost = unlike_rest(seen) - np.log(_density(seen)) + LOWERED_LIDS_WEIGHT * blinking
+    blinking = lid_lowering(seen, np.quantile(seen[:, LID_MEASURES], 0.7, axis=0))
+    cost = distance_from_rest(seen) - np.log(_density(seen)) + LOWERED_LIDS_WEIGHT * blinking
     alike = _mean_squares(seen[[int(np.argmin(cost))]], seen)[0] < SIMILAR_REST**2
     return np.asarray(np.median(seen[alike & (cost <= np.quantile(cost[alike], 0.5))], axis=0), float)
 
@@ -153,7 +153,7 @@ def _mean_squares(some: NDArray[np.float64], seen: NDArray[np.float64]) -> NDArr
     return np.asarray(cdist(some / REST_SPREAD, seen / REST_SPREAD, "sqeuclidean") / len(MEASURES), float)
 
 
-def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
+def distance_from_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how unlike a face at rest faces with these measures (N, 12) are, whoever they are: the mean square of the
     differences, 1 is what people at rest differ by."""
     apart = values - general_rest()
@@ -162,7 +162,7 @@ def unlike_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     )
 
 
-def worn_expression(target: NDArray[np.floating]) -> NDArray[np.float64]:
+def expression_beyond_rest(target: NDArray[np.floating]) -> NDArray[np.float64]:
     """By how much the target's measures (12,) are beyond what people at rest differ by: of a mouth that is open or smiles.
     Brows and lids differ between people by as much as an expression moves them, and narrow mouths are a matter of style: of
     these a target tells nothing, and is taken to be at rest."""
@@ -182,11 +182,11 @@ def _torn(
 ) -> NDArray[np.float64]:
     """(N,) square of how far each frame's mouth is torn aside, in `TORN_MOUTH_SCALE`: from where it is at rest, which is even but for as
     much, or from the target's where that is torn."""
-    torn = lopsided(track.meshes)
+    torn = lip_asymmetry(track.meshes)
     nearest = np.argsort(np.where(track.found, _face_unlike(values, rest), np.inf))[:5]
     wanted = np.median(torn[nearest], axis=0)
     wanted *= min(1, TORN_MOUTH_SCALE / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
-    shown = lopsided(np.asarray(target)[None])[0]
+    shown = lip_asymmetry(np.asarray(target)[None])[0]
     if np.linalg.norm(shown, axis=-1).mean() > TORN_MOUTH_FROM:
         wanted = shown
     return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN_MOUTH_SCALE) ** 2, float)
@@ -194,5 +194,5 @@ def _torn(
 
 def _gaze_unlike(meshes: NDArray[np.floating], target: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) square of how far each frame's eyes look elsewhere than the target's, in `GAZE_SCALE`."""
-    aside = np.linalg.norm(look(meshes) - look(np.asarray(target)[None]), axis=-1).mean(axis=-1)
+    aside = np.linalg.norm(iris_positions(meshes) - iris_positions(np.asarray(target)[None]), axis=-1).mean(axis=-1)
     return np.asarray((aside / GAZE_SCALE) ** 2, float)

@@ -33,7 +33,7 @@ from engine.perception.landmarks import (
     RIGHT_IRIS,
     mouth_opening,
 )
-from engine.perception.temporal_filter import steady
+from engine.perception.temporal_filter import remove_jitter
 
 CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
@@ -110,7 +110,7 @@ def register_track(
     for some in np.array_split(np.flatnonzero(weight), 16):  # a part at a time, for the same reason
         eased = _eased(belief[:, some].astype(np.float32))
         meshes[:, some, :2] += (weight[some] * eased)[..., None] * left[:, some]
-        meshes[:, some, :2] = steady(meshes[:, some])[..., :2]
+        meshes[:, some, :2] = remove_jitter(meshes[:, some])[..., :2]
     shut_by_contrast(meshes, contrast, neutral, track.fps)
     return Registration(meshes)  # what stays as tracked was steadied there: twice would shift its peaks
 

@@ -23,7 +23,7 @@ from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import DriverObservations, observe_driver, refine_tracking
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.models import matting_model
-from engine.run import Beside, Run
+from engine.run import ConcurrentStage, Run
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,9 @@ class PreparedTarget:
     and the `rig`."""
 
     face: TargetFace
-    details: Beside[DetailRegion]
-    layers: Beside[Layers]
-    rig: Beside[Rig]
+    details: ConcurrentStage[DetailRegion]
+    layers: ConcurrentStage[Layers]
+    rig: ConcurrentStage[Rig]
 
 
 def prepare_target(face: TargetFace, run: Run) -> PreparedTarget:
@@ -69,14 +69,14 @@ class DriverPerformance:
 
 def follow_driver(
     driver: Path, fps: float | None, trim: tuple[float, float] | None, face_index: int, run: Run
-) -> Beside[FaceTrack]:
+) -> ConcurrentStage[FaceTrack]:
     """Begin to follow one of the driver's faces, which nothing else has to wait for."""
     given = driver, fps, trim, run.limits, face_index
     return run.beside("track_driver", track_driver, *given, run.tick, run.warn, shared=True)
 
 
 def analyse_driver(
-    tracking: Beside[FaceTrack], neutral_of: Callable[[FaceTrack], NeutralFrame], run: Run, loop: bool = False
+    tracking: ConcurrentStage[FaceTrack], neutral_of: Callable[[FaceTrack], NeutralFrame], run: Run, loop: bool = False
 ) -> DriverPerformance:
     """Everything that depends on the driver alone, but for the choice of its neutral frame."""
     track = tracking.once()

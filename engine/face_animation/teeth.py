@@ -38,7 +38,7 @@ class Teeth:
     mesh: NDArray[np.float32]
 
 
-def shown_teeth(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> Teeth | None:
+def find_teeth(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> Teeth | None:
     """The teeth of a target (H, W, 3) with its face at `mesh` (478, 3); None where its lips are closed."""
     return Teeth(rgb, mesh[:, :2].astype(np.float32)) if float(mouth_opening(mesh)) > TEETH_SHOW_FROM else None
 
@@ -52,14 +52,14 @@ def draw_teeth(frame: NDArray[np.uint8], teeth: Teeth, mesh: NDArray[np.floating
     x0, y0, x1, y1 = box
     lips -= np.array([x0, y0], np.float32)
     shape = y1 - y0, x1 - x0
-    origin = inverse_map(lips, behind_lips(teeth.mesh, mesh), mouth_triangles(), shape, outside=-1.0)
+    origin = inverse_map(lips, teeth_positions(teeth.mesh, mesh), mouth_triangles(), shape, outside=-1.0)
     inside = cv2.remap(teeth.rgb, origin[..., 0], origin[..., 1], cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
     part = frame[y0:y1, x0:x1]
     opening = share * soft_polygon(lips[len(LIPS_OUTER) :], shape)[..., None]
     part[:] = np.clip(part + opening * (inside.astype(np.float32) - part) + 0.5, 0, 255).astype(np.uint8)
 
 
-def behind_lips(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
+def teeth_positions(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> NDArray[np.float32]:
     """(40, 2) spots of the picture, with its face at `rest` (478, 2), for the outer and inner lips of a face at `mesh`
     (478, 2): their own for the outer ones, for the inner ones what lies behind them."""
     right = (rest[UPPER_INNER_LIP[-1]] - rest[UPPER_INNER_LIP[0]]).astype(float)

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, Window
 from engine.face_animation.fine_details import DetailRegion, RatioStrip
-from engine.face_animation.landmark_residuals import LandmarkResiduals, fit_residuals, flat, no_residuals
-from engine.face_animation.layers import uncut
+from engine.face_animation.landmark_residuals import LandmarkResiduals, fit_residuals, flatten_residuals, no_residuals
+from engine.face_animation.layers import single_layer
 from engine.face_animation.rig import rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
@@ -78,7 +78,7 @@ def refine_tracking(
     """
     frames = observations.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
-    layers = uncut(target)
+    layers = single_layer(target)
     animation = FaceAnimation(target, layers, rig_target(target, layers, details), track, neutral, options)
     motions = [replace(motion, frame=frames[motion.frame]) for motion in animation.carry(some, frames.index(neutral))]
     placed = [animation.face(motion) for motion in motions]
@@ -113,7 +113,7 @@ def _most_different(track: FaceTrack, neutral: int) -> list[int]:
     """The frames whose faces differ most from each other, beginning with the neutral one."""
     step = -(-len(track) // CANDIDATE_FRAMES)
     among = [neutral, *range(0, len(track), step)]
-    faces = flat(np.stack([track.in_crop(frame) for frame in among]))
+    faces = flatten_residuals(np.stack([track.in_crop(frame) for frame in among]))
     chosen, apart = [0], ((faces - faces[0]) ** 2).mean(axis=1)
     while len(chosen) <= OBSERVED_FRAMES and apart.max() > 0:
         chosen.append(int(apart.argmax()))

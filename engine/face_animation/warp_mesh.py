@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.imaging.fold_edges import folded
+from engine.imaging.fold_edges import folded_box
 from engine.imaging.mesh_warp import inverse_map
 
 
@@ -52,7 +52,7 @@ class WarpMesh:
         source = scale * (self.vertices + np.float32(0.5)) - np.float32(0.5)
         moved, shape = self.vertices + offsets, shape or self.shape
         origin = inverse_map(moved, source, self.triangles, shape)
-        left, top, right, bottom = folded(moved, self.triangles, shape)
+        left, top, right, bottom = folded_box(moved, self.triangles, shape)
         if depth is not None and left < right and top < bottom:
             corner = np.array([left, top], np.float32)
             origin[top:bottom, left:right] = inverse_map(

@@ -1,6 +1,6 @@
 """How a surface lies on its texture: charts, flat pieces of it side by side.
 
-A surface may bring its own, as the human template does (`laid_out`), or is cut and unfolded (`unfolded`).
+A surface may bring its own, as the human template does (`atlas_from_uv`), or is cut and unfolded (`unwrap`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class TextureAtlas:
     charts: NDArray[np.int32]
 
 
-def laid_out(uv: NDArray[np.floating], corners: NDArray[np.integer]) -> TextureAtlas:
+def atlas_from_uv(uv: NDArray[np.floating], corners: NDArray[np.integer]) -> TextureAtlas:
     """The atlas of a surface that brings its own places on a texture, (C, 2), and each triangle's corners among them, (T, 3).
 
     Raises ValueError where a place is not within [0, 1], or a corner has none.
@@ -52,7 +52,7 @@ def laid_out(uv: NDArray[np.floating], corners: NDArray[np.integer]) -> TextureA
     return TextureAtlas(places, ends, charts.astype(np.int32))
 
 
-def unfolded(
+def unwrap(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer], size: int, gap: int = CHART_GAP_TEXELS
 ) -> tuple[TextureAtlas, NDArray[np.int32]]:
     """Cut a surface into charts that are little distorted, and pack them on a square texture.
@@ -89,7 +89,7 @@ def unfolded(
         raise ValueError(f"the surface's charts do not fit {size} texels: take a larger texture, or a smaller gap")
     shown, faces, uv = packer[0]
     places = uv * np.array([packer.width, packer.height], np.float32) / np.float32(longest)  # what is free is used
-    return laid_out(np.clip(places, 0, 1), faces), shown.astype(np.int32)
+    return atlas_from_uv(np.clip(places, 0, 1), faces), shown.astype(np.int32)
 
 
 def _packed(

@@ -41,7 +41,7 @@ MIN_SLOPE_SHARE = 0.15
 
 
 @dataclass(frozen=True)
-class Continued:
+class LineContinuation:
     """`picture` (H, W, 3) float32 with lines in the hole; `painted` (H, W), where."""
 
     picture: NDArray[np.float32]
@@ -86,11 +86,11 @@ class _Side:
     length: int
 
 
-def continue_lines(picture: NDArray[np.float32], hole: NDArray[np.bool_], reach: float) -> Continued:
+def continue_lines(picture: NDArray[np.float32], hole: NDArray[np.bool_], reach: float) -> LineContinuation:
     """The picture (H, W, 3) with the straight lines that end at the hole (H, W) painted into it; up to `reach` pixels from
     its edge where a line is not found again beyond the hole."""
     if not hole.any() or hole.all():
-        return Continued(picture, np.zeros_like(hole))
+        return LineContinuation(picture, np.zeros_like(hole))
     touched = cv2.dilate(hole.astype(np.uint8), np.ones((5, 5), np.uint8))
     scene = _Scene(picture, hole, np.asarray(touched, np.uint8))
     canvas = _Canvas(picture.copy(), np.zeros(hole.shape, np.float32))
@@ -102,7 +102,7 @@ def continue_lines(picture: NDArray[np.float32], hole: NDArray[np.bool_], reach:
         if finer is not None and not any(_beside(finer, other) for other in drawn):
             drawn.append(finer)
             _paint(scene, finer, reach, canvas)
-    return Continued(canvas.picture, canvas.stands_out > 0)
+    return LineContinuation(canvas.picture, canvas.stands_out > 0)
 
 
 def _beside(line: Line, other: Line) -> bool:

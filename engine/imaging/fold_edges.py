@@ -26,13 +26,13 @@ def smooth_folds(
     moved, triangles : the mesh (V, 2), (T, 3) that made the map; where it folds, triangles lie face down.
     """
     height, width = frame.shape[:2]
-    left, top, right, bottom = folded(moved, triangles, (height, width))
+    left, top, right, bottom = folded_box(moved, triangles, (height, width))
     left, top, right, bottom = max(left, 1), max(top, 1), min(right, width - 1), min(bottom, height - 1)
     if left < right and top < bottom:
         _smooth(frame, frame[top - 1 : bottom + 1, left - 1 : right + 1].copy(), origin, left, top, np.float32(jump))
 
 
-def folded(
+def folded_box(
     moved: NDArray[np.float32], triangles: NDArray[np.int32], shape: tuple[int, int]
 ) -> tuple[int, int, int, int]:
     """The box (left, top, right, bottom) of the pixels of a picture (height, width) where a mesh (V, 2), (T, 3) folds

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.continued_lines import continue_lines
 from engine.imaging.exemplar_fill import exemplar_fill
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.imaging.nearest import nearest_in
 from engine.imaging.patchmatch import PATCH_SIDE, PatchField, colour_planes, valid_centres
 from engine.imaging.poisson import membrane
@@ -68,7 +68,7 @@ def _fill(
     stretched = membrane(around, coarsest.wanted, cycles=6)
     guess = np.where(coarsest.wanted[..., None], stretched, around).astype(np.float32)
     if (sources := valid_centres(~coarsest.hole)).any():
-        filled = coarsest.hole & grown(coarsest.wanted, PATCH_SIDE)
+        filled = coarsest.hole & dilate_mask(coarsest.wanted, PATCH_SIDE)
         guess = exemplar_fill(guess, filled, sources, ~coarsest.hole)
     field: PatchField | None = None
     for level in reversed(levels):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from engine.errors import InputError
 from engine.motion.beginning import beginning, duration
 from engine.motion.joint_map import REQUIRED_JOINTS, map_joints
-from engine.motion.retarget import cleaned
+from engine.motion.retarget import clean_motion
 from engine.motion.source_motion import SourceMotion
 
 
@@ -43,7 +43,7 @@ def check_motion(motion: SourceMotion, overrides: Mapping[str, str | None] | Non
     refused = loops = None
     try:
         mapping = map_joints(motion, overrides)
-        loops = bool(cleaned(beginning(motion), mapping)[0].loops)
+        loops = bool(clean_motion(beginning(motion), mapping)[0].loops)
     except InputError as error:
         if "mapping" not in error.found:
             raise

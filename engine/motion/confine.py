@@ -16,7 +16,7 @@ from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.foot_contact import sole_places
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, lowering, set_legs
+from engine.motion.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import soles
 
@@ -33,7 +33,7 @@ STANCE_METRES = 0.6
 
 
 @dataclass(frozen=True)
-class Room:
+class MovementRoom:
     """How far the hips may get from where they are in the first frame, metres along the axes of the world: `ahead` (z) and
     `behind` (-z), `left` (x) and `right` (-x). Fewer than none is a way back that is to be made."""
 
@@ -43,7 +43,7 @@ class Room:
     right: float
 
 
-def confined(skeleton: Skeleton, clip: Clip, room: Room, leap: float = 1.0) -> Clip:
+def confine_clip(skeleton: Skeleton, clip: Clip, room: MovementRoom, leap: float = 1.0) -> Clip:
     """The clip within a room, its first frame as it is. Of leaps, when no foot is on the ground, `leap` of the height is left."""
     world = world_rotations(skeleton.parents, clip.rotations)
     places = place_joints(skeleton.parents, skeleton.offsets(), world, clip.root)
@@ -66,7 +66,7 @@ def confined(skeleton: Skeleton, clip: Clip, room: Room, leap: float = 1.0) -> C
         return clip
     root = root - sunk
     times = np.arange(len(root)) / clip.fps
-    down = lowering(feet, place_joints(skeleton.parents, skeleton.offsets(), world, root), clip.fps)
+    down = hip_lowering(feet, place_joints(skeleton.parents, skeleton.offsets(), world, root), clip.fps)
     root = root - (down * np.minimum(times / 0.2, 1))[:, None] * [0, 1, 0]
     set_legs(world, place_joints(skeleton.parents, skeleton.offsets(), world, root), feet)
     local = local_rotations(skeleton.parents, world).astype(np.float32)
@@ -74,7 +74,7 @@ def confined(skeleton: Skeleton, clip: Clip, room: Room, leap: float = 1.0) -> C
     return replace(clip, rotations=local, root=root.astype(np.float32), loops=False)
 
 
-def _drawn(way: Array, room: Room) -> Array:
+def _drawn(way: Array, room: MovementRoom) -> Array:
     """Ways (F, 3) from the beginning, drawn into the room; heights stay."""
     x, y, z = way.T
     across = np.where(x > 0, _saturated(x, room.left), -_saturated(-x, room.right))

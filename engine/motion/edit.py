@@ -38,19 +38,19 @@ def in_place(clip: Clip) -> Clip:
     left when everything quicker than a second is smoothed out. What the body sways stays."""
     root = np.asarray(clip.root, np.float64)
     if clip.loops:
-        way = travel(clip) * (np.arange(len(root)) / len(root))[:, None]
+        way = loop_travel(clip) * (np.arange(len(root)) / len(root))[:, None]
     else:
         way = gaussian_filter1d(root, 0.5 * clip.fps, axis=0, mode="nearest")
         way -= way[0]
     return replace(clip, root=(root - way * [1, 0, 1]).astype(np.float32))
 
 
-def travel(clip: Clip) -> Array:
+def loop_travel(clip: Clip) -> Array:
     """(3,) how far a loop's root gets in one round, metres; level."""
     return np.asarray((clip.root[-1] - clip.root[0] + loop_step(clip)) * [1, 0, 1], np.float64)
 
 
-def keep(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: Sequence[str]) -> Clip:
+def keep_pictured_parts(skeleton: Skeleton, clip: Clip, pictured: Clip, parts: Sequence[str]) -> Clip:
     """The clip with some parts of the body as in the pictured pose (the first frame of `pictured`), seen from the part
     that carries them. With both legs kept, hips and root stay as pictured as well; with one, it is dragged along.
 
@@ -99,7 +99,7 @@ def _parts(name: str) -> tuple[str, ...]:
     return (name,)
 
 
-def repeated(clip: Clip, frames: int, start: int = 0) -> Clip:
+def repeat_loop(clip: Clip, frames: int, start: int = 0) -> Clip:
     """`frames` frames of a loop from frame `start` on, travelling on from round to round; it loops no more. A clip that
     does not loop stays in its last frame."""
     wanted = start + np.arange(frames)
@@ -107,5 +107,5 @@ def repeated(clip: Clip, frames: int, start: int = 0) -> Clip:
         chosen = np.minimum(wanted, len(clip.rotations) - 1)
         return replace(clip, rotations=clip.rotations[chosen], root=clip.root[chosen])
     rounds, chosen = np.divmod(wanted, len(clip.rotations))
-    root = clip.root[chosen] + rounds[:, None] * travel(clip)
+    root = clip.root[chosen] + rounds[:, None] * loop_travel(clip)
     return replace(clip, rotations=clip.rotations[chosen], root=root.astype(np.float32), loops=False)

@@ -38,8 +38,8 @@ MIN_CONTACT_SECONDS = 0.07
 
 @dataclass(frozen=True)
 class FeetReport:
-    """How well feet stand, before and after they were held: `sliding` cm/s, the mean speed over the ground of the
-    slower of heel and ball while the foot stands; `sinking` cm, the deepest that a sole goes under the ground;
+    """How well feet stand, before and after they were held: `sliding_speed` cm/s, the mean speed over the ground of the
+    slower of heel and ball while the foot stands; `sinking_depth` cm, the deepest that a sole goes under the ground;
     `standing` the share of frames in which some foot stands."""
 
     sliding_before: float
@@ -91,7 +91,7 @@ def floor_height(points: Array, fps: float) -> float:
     return float(np.median(chosen) if len(chosen) >= max(2, 0.05 * len(heights)) else np.percentile(heights, 10))
 
 
-def sliding(points: Array, contacts: Contacts, fps: float) -> float:
+def sliding_speed(points: Array, contacts: Contacts, fps: float) -> float:
     """Mean speed over the ground, cm/s, of the slower of heel and ball while the foot stands; 0 if none does."""
     if len(points) < 2:
         return 0.0
@@ -100,12 +100,12 @@ def sliding(points: Array, contacts: Contacts, fps: float) -> float:
     return float(steps[both].mean() * 100) if both.any() else 0.0
 
 
-def sinking(points: Array) -> float:
+def sinking_depth(points: Array) -> float:
     """The deepest place of a sole under the ground, cm."""
     return float(max(-points[..., 1].min(), 0.0) * 100)
 
 
-def spans(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def true_runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """First and last index of each run of true values."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     return [(int(first), int(end) - 1) for first, end in zip(edges[::2], edges[1::2], strict=True)]
@@ -121,7 +121,7 @@ def _speeds(points: Array, fps: float) -> Array:
 def _hysteresis(begins: NDArray[np.bool_], lasts: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Runs of `lasts` that hold a frame of `begins`."""
     held = np.zeros(len(begins), bool)
-    for first, last in spans(lasts | begins):
+    for first, last in true_runs(lasts | begins):
         held[first : last + 1] = begins[first : last + 1].any()
     return held
 
@@ -129,7 +129,7 @@ def _hysteresis(begins: NDArray[np.bool_], lasts: NDArray[np.bool_]) -> NDArray[
 def _without_short(flags: NDArray[np.bool_], shortest: int, edges: bool) -> NDArray[np.bool_]:
     """Without the runs shorter than `shortest`, unless they touch the beginning or the end."""
     kept = flags.copy()
-    for first, last in spans(flags):
+    for first, last in true_runs(flags):
         at_edge = edges and (first == 0 or last == len(flags) - 1)
         if last - first + 1 < shortest and not at_edge:
             kept[first : last + 1] = False
@@ -143,7 +143,7 @@ def _without_shuffling(stands: NDArray[np.bool_], ball: Array, fps: float) -> ND
     level = ball[:, [0, 2]]
     speeds = _speeds(level, fps)
     reach, shortest = max(round(0.1 * fps), 1), max(round(MIN_CONTACT_SECONDS * fps), 1)
-    waiting = spans(kept)
+    waiting = true_runs(kept)
     while waiting:
         first, last = waiting.pop()
         here = level[first : last + 1]

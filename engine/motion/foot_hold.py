@@ -22,13 +22,13 @@ from engine.motion.foot_contact import (
     FeetReport,
     find_contacts,
     floor_height,
-    sinking,
-    sliding,
+    sinking_depth,
+    sliding_speed,
     sole_places,
-    spans,
+    true_runs,
 )
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, ankle_over_ball, lowering, set_legs
+from engine.motion.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
 from engine.motion.resampling import loop_step
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import Sole, leg_length, soles
@@ -70,10 +70,10 @@ def hold_feet(
     held = _hold(skeleton, clip, stands) if hold else clip
     after = sole_places(skeleton, held)
     return held, FeetReport(
-        sliding_before=sliding(before, stands, clip.fps),
-        sliding_after=sliding(after, stands, clip.fps),
-        sinking_before=sinking(before),
-        sinking_after=sinking(after),
+        sliding_before=sliding_speed(before, stands, clip.fps),
+        sliding_after=sliding_speed(after, stands, clip.fps),
+        sinking_before=sinking_depth(before),
+        sinking_after=sinking_depth(after),
         standing=float(stands.any(1).mean()),
     )
 
@@ -141,7 +141,7 @@ def _hold(skeleton: Skeleton, clip: Clip, contacts: Contacts) -> Clip:
         depth = -sole.points(foot.ankle, foot.turns, foot.toes)[..., 1].min(-1)
         foot.ankle = foot.ankle + np.maximum(depth, 0)[:, None] * [0, 1, 0]
         feet.append((sole, foot))
-    root = root - lowering(feet, places, clip.fps)[:, None] * [0, 1, 0]
+    root = root - hip_lowering(feet, places, clip.fps)[:, None] * [0, 1, 0]
     set_legs(world, place_joints(skeleton.parents, skeleton.offsets(), world, root), feet)
     rotations = local_rotations(skeleton.parents, world)
     return replace(clip, rotations=rotations.astype(np.float32), root=root.astype(np.float32))
@@ -154,7 +154,7 @@ def _plant(sole: Sole, own: HeldFoot, stands: NDArray[np.bool_], fps: float) -> 
     yaw = np.unwrap(yaw)
     pitch, roll = _flattened(tilt @ sole.lateral, MAX_FLAT_PITCH), _flattened(tilt @ sole.forward, MAX_FLAT_ROLL)
     turns, toes, ankle = own.turns.copy(), own.toes.copy(), own.ankle.copy()
-    pieces = spans(stands)
+    pieces = true_runs(stands)
     for first, last in pieces:
         here = slice(first, last + 1)
         heading = yaw[here]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.motion.gltf_file import GltfFile, Part, natural, unreadable
+from engine.motion.gltf_file import GltfFile, Part, natural_number, unreadable
 from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS
 
 T = TypeVar("T")
@@ -46,7 +46,7 @@ class Accessors:
         """
         part = self._file.part("accessors", index)
         assert index is not None
-        count, width = natural(part.count), _known(COMPONENT_COUNTS, part.type)
+        count, width = natural_number(part.count), _known(COMPONENT_COUNTS, part.type)
         kind = np.dtype(_known(COMPONENT_TYPES, part.componentType)).newbyteorder("<")
         if count == 0:
             raise unreadable("an accessor is empty")
@@ -69,7 +69,7 @@ class Accessors:
     def _dense(self, part: Part, count: int, width: int, kind: np.dtype[np.generic]) -> NDArray[np.generic]:
         """The numbers in the accessor's view, or as many zeros where it has none."""
         if part.bufferView is not None:
-            return self._table(part.bufferView, natural(part.byteOffset, 0), count, width, kind)
+            return self._table(part.bufferView, natural_number(part.byteOffset, 0), count, width, kind)
         if count > MAX_ZERO_ELEMENTS:
             raise _too_many()
         return np.zeros((count, width), kind)
@@ -85,12 +85,12 @@ class Accessors:
             raise unreadable("a sparse accessor is broken")
         for one in (sparse, sparse.indices, sparse["values"]):
             self._file.require_known(one)
-        changed = natural(sparse.count)
+        changed = natural_number(sparse.count)
         if not 0 < changed <= count or sparse.indices.componentType not in INDEX_TYPES:
             raise unreadable("a sparse accessor is broken")
         places = self._table(
             sparse.indices.bufferView,
-            natural(sparse.indices.byteOffset, 0),
+            natural_number(sparse.indices.byteOffset, 0),
             changed,
             1,
             np.dtype(COMPONENT_TYPES[sparse.indices.componentType]).newbyteorder("<"),
@@ -99,7 +99,7 @@ class Accessors:
             raise unreadable("a sparse accessor is broken")
         table = table.copy()
         table[places] = self._table(
-            sparse["values"].bufferView, natural(sparse["values"].byteOffset, 0), changed, width, kind
+            sparse["values"].bufferView, natural_number(sparse["values"].byteOffset, 0), changed, width, kind
         )
         return table
 
@@ -107,7 +107,7 @@ class Accessors:
         """(count, width) numbers of a view, as they lie in it."""
         data, said = self._file.view(view)
         row = width * kind.itemsize
-        stride = natural(said.byteStride, 0) or row
+        stride = natural_number(said.byteStride, 0) or row
         if stride < row or start + stride * (count - 1) + row > len(data):
             raise unreadable("an accessor points outside its buffer")
         return np.ndarray((count, width), kind, data, start, (stride, kind.itemsize))

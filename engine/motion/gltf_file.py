@@ -86,7 +86,7 @@ class GltfFile:
         InputError : `motion_unreadable`, `motion_extension`.
         """
         part = self.part("bufferViews", index)
-        start, size = natural(part.byteOffset, 0), natural(part.byteLength)
+        start, size = natural_number(part.byteOffset, 0), natural_number(part.byteLength)
         data = self._buffer(part.buffer)
         if start + size > len(data):
             raise unreadable("a view reaches beyond its buffer")
@@ -135,14 +135,14 @@ class GltfFile:
                 raise InputError(
                     "motion_unreadable", "The glTF file's numbers lie in another file: export it as one GLB file."
                 )
-            size = natural(part.byteLength)
+            size = natural_number(part.byteLength)
             if size > len(data):
                 raise unreadable("a buffer is shorter than it says")
             self._buffers[index] = data[:size]
         return self._buffers[index]
 
 
-def natural(value: Any, default: int | None = None) -> int:
+def natural_number(value: Any, default: int | None = None) -> int:
     """A whole number from 0 on, as lengths and counts are; the default where none is given.
 
     Raises

@@ -58,7 +58,7 @@ COUNTER_SHARE = 0.8
 
 
 @dataclass(frozen=True)
-class Spoken:
+class ParsedName:
     """What a name says: the side ("Left", "Right" or ""), the words in small letters, the number behind them, and how that is
     written."""
 
@@ -68,7 +68,7 @@ class Spoken:
     digits: str = ""
 
 
-def read_name(name: str) -> Spoken:
+def read_name(name: str) -> ParsedName:
     """Take a joint's name apart."""
     return _spoken(_tokens(name))
 
@@ -114,7 +114,7 @@ def _without_counts(names: list[list[str]]) -> list[list[str]]:
     return [name[:-1] if len(name) > 1 and name[-1].isdigit() else name for name in names]
 
 
-def _spoken(tokens: Sequence[str]) -> Spoken:
+def _spoken(tokens: Sequence[str]) -> ParsedName:
     digits = tokens[-1] if tokens and tokens[-1].isdigit() else ""
     if not int(digits or 0):
         digits = next((token for token in tokens if token.isdigit() and len(token) < 4), digits)
@@ -131,8 +131,8 @@ def _spoken(tokens: Sequence[str]) -> Spoken:
         for start, meaning in (("left", "Left"), ("right", "Right"), ("l", "Left"), ("r", "Right")):
             rest = joined.removeprefix(start)
             if rest != joined and (rest in _KNOWN_WORDS or _FINGER.fullmatch(rest)):
-                return Spoken(meaning, rest, number, digits)
-    return Spoken(side, joined, number, digits)
+                return ParsedName(meaning, rest, number, digits)
+    return ParsedName(side, joined, number, digits)
 
 
 def match_names(names: Sequence[str]) -> dict[str, int]:
@@ -140,7 +140,7 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
     its names say little about which joint is where."""
     told = [index for index, name in enumerate(names) if not name.startswith("__")]
     tokens = _without_common([_tokens(names[index]) for index in told])
-    spoken: list[Spoken | None] = [None] * len(names)
+    spoken: list[ParsedName | None] = [None] * len(names)
     for index, of in zip(told, tokens, strict=True):
         spoken[index] = _spoken(of)
     found: dict[str, int] = {}
@@ -172,7 +172,7 @@ def match_names(names: Sequence[str]) -> dict[str, int]:
     return found
 
 
-def _tell_shoulders(spoken: Sequence[Spoken | None], side: str, found: dict[str, int]) -> None:
+def _tell_shoulders(spoken: Sequence[ParsedName | None], side: str, found: dict[str, int]) -> None:
     """`LeftShoulder` is the collar bone beside a `LeftArm`, but the upper arm beside a `LeftCollar` or alone."""
     here = {said.words: index for index, said in enumerate(spoken) if said and said.side == side}
     if f"{side}Arm" in found or "shoulder" not in here:

@@ -53,7 +53,7 @@ def ankle_over_ball(sole: Sole, turns: Array, level: Array, pitch: Array) -> Arr
     return np.where(pitch[:, None] > 0, over_ball, over_heel)
 
 
-def lowering(feet: Sequence[tuple[Sole, HeldFoot]], places: Array, fps: float, loops: bool = False) -> Array:
+def hip_lowering(feet: Sequence[tuple[Sole, HeldFoot]], places: Array, fps: float, loops: bool = False) -> Array:
     """(F,) metres by which the hips must go down for held feet to be in reach, smooth over time; `places` (F, J, 3) of
     the joints."""
     needed = np.zeros(len(places))

@@ -33,7 +33,7 @@ def t_pose_turns(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Ske
     """`{our joint: (4,)}`: the world turn that the motion's joint would have in our T-pose, facing +z, y up."""
     joints = {name: motion.names.index(source) for name, source in mapping.items()}
     turns, places = motion.rest()
-    at_rest = stands(places, joints)
+    at_rest = is_standing(places, joints)
     if not at_rest:
         turns, places = _mean_pose(motion, joints)
     upright = standing_turn(places, joints, snap=at_rest)
@@ -48,7 +48,7 @@ def t_pose_turns(motion: SourceMotion, mapping: Mapping[str, str], skeleton: Ske
     return {name: rotation.multiply(corrections[name], turns[joint]) for name, joint in joints.items()}
 
 
-def stands(places: Array, joints: Mapping[str, int]) -> bool:
+def is_standing(places: Array, joints: Mapping[str, int]) -> bool:
     """Whether joints at these places (J, 3) could be a person's who stands: legs down, arms at two sides."""
     up, left = _trunk_axes(places, joints)
     if not (up.any() and left.any()) or abs(float(up @ left)) > 0.3:

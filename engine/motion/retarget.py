@@ -28,7 +28,7 @@ from engine.motion.resampling import resample_source
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import leg_length
 from engine.motion.source_motion import SourceMotion
-from engine.motion.treadmill import walked_on
+from engine.motion.treadmill import travel_as_walked
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ are longer, and by those that are not no way can be measured."""
 
 
 @dataclass(frozen=True)
-class Retargeted:
+class RetargetResult:
     """A motion carried over: the clip, which joint moved which (`{ours: the motion's}`), and how well the feet stand."""
 
     clip: Clip
@@ -55,7 +55,7 @@ def retarget(
     fps: float = 30.0,
     facing: Facing = "start",
     feet: bool = True,
-) -> Retargeted:
+) -> RetargetResult:
     """Carry a motion over to `skeleton`.
 
     Parameters
@@ -68,10 +68,10 @@ def retarget(
 
     Raises
     ------
-    InputError : see `map_joints` and `cleaned`.
+    InputError : see `map_joints` and `clean_motion`.
     """
     joints = map_joints(motion, mapping)
-    motion, upright = cleaned(motion, joints)
+    motion, upright = clean_motion(motion, joints)
     source = resample_source(motion, fps)
     turns, places = source.world()
     turns, places = rotation.multiply(upright, turns), rotation.rotate(upright, places)
@@ -90,11 +90,11 @@ def retarget(
         root=root[:frames].astype(np.float32),
         loops=loops,
     )
-    clip, report = hold_feet(skeleton, walked_on(skeleton, clip), hold=feet)
-    return Retargeted(clip, joints, report)
+    clip, report = hold_feet(skeleton, travel_as_walked(skeleton, clip), hold=feet)
+    return RetargetResult(clip, joints, report)
 
 
-def cleaned(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[SourceMotion, Array]:
+def clean_motion(motion: SourceMotion, joints: Mapping[str, str]) -> tuple[SourceMotion, Array]:
     """The motion without joints that flip over, as a loop if it is one; and its `world_upright`.
 
     Raises

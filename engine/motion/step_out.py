@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.edit import repeated
-from engine.motion.foot_contact import find_contacts, sole_places, spans
+from engine.motion.edit import repeat_loop
+from engine.motion.foot_contact import find_contacts, sole_places, true_runs
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, lowering, set_legs
+from engine.motion.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.resampling import places_at, turns_at
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import Sole, leg_length, soles
@@ -61,7 +61,7 @@ def step_out(
     back : metres by which the first steps lead away from the viewer, out of where the person is pictured.
     """
     fps, leg = clip.fps, leg_length(skeleton)
-    round_ = repeated(clip, 3 * len(clip.rotations)) if clip.loops else clip
+    round_ = repeat_loop(clip, 3 * len(clip.rotations)) if clip.loops else clip
     stands = find_contacts(sole_places(skeleton, round_), fps, leg)
     start = _best_start(skeleton, pictured, clip, stands, leg) if clip.loops else 0
     slow = 0.5 * seconds
@@ -69,7 +69,7 @@ def step_out(
     frames = round((length if length is not None else rest + slow) * fps) + 1
     times = np.arange(frames) / fps
     own_frames = start + np.maximum(_own_time(times, seconds), 0) * fps
-    source = repeated(clip, int(np.ceil(own_frames[-1])) + 2)
+    source = repeat_loop(clip, int(np.ceil(own_frames[-1])) + 2)
     played = replace(
         clip,
         rotations=turns_at(np.asarray(source.rotations, np.float64), own_frames).astype(np.float32),
@@ -141,7 +141,7 @@ def _windows(contacts: NDArray[np.bool_], gaps: Array, seconds: float, fps: floa
             step = min(MAX_STEP_SECONDS, max(lasting[side], 0.3))
             windows.append(_Window(0.0, step, True))
         else:
-            landing = next((first / fps for first, _ in spans(contacts[:, side])), seconds)
+            landing = next((first / fps for first, _ in true_runs(contacts[:, side])), seconds)
             windows.append(_Window(0.0, max(landing, 0.3), True))
     return _in_turn(windows, lasting)
 
@@ -178,7 +178,7 @@ def _blend(
         soles(skeleton), wanted, began, _windows(contacts, gaps, seconds, fps), strict=True
     ):
         feet.append((sole, _stepped(sole, own, clip_foot, window, times, leg)))
-    root = root - lowering(feet, places, fps)[:, None] * np.minimum(times / 0.2, 1)[:, None] * [0, 1, 0]
+    root = root - hip_lowering(feet, places, fps)[:, None] * np.minimum(times / 0.2, 1)[:, None] * [0, 1, 0]
     set_legs(world, place_joints(skeleton.parents, skeleton.offsets(), world, root), feet)
     local = local_rotations(skeleton.parents, world).astype(np.float32)
     local[0] = pictured.rotations[0]

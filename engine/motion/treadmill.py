@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.motion.clip import Clip
-from engine.motion.edit import travel
+from engine.motion.edit import loop_travel
 from engine.motion.foot_contact import REFERENCE_LEG, sole_places
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import leg_length
@@ -52,7 +52,7 @@ AIRBORNE_WEIGHT = 0.05
 """The weight of the ground's mean step beside those of the points that stand (0 to 1 each)."""
 
 
-def walked_on(skeleton: Skeleton, clip: Clip) -> Clip:
+def travel_as_walked(skeleton: Skeleton, clip: Clip) -> Clip:
     """The clip travelling as its feet walk, if it is a walk in place; else the same clip."""
     scale = leg_length(skeleton) / REFERENCE_LEG
     if len(clip.rotations) < 3:
@@ -67,7 +67,7 @@ def walked_on(skeleton: Skeleton, clip: Clip) -> Clip:
         stands = lowest * np.exp(-((np.linalg.norm(steps - ground, axis=-1) / (STEP_TOLERANCE * speed)) ** 2))
         ground = (steps * stands[..., None]).sum((0, 1)) / stands.sum()
     left = stands[:, :3].sum() / stands.sum()
-    own = travel(clip) if clip.loops else (clip.root[-1] - clip.root[0]) * [1, 0, 1]
+    own = loop_travel(clip) if clip.loops else (clip.root[-1] - clip.root[0]) * [1, 0, 1]
     level = np.abs(heights - (heights * stands).sum() / stands.sum()) < MAX_HEIGHT_SPREAD * scale
     walks = (stands * level).max(1).mean() > MIN_CONTACT_SHARE and MIN_FOOT_SHARE < left < 1 - MIN_FOOT_SHARE
     if not walks or np.linalg.norm(own) > MAX_ROOT_TRAVEL_SHARE * speed * len(steps):
@@ -92,5 +92,5 @@ def _steps(skeleton: Skeleton, clip: Clip) -> tuple[Array, Array]:
     (S, 6); of a loop also from the last frame to the first."""
     points = sole_places(skeleton, clip).reshape(len(clip.rotations), 6, 3)
     if clip.loops:
-        points = np.concatenate([points, points[:1] + travel(clip)])
+        points = np.concatenate([points, points[:1] + loop_travel(clip)])
     return np.diff(points, axis=0) * [1, 0, 1], (points[:-1, :, 1] + points[1:, :, 1]) / 2

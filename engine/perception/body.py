@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.perception.solutions import solution
+from engine.perception.solutions import load_solution
 
 BODY_LANDMARKS = (
     *("Nose", "LeftEyeInner", "LeftEye", "LeftEyeOuter", "RightEyeInner", "RightEye", "RightEyeOuter"),
@@ -101,7 +101,7 @@ def find_body(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Body | None:
 
 def _pose(video: bool, confidence: float) -> Any:
 
-    return solution("pose").Pose(
+    return load_solution("pose").Pose(
         static_image_mode=not video,
         model_complexity=1,
         min_detection_confidence=confidence,

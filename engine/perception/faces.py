@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.landmarks import MESH_SIZE
-from engine.perception.solutions import solution
+from engine.perception.solutions import load_solution
 
 SETTLING_PASSES = 3
 """A mesh that was just found is looked at again in its own region this often; then it moves no more."""
@@ -173,7 +173,7 @@ def several_faces(rgb: NDArray[np.uint8]) -> bool:
 
 
 def _detector(confidence: float, far: bool) -> Any:
-    return solution("face_detection").FaceDetection(model_selection=int(far), min_detection_confidence=confidence)
+    return load_solution("face_detection").FaceDetection(model_selection=int(far), min_detection_confidence=confidence)
 
 
 def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, int]) -> list[NDArray[np.float64]]:
@@ -193,7 +193,7 @@ def _detected(detector: Any, rgb: NDArray[np.uint8], part: tuple[int, int, int, 
 
 
 def _face_mesh(faces: int, confidence: float, alone: bool) -> Any:
-    return solution("face_mesh").FaceMesh(
+    return load_solution("face_mesh").FaceMesh(
         static_image_mode=alone,
         refine_landmarks=True,
         max_num_faces=faces,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.perception.body import Body
-from engine.perception.solutions import solution
+from engine.perception.solutions import load_solution
 
 Side = Literal["Left", "Right"]
 
@@ -113,7 +113,7 @@ def _hand_at_wrist(rgb: NDArray[np.uint8], body: Body, side: Side, confidence: f
 
 def _hands(video: bool, hands: int, confidence: float) -> Any:
 
-    return solution("hands").Hands(
+    return load_solution("hands").Hands(
         static_image_mode=not video,
         max_num_hands=hands,
         model_complexity=1,

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces
 
@@ -118,7 +118,7 @@ def _neck(body: Body) -> float:
 def _paint_over(rgb: NDArray[np.uint8], body: Body) -> NDArray[np.bool_]:
     """Take a body out of the picture, in place, and say where it was."""
     mask = covered_by(body, (rgb.shape[0], rgb.shape[1]))
-    wide = grown(mask, max(2, mask.shape[0] // 200))
+    wide = dilate_mask(mask, max(2, mask.shape[0] // 200))
     rest = ~wide
     rgb[wide] = rgb[rest].mean(0) if rest.any() else 128
     return wide

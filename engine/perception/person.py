@@ -20,7 +20,7 @@ from engine.imaging.trimap import CERTAIN_BELIEF, like_plain_background, outline
 from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel
-from engine.perception.segmentation import WORKING_SIZE, Mask, people_in
+from engine.perception.segmentation import WORKING_SIZE, Mask, people_confidence
 
 CUT_SIZE = 480
 """Longest side at which colours have their say."""
@@ -66,7 +66,7 @@ def person_mask(
     others : (H, W), where other people are known to be, who do not belong to the mask: of what the networks believe to be
         people, colours say whose it is.
     whole : the picture shows people whole, not portraits.
-    people : what `people_in` said of the picture, if it was asked before.
+    people : what `people_confidence` said of the picture, if it was asked before.
     """
     if alpha is not None:
         channel = alpha.astype(np.float32) / np.float32(255 if alpha.dtype == np.uint8 else 1)
@@ -83,7 +83,7 @@ def person_mask(
             return found
         return np.maximum(found, person_mask(rgb, seed, None, None, others, whole))
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
-    belief = resized(people_in(rgb, whole) if people is None else people, (small.shape[1], small.shape[0]))
+    belief = resized(people_confidence(rgb, whole) if people is None else people, (small.shape[1], small.shape[0]))
     sure = np.zeros(rgb.shape[:2], np.float32) if seed is None else seed.astype(np.float32)
     sure = resized(sure, (small.shape[1], small.shape[0])).copy()
     figure = figure_on_plain_ground(small, belief, sure > CERTAIN_BELIEF)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.imaging.resample import resized, size_within
 from engine.perception.body import FAINT_CONFIDENCE
-from engine.perception.solutions import solution
+from engine.perception.solutions import load_solution
 
 Mask = NDArray[np.float32]
 
@@ -24,7 +24,7 @@ SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
 pictures that show somebody whole, who are what the body pose's network knows best."""
 
 
-def people_in(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
+def people_confidence(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
     """What the networks believe to be people in a picture (H, W, 3), in [0, 1] at the size at which a matte is solved;
     `whole` as in `person_mask`."""
     small = resized(np.ascontiguousarray(rgb), size_within(rgb.shape, WORKING_SIZE))
@@ -35,7 +35,7 @@ def people_in(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:
     return _together(small, posed, SELFIE_SHARE_OF_WHOLE if whole else SELFIE_SHARE)
 
 
-def believed_person(rgb: NDArray[np.uint8]) -> Mask:
+def person_confidence(rgb: NDArray[np.uint8]) -> Mask:
     """What the networks believe to be a person in a portrait, (H, W) in [0, 1]."""
     return _together(rgb, _pose_mask(rgb), SELFIE_SHARE)
 
@@ -50,7 +50,7 @@ def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
     """What the selfie network believes to be a person, (H, W) in [0, 1]: it looks closer where people, also those that
     `posed` shows, take up a small part of the picture."""
     height, width = rgb.shape[:2]
-    with solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
+    with load_solution("selfie_segmentation").SelfieSegmentation(model_selection=0) as network:
 
         def look(part: NDArray[np.uint8]) -> Mask:
             straight = network.process(np.ascontiguousarray(part)).segmentation_mask
@@ -73,7 +73,7 @@ def selfie_mask(rgb: NDArray[np.uint8], posed: Mask | None = None) -> Mask:
 
 def _pose_mask(rgb: NDArray[np.uint8], confidence: float = 0.5) -> Mask | None:
     """The body pose's belief; None where it sees no body."""
-    with solution("pose").Pose(
+    with load_solution("pose").Pose(
         static_image_mode=True, model_complexity=1, enable_segmentation=True, min_detection_confidence=confidence
     ) as network:
         mask = network.process(np.ascontiguousarray(rgb)).segmentation_mask

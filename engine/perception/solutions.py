@@ -20,7 +20,7 @@ _ONE_AT_A_TIME = Lock()
 """MediaPipe's modules import each other in circles: threads that begin at once would find them half made."""
 
 
-def solution(name: str) -> ModuleType:
+def load_solution(name: str) -> ModuleType:
     """The module `mediapipe.python.solutions.NAME`.
 
     MediaPipe imports matplotlib for drawings that nobody here asks for, most of a second in every process, and more of its
@@ -31,7 +31,7 @@ def solution(name: str) -> ModuleType:
 
 
 def _imported(full: str) -> ModuleType:
-    know_old_ways()
+    restore_message_lookup()
     if "mediapipe" in sys.modules:
         return importlib.import_module(full)
     held = [_Later(name) for name in UNNEEDED_MODULES if name not in sys.modules]
@@ -53,7 +53,7 @@ def _attach(module: ModuleType) -> None:
         vars(sys.modules[package]).setdefault(name, module)
 
 
-def know_old_ways() -> None:
+def restore_message_lookup() -> None:
     """Give Protocol Buffers back the method by which MediaPipe's native part looks up messages (gone since release 5):
     without it each process prints an error, and goes on."""
     factory: Any = message_factory.MessageFactory

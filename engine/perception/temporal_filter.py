@@ -36,7 +36,7 @@ def noise_level(tracks: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.asarray(np.sqrt((deviation**2).mean(axis=-1)), float)
 
 
-def steady(
+def remove_jitter(
     tracks: NDArray[np.float32], noise: NDArray[np.floating] | None = None, out: NDArray[np.float32] | None = None
 ) -> NDArray[np.float32]:
     """Remove the jitter of tracked points.

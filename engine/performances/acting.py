@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from engine.performances.figure import Pose
-from engine.performances.timing import ease, unrest
+from engine.performances.timing import ease, idle_noise
 
 Units = dict[str, float]
 SIDES = ("Left", "Right")
@@ -37,23 +37,23 @@ def add(units: Units, name: str, weight: float) -> None:
     units[name] = units.get(name, 0.0) + weight
 
 
-def both(units: Units, name: str, weight: float, right: float = 0.94) -> None:
+def add_both_sides(units: Units, name: str, weight: float, right: float = 0.94) -> None:
     """Add a unit on both sides; the right one is a little weaker, as no face is quite even."""
     add(units, f"{name}Left", weight)
     add(units, f"{name}Right", right * weight)
 
 
-def stirring(t: float, seed: int, seconds: float, degrees: float) -> tuple[float, float, float]:
+def head_sway(t: float, seed: int, seconds: float, degrees: float) -> tuple[float, float, float]:
     """What a head does that is held still, (pitch, yaw, roll); zero at both ends of a performance."""
     calm = degrees * ease(t, 0.0, 0.3) * (1 - ease(t, seconds - 0.4, seconds - 0.05))
     return (
-        calm * unrest(t, seed, seconds, 4),
-        calm * unrest(t, seed + 1, seconds, 4),
-        0.6 * calm * unrest(t, seed + 2, seconds, 3),
+        calm * idle_noise(t, seed, seconds, 4),
+        calm * idle_noise(t, seed + 1, seconds, 4),
+        0.6 * calm * idle_noise(t, seed + 2, seconds, 3),
     )
 
 
-def turned(*parts: tuple[float, float, float]) -> tuple[float, float, float]:
+def sum_turns(*parts: tuple[float, float, float]) -> tuple[float, float, float]:
     """Turns of the head added up."""
     pitch, yaw, roll = (sum(turn) for turn in zip(*parts, strict=True))
     return pitch, yaw, roll

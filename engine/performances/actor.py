@@ -12,15 +12,15 @@ from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import vertex_mask
 from engine.geometry.surface import triangulate, vertex_normals
 from engine.performances import chart
-from engine.performances.brows import Rooted, grow_brows, grow_lashes, plant
+from engine.performances.brows import RootedHairs, grow_brows, grow_lashes, place_hairs
 from engine.performances.eyes import Eyeball, build_eyeball
-from engine.performances.figure import Figure, Pose, Posed, build_figure, pose_figure
-from engine.performances.hair import Crop, grow_crop, hair_cover
+from engine.performances.figure import Figure, Pose, PosedFigure, build_figure, pose_figure
+from engine.performances.hair import Haircut, grow_crop, hair_cover
 from engine.performances.shade import light_through
 from engine.performances.shirt import Shirt, drape, sew_shirt
 from engine.performances.skin import Skin, paint_skin
 from engine.performances.teeth import Arch, Dentition, build_dentition
-from engine.performances.wrinkles import Wrinkles, carve, pressed
+from engine.performances.wrinkles import Wrinkles, carve, wrinkle_relief
 from engine.render.light import Lamps
 
 
@@ -68,9 +68,9 @@ class Actor:
     veiled: NDArray[np.float32]
     tongue: Subdivision
     shirt: Shirt
-    crop: Crop
+    crop: Haircut
     passed: NDArray[np.float32]
-    rooted: tuple[Rooted, ...]
+    rooted: tuple[RootedHairs, ...]
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Scene:
     casters: tuple[NDArray[np.float32], NDArray[np.int32]]
     hairs: tuple[NDArray[np.float32], ...]
     wrinkles: NDArray[np.float32]
-    posed: Posed
+    posed: PosedFigure
 
 
 def build_actor(lamps: Lamps) -> Actor:
@@ -99,7 +99,7 @@ def build_actor(lamps: Lamps) -> Actor:
     template = figure.template
     once = catmull_clark(template.quads[template.faces("tongue")], len(figure.rest))
     places = chart.coordinates(rest)
-    cover, above = hair_cover(places), chart.step(rest[:, 1], 0.70, 0.72)
+    cover, above = hair_cover(places), chart.smooth_step(rest[:, 1], 0.70, 0.72)
     eyeball = build_eyeball()
     crop = grow_crop(figure, places)
     return Actor(
@@ -116,9 +116,9 @@ def build_actor(lamps: Lamps) -> Actor:
         ),
         chart=places,
         inner=inner.astype(np.float32),
-        margin=chart.step(from_eye, 0.0168, 0.0160),
-        scalp=chart.step(cover, -0.001, 0.006) * above,
-        veiled=chart.step(cover, -0.011, -0.002) * above,
+        margin=chart.smooth_step(from_eye, 0.0168, 0.0160),
+        scalp=chart.smooth_step(cover, -0.001, 0.006) * above,
+        veiled=chart.smooth_step(cover, -0.011, -0.002) * above,
         tongue=once,
         shirt=sew_shirt(figure),
         crop=crop,
@@ -139,7 +139,7 @@ def stage(actor: Actor, pose: Pose, lit: bool = True) -> Scene:
     fine = _join([(posed.skin, skin_triangles, Part.SKIN), *rest, (cloth, actor.shirt.triangles, Part.CLOTH)])
     crop = _move(posed.head, actor.crop.points.reshape(-1, 3)).reshape(actor.crop.points.shape)
     centres = np.stack([m[:3, :3] @ e.centre + m[:3, 3] for m, e in zip(posed.eyes, actor.figure.eyes, strict=True)])
-    rooted = [plant(hairs, posed.skin, normals, centres) for hairs in actor.rooted]
+    rooted = [place_hairs(hairs, posed.skin, normals, centres) for hairs in actor.rooted]
     casters: list[Piece] = (
         []
         if not lit
@@ -161,12 +161,12 @@ def stage(actor: Actor, pose: Pose, lit: bool = True) -> Scene:
         part=fine[2],
         casters=(light[0], light[1]),
         hairs=(crop, *rooted),
-        wrinkles=pressed(actor.wrinkles, pose.units),
+        wrinkles=wrinkle_relief(actor.wrinkles, pose.units),
         posed=posed,
     )
 
 
-def _rigid_parts(actor: Actor, posed: Posed, eyeball: Eyeball, upper: Dentition, lower: Dentition) -> list[Piece]:
+def _rigid_parts(actor: Actor, posed: PosedFigure, eyeball: Eyeball, upper: Dentition, lower: Dentition) -> list[Piece]:
     eyes = zip(actor.figure.eyes, posed.eyes, (Part.LEFT_EYE, Part.RIGHT_EYE), strict=True)
     return [
         *((_move(motion, eyeball.vertices + eye.centre), eyeball.triangles, part) for eye, motion, part in eyes),

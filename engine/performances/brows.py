@@ -19,7 +19,7 @@ BROW_LINE = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.80
 
 
 @dataclass(frozen=True)
-class Rooted:
+class RootedHairs:
     """Hairs rooted in the fine skin.
 
     `corners` (S, 3) the vertices of the triangle at each root, `share` (S, 3) its barycentrics there;
@@ -35,8 +35,8 @@ class Rooted:
     eye: NDArray[np.int8]
 
 
-def plant(
-    rooted: Rooted, skin: NDArray[np.floating], normals: NDArray[np.floating], eyes: NDArray[np.floating]
+def place_hairs(
+    rooted: RootedHairs, skin: NDArray[np.floating], normals: NDArray[np.floating], eyes: NDArray[np.floating]
 ) -> NDArray[np.float32]:
     """The hairs on the posed skin (N, 3) with its normals: (S, K, 3). `eyes` (2, 3) are the eyes' centres."""
     roots = (skin[rooted.corners] * rooted.share[..., None]).sum(1)
@@ -50,7 +50,7 @@ def plant(
     return (roots[:, None] + np.einsum("skf,sfx->skx", rooted.offsets, frame)).astype(np.float32)
 
 
-def grow_brows(figure: Figure, chart: NDArray[np.floating], count: int = 640, seed: int = 21) -> Rooted:
+def grow_brows(figure: Figure, chart: NDArray[np.floating], count: int = 640, seed: int = 21) -> RootedHairs:
     """Both brows; `chart` (N, 2) places the fine skin's vertices on the map of the head."""
     rng = np.random.default_rng(seed)
     middle = smooth_curve(BROW_LINE)
@@ -81,15 +81,15 @@ def grow_brows(figure: Figure, chart: NDArray[np.floating], count: int = 640, se
     grown = np.concatenate(offsets).astype(np.float32)
     taper = np.array([0.8, 1, 1, 0.85, 0.6, 0.25])
     widths = taper[None] * rng.normal(1.05e-4, 1.5e-5, (len(grown), 1))
-    return Rooted(corners, share, grown, widths.astype(np.float32), np.full(len(grown), -1, np.int8))
+    return RootedHairs(corners, share, grown, widths.astype(np.float32), np.full(len(grown), -1, np.int8))
 
 
-def grow_lashes(figure: Figure, eyeball: Eyeball, seed: int = 22) -> Rooted:
+def grow_lashes(figure: Figure, eyeball: Eyeball, seed: int = 22) -> RootedHairs:
     """The lashes of all four lids, rooted where the skin ends in front of the eyeball."""
     rng = np.random.default_rng(seed)
     parts = [_lashes(rng, figure, eyeball, eye, upper) for eye in (0, 1) for upper in (True, False)]
     corners, share, offsets, widths, eyes = (np.concatenate(column) for column in zip(*parts, strict=True))
-    return Rooted(corners, share, offsets.astype(np.float32), widths.astype(np.float32), eyes)
+    return RootedHairs(corners, share, offsets.astype(np.float32), widths.astype(np.float32), eyes)
 
 
 def _lashes(

@@ -59,7 +59,7 @@ def blob(centre: tuple[float, float], spread: tuple[float, float], turn: float =
     return np.exp(-0.5 * (((c * du + s * dv) / spread[0]) ** 2 + ((c * dv - s * du) / spread[1]) ** 2))
 
 
-def both(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
+def mirrored_blobs(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
     """The same blob on both sides of the face; `centre` and `turn` are those of the sitter's left."""
     return blob(centre, spread, turn) + blob((-centre[0], centre[1]), spread, -turn)
 
@@ -73,7 +73,7 @@ def smooth_curve(points: list[tuple[float, float]], count: int = 400) -> NDArray
     return CubicSpline(steps, p)(np.linspace(0, steps[-1], count))
 
 
-def along(
+def curve_coordinates(
     points: list[tuple[float, float]], reach: float
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[slice, slice]]:
     """Distance to a smooth curve, with sign (positive to its left), and the place along it [0, 1].
@@ -115,7 +115,7 @@ def noise(rng: np.random.Generator, size: float, octaves: int = 1) -> NDArray[np
     return total / total.std()
 
 
-def step(value: NDArray[np.floating], low: float, high: float) -> NDArray[np.float32]:
+def smooth_step(value: NDArray[np.floating], low: float, high: float) -> NDArray[np.float32]:
     """A smooth ramp from 0 at `low` to 1 at `high` (which may be the smaller)."""
     t = np.clip((value - low) / (high - low), 0, 1)
     return (t * t * (3 - 2 * t)).astype(np.float32)

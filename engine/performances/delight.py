@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 
-from engine.performances.acting import Units, add, lids, pose, stirring, turned
+from engine.performances.acting import Units, add, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
-from engine.performances.timing import blink, ease, glances, swell, unrest
+from engine.performances.timing import blink, ease, glances, idle_noise, swell
 
 
 def happy(t: float) -> Pose:
@@ -46,8 +46,8 @@ def happy(t: float) -> Pose:
     lids(units, blink(t, 0.36, depth=0.96) + blink(t, 2.86), lead=0.03, squint=0.5 * second)
     head = (
         -2.6 * swell(t, 0.34, 1.10, 2.2, 3.4) + 1.1 * swell(t, 0.18, 0.42, 0.5, 0.85) + 0.55 * shake,
-        1.6 * swell(t, 0.5, 1.4, 2.4, 3.6) + 0.5 * calm * unrest(t, 62, period, 4),
-        2.7 * swell(t, 0.45, 1.30, 2.5, 3.7) + 0.3 * calm * unrest(t, 63, period, 3),
+        1.6 * swell(t, 0.5, 1.4, 2.4, 3.6) + 0.5 * calm * idle_noise(t, 62, period, 4),
+        2.7 * swell(t, 0.45, 1.30, 2.5, 3.7) + 0.3 * calm * idle_noise(t, 63, period, 3),
     )
     gaze = glances(t, ((-1, 0, 0), (0.40, 0.5, -0.8), (2.05, -0.4, 1.4), (2.9, 0, 0)))
     breath = 0.55 * swell(t, 0.15, 0.9, 1.0, 2.2) - 0.12 * shake
@@ -79,9 +79,9 @@ def surprise(t: float) -> Pose:
     # a tiny dip, then the head goes back and up
     start = swell(t, 0.36, 0.72, 1.35, 2.8, sag=0.25)
     head = (
-        -3.4 * start + 0.9 * swell(t, 0.26, 0.40, 0.44, 0.7) + 0.3 * calm * unrest(t, 71, period, 4),
-        -1.2 * swell(t, 0.5, 1.0, 1.6, 2.9) + 0.4 * calm * unrest(t, 72, period, 4),
-        -1.1 * swell(t, 0.45, 0.95, 1.6, 2.9) + 0.2 * calm * unrest(t, 73, period, 3),
+        -3.4 * start + 0.9 * swell(t, 0.26, 0.40, 0.44, 0.7) + 0.3 * calm * idle_noise(t, 71, period, 4),
+        -1.2 * swell(t, 0.5, 1.0, 1.6, 2.9) + 0.4 * calm * idle_noise(t, 72, period, 4),
+        -1.1 * swell(t, 0.45, 0.95, 1.6, 2.9) + 0.2 * calm * idle_noise(t, 73, period, 3),
     )
     gaze = glances(t, ((-1, 0, 0), (0.30, 0.6, 0.3), (1.02, 0.2, -1.2), (1.36, 0.5, 1.0), (1.78, 0, 0)))
     breath = 0.9 * swell(t, 0.40, 0.80, 1.35, 2.9)
@@ -109,10 +109,10 @@ def happy_strong(t: float) -> Pose:
     add(units, "jawOpen", 0.05 * swell(t, 0.22, 0.7, 2.2, 3.0) + 0.38 * laugh + 0.05 * shake)
     add(units, "browInnerUp", 0.12 * swell(t, 0.16, 0.5, 0.8, 1.7))
     lids(units, blink(t, 0.24, depth=0.96) + blink(t, 2.46), lead=0.03, squint=0.5 * laugh)
-    head = turned(
+    head = sum_turns(
         (-5.0 * swell(t, 0.42, 1.05, 1.7, 2.95) + 1.2 * swell(t, 0.12, 0.34, 0.42, 0.72) + 0.9 * shake, 0.0, 0.0),
         (0.0, -2.6 * swell(t, 0.45, 1.2, 1.8, 3.0), -3.4 * swell(t, 0.4, 1.15, 1.9, 3.05)),
-        stirring(t, 162, period, 0.5),
+        head_sway(t, 162, period, 0.5),
     )
     gaze = glances(t, ((-1, 0, 0), (0.30, 0.4, 0.8), (1.75, -0.4, -1.2), (2.5, 0, 0)))
     breath = 0.8 * swell(t, 0.1, 0.6, 0.8, 1.9) - 0.2 * shake
@@ -134,9 +134,9 @@ def surprise_strong(t: float) -> Pose:
     add(units, "mouthFunnel", 0.32 * swell(t, 0.36, 0.80, 1.65, 2.45))
     lids(units, blink(t, 0.14, depth=0.55, slow=0.8) + blink(t, 1.92), lead=0.0)
     start = swell(t, 0.28, 0.62, 1.55, 2.75, sag=0.2)
-    head = turned(
+    head = sum_turns(
         (-5.2 * start + 1.2 * swell(t, 0.18, 0.32, 0.36, 0.6), 1.8 * start, 1.6 * start),
-        stirring(t, 171, period, 0.4),
+        head_sway(t, 171, period, 0.4),
     )
     gaze = glances(t, ((-1, 0, 0), (0.22, 0.6, 0.3), (1.10, 0.2, 1.4), (1.50, 0.5, -1.0), (1.96, 0, 0)))
     return pose(units, head, gaze, swell(t, 0.3, 0.65, 1.5, 2.75), (0.0, 0.003 * start, -0.012 * start))

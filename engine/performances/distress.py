@@ -7,7 +7,7 @@ between the two strengths is said where it is.
 
 from __future__ import annotations
 
-from engine.performances.acting import Units, add, both, lids, pose, stirring, turned
+from engine.performances.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
 from engine.performances.timing import blink, glances, swell
@@ -18,7 +18,7 @@ def anger(t: float) -> Pose:
     units: Units = {}
     hold = _glare(units, t, force=0.9)
     lids(units, blink(t, 0.20, depth=0.9) + blink(t, 2.12), lead=0.02)
-    head = turned((2.6 * hold, -1.6 * hold, 0.8 * hold), stirring(t, 201, performance("anger").seconds, 0.4))
+    head = sum_turns((2.6 * hold, -1.6 * hold, 0.8 * hold), head_sway(t, 201, performance("anger").seconds, 0.4))
     gaze = glances(t, ((-1, 0, 0), (0.28, 0.5, 0.6), (1.5, 0.3, -0.4), (2.15, 0, 0)))
     return pose(units, head, gaze, 0.4 * hold, (0.0, 0.0, 0.006 * hold))
 
@@ -28,17 +28,17 @@ def anger_strong(t: float) -> Pose:
     units: Units = {}
     bared = swell(t, 0.62, 1.05, 1.75, 2.40, sag=0.12)
     hold = _glare(units, t, force=1.08, pursed=1 - 0.85 * bared)
-    both(units, "eyeWide", 0.40 * bared)  # a glare: without it a bared mouth is one of disgust
-    both(units, "noseSneer", 0.30 * bared)
-    both(units, "mouthUpperUp", 0.45 * bared)
-    both(units, "mouthLowerDown", 1.00 * bared)
-    both(units, "mouthStretch", 0.45 * bared)
-    both(units, "mouthFrown", 0.12 * bared)
+    add_both_sides(units, "eyeWide", 0.40 * bared)  # a glare: without it a bared mouth is one of disgust
+    add_both_sides(units, "noseSneer", 0.30 * bared)
+    add_both_sides(units, "mouthUpperUp", 0.45 * bared)
+    add_both_sides(units, "mouthLowerDown", 1.00 * bared)
+    add_both_sides(units, "mouthStretch", 0.45 * bared)
+    add_both_sides(units, "mouthFrown", 0.12 * bared)
     add(units, "jawOpen", 0.18 * bared)
     lids(units, blink(t, 0.16, depth=0.9) + blink(t, 2.16), lead=0.02)
     tremble = (0.0, 0.0, 0.28 * bared)
-    head = turned((4.6 * hold, 2.2 * hold, -1.4 * hold), stirring(t, 211, performance("anger-strong").seconds, 0.7))
-    head = turned(head, tremble)
+    head = sum_turns((4.6 * hold, 2.2 * hold, -1.4 * hold), head_sway(t, 211, performance("anger-strong").seconds, 0.7))
+    head = sum_turns(head, tremble)
     gaze = glances(t, ((-1, 0, 0), (0.22, 0.4, -0.6), (1.4, 0.2, 0.5), (2.2, 0, 0)))
     return pose(units, head, gaze, 0.8 * hold, (0.0, 0.0, 0.012 * hold))
 
@@ -70,7 +70,7 @@ def fear(t: float) -> Pose:
     hold = _dread(units, t, force=0.85)
     add(units, "jawOpen", 0.09 * swell(t, 0.46, 0.86, 1.70, 2.30))
     lids(units, blink(t, 0.15, depth=0.6, slow=0.8) + blink(t, 2.04), lead=0.0)
-    head = turned((-2.0 * hold, 2.4 * hold, 0.8 * hold), stirring(t, 221, performance("fear").seconds, 0.5))
+    head = sum_turns((-2.0 * hold, 2.4 * hold, 0.8 * hold), head_sway(t, 221, performance("fear").seconds, 0.5))
     gaze = glances(t, ((-1, 0, 0), (0.95, 0.0, 3.4), (1.30, 0.2, -2.8), (1.72, 0, 0)))
     return pose(units, head, gaze, 0.7 * hold, (0.002 * hold, 0.0, -0.007 * hold))
 
@@ -82,10 +82,12 @@ def fear_strong(t: float) -> Pose:
     gape = swell(t, 0.40, 0.80, 1.75, 2.40, sag=0.15)
     gasp = gape * swell(t, 1.05, 1.25, 1.30, 1.55)
     add(units, "jawOpen", 0.34 * gape + 0.10 * gasp)
-    both(units, "mouthLowerDown", 0.34 * gape)
-    both(units, "mouthUpperUp", 0.12 * gape)
+    add_both_sides(units, "mouthLowerDown", 0.34 * gape)
+    add_both_sides(units, "mouthUpperUp", 0.12 * gape)
     lids(units, blink(t, 0.12, depth=0.6, slow=0.8) + blink(t, 2.14), lead=0.0)
-    head = turned((-4.2 * hold, -4.4 * hold, -2.0 * hold), stirring(t, 231, performance("fear-strong").seconds, 0.9))
+    head = sum_turns(
+        (-4.2 * hold, -4.4 * hold, -2.0 * hold), head_sway(t, 231, performance("fear-strong").seconds, 0.9)
+    )
     gaze = glances(t, ((-1, 0, 0), (0.88, -0.4, -3.0), (1.16, 0.6, 2.6), (1.50, 0.0, -1.6), (1.90, 0, 0)))
     return pose(units, head, gaze, min(0.9 * hold + 0.3 * gasp, 1.0), (-0.003 * hold, 0.002 * gasp, -0.014 * hold))
 
@@ -108,7 +110,7 @@ def sadness(t: float) -> Pose:
     units: Units = {}
     hold = _sorrow(units, t, force=0.85)
     lids(units, blink(t, 0.62, slow=1.25) + 0.20 * swell(t, 0.8, 1.4, 2.0, 2.6) + blink(t, 2.30, slow=1.1), lead=0.02)
-    head = turned((4.2 * hold, 1.2 * hold, 2.2 * hold), stirring(t, 241, performance("sadness").seconds, 0.35))
+    head = sum_turns((4.2 * hold, 1.2 * hold, 2.2 * hold), head_sway(t, 241, performance("sadness").seconds, 0.35))
     gaze = glances(t, ((-1, 0, 0), (0.66, -5.5, 1.0), (1.55, -7.0, -0.6), (2.34, 0, 0)))
     return pose(units, head, gaze, 0.5 * swell(t, 0.1, 0.6, 0.7, 1.6), (0.0, -0.002 * hold, 0.0))
 
@@ -118,12 +120,14 @@ def sadness_strong(t: float) -> Pose:
     units: Units = {}
     hold = _sorrow(units, t, force=1.22)
     shiver = swell(t, 0.95, 1.2, 1.6, 2.1)
-    both(units, "eyeSquint", 0.34 * swell(t, 0.6, 1.2, 2.0, 2.7))
-    both(units, "cheekSquint", 0.26 * swell(t, 0.6, 1.2, 2.0, 2.7))
-    both(units, "mouthStretch", 0.22 * swell(t, 0.6, 1.15, 2.0, 2.7))
+    add_both_sides(units, "eyeSquint", 0.34 * swell(t, 0.6, 1.2, 2.0, 2.7))
+    add_both_sides(units, "cheekSquint", 0.26 * swell(t, 0.6, 1.2, 2.0, 2.7))
+    add_both_sides(units, "mouthStretch", 0.22 * swell(t, 0.6, 1.15, 2.0, 2.7))
     add(units, "mouthShrugLower", 0.16 * shiver)
     lids(units, blink(t, 0.50, slow=1.25) + 0.30 * swell(t, 0.7, 1.3, 2.1, 2.7) + blink(t, 2.46, slow=1.1), lead=0.02)
-    head = turned((6.4 * hold, -2.4 * hold, -4.0 * hold), stirring(t, 251, performance("sadness-strong").seconds, 0.5))
+    head = sum_turns(
+        (6.4 * hold, -2.4 * hold, -4.0 * hold), head_sway(t, 251, performance("sadness-strong").seconds, 0.5)
+    )
     gaze = glances(t, ((-1, 0, 0), (0.54, -6.5, -1.4), (1.60, -8.5, 1.0), (2.50, 0, 0)))
     return pose(units, head, gaze, 0.9 * swell(t, 0.3, 0.85, 0.95, 2.0), (0.0, -0.003 * hold, 0.002 * hold))
 
@@ -136,5 +140,5 @@ def _sorrow(units: Units, t: float, force: float) -> float:
         add(units, f"mouthFrown{side}", 0.82 * force * more * swell(t - lag, 0.42, 1.10, 2.05, 2.82, sag=0.08))
     add(units, "browInnerUp", 1.0 * force * swell(t, 0.30, 0.92, 2.05, 2.80, sag=0.08))
     add(units, "mouthShrugLower", 0.36 * force * swell(t, 0.50, 1.15, 1.95, 2.70, sag=0.1))
-    both(units, "mouthPress", 0.14 * force * swell(t, 0.50, 1.15, 1.95, 2.70))
+    add_both_sides(units, "mouthPress", 0.14 * force * swell(t, 0.50, 1.15, 1.95, 2.70))
     return swell(t, 0.40, 1.15, 1.95, 2.85, sag=0.05)

@@ -95,7 +95,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Posed:
+class PosedFigure:
     """A pose carried out: `cage` (V, 3) the template's vertices, `skin` (N, 3) and `coarse_skin` the subdivided
     surfaces, `head` and `jaw` (4, 4) what the skull and the lower teeth do to their rest pose, `eyes` (4, 4) each."""
 
@@ -138,7 +138,7 @@ def build_figure() -> Figure:
     )
 
 
-def pose_figure(figure: Figure, pose: Pose) -> Posed:
+def pose_figure(figure: Figure, pose: Pose) -> PosedFigure:
     """Carry out a pose."""
     units = {name: weight for name, weight in pose.units.items() if name not in BLINK_UNITS}
     moved = figure.rest + figure.template.face_units.displacement(units)
@@ -156,7 +156,7 @@ def pose_figure(figure: Figure, pose: Pose) -> Posed:
         for eye, motion in zip(figure.eyes, eyes, strict=True):
             _keep_off(surface, motion, motion[:3, :3] @ eye.centre + motion[:3, 3])
         surfaces.append(surface)
-    return Posed(cage, surfaces[0], surfaces[1], head, jaw, eyes)
+    return PosedFigure(cage, surfaces[0], surfaces[1], head, jaw, eyes)
 
 
 def rigid_motion(before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from engine.performances.acting import Units, add, both, lids, pose, stirring, turned
+from engine.performances.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
 from engine.performances.timing import blink, ease, glances, swell
@@ -15,9 +15,9 @@ def nod(t: float) -> Pose:
     units: Units = {}
     pitch = _beats(t, 0.22, (0.62, 0.56), (7.0, 4.2))
     lids(units, blink(t, 0.30), lead=0.02)
-    both(units, "mouthSmile", 0.12 * swell(t, 0.2, 0.6, 1.1, 1.6))
-    both(units, "browOuterUp", 0.12 * swell(t, 0.15, 0.4, 0.6, 1.1))
-    head = turned((pitch, 0.0, 0.0), stirring(t, 301, performance("nod").seconds, 0.4))
+    add_both_sides(units, "mouthSmile", 0.12 * swell(t, 0.2, 0.6, 1.1, 1.6))
+    add_both_sides(units, "browOuterUp", 0.12 * swell(t, 0.15, 0.4, 0.6, 1.1))
+    head = sum_turns((pitch, 0.0, 0.0), head_sway(t, 301, performance("nod").seconds, 0.4))
     return pose(units, head, (0.0, 0.0), 0.0, (0.0, 0.0, 0.0005 * pitch))
 
 
@@ -27,11 +27,11 @@ def nod_strong(t: float) -> Pose:
     lift = -2.6 * swell(t, 0.10, 0.30, 0.32, 0.60)
     pitch = lift + _beats(t, 0.24, (0.60, 0.54, 0.52), (10.5, 8.5, 5.0))
     lids(units, blink(t, 0.30) + blink(t, 1.34), lead=0.02)
-    both(units, "mouthPress", 0.4 * swell(t, 0.3, 0.7, 1.3, 1.8))
+    add_both_sides(units, "mouthPress", 0.4 * swell(t, 0.3, 0.7, 1.3, 1.8))
     add(units, "mouthShrugLower", 0.22 * swell(t, 0.3, 0.7, 1.3, 1.8))
-    both(units, "browOuterUp", 0.30 * swell(t, 0.06, 0.3, 0.4, 0.9))
+    add_both_sides(units, "browOuterUp", 0.30 * swell(t, 0.06, 0.3, 0.4, 0.9))
     add(units, "browInnerUp", 0.24 * swell(t, 0.06, 0.3, 0.4, 0.9))
-    head = turned((pitch, 0.0, 0.0), stirring(t, 311, performance("nod-strong").seconds, 0.6))
+    head = sum_turns((pitch, 0.0, 0.0), head_sway(t, 311, performance("nod-strong").seconds, 0.6))
     return pose(units, head, (0.0, 0.0), 0.0, (0.0, 0.0, 0.0006 * pitch))
 
 
@@ -40,9 +40,9 @@ def shake(t: float) -> Pose:
     units: Units = {}
     yaw = _swings(t, 0.16, 0.72, 7.5, turns=4)
     lids(units, blink(t, 0.22), lead=0.02)
-    both(units, "mouthPress", 0.3 * swell(t, 0.25, 0.6, 1.2, 1.7))
-    both(units, "browDown", 0.12 * swell(t, 0.25, 0.6, 1.2, 1.7))
-    head = turned((0.0, yaw, -0.12 * yaw), stirring(t, 321, performance("shake").seconds, 0.4))
+    add_both_sides(units, "mouthPress", 0.3 * swell(t, 0.25, 0.6, 1.2, 1.7))
+    add_both_sides(units, "browDown", 0.12 * swell(t, 0.25, 0.6, 1.2, 1.7))
+    head = sum_turns((0.0, yaw, -0.12 * yaw), head_sway(t, 321, performance("shake").seconds, 0.4))
     return pose(units, head, (0.0, 0.0), 0.0, (0.00025 * yaw, 0.0, 0.0))
 
 
@@ -51,12 +51,12 @@ def shake_strong(t: float) -> Pose:
     units: Units = {}
     yaw = _swings(t, 0.16, 0.84, 12.0, turns=5)
     lids(units, blink(t, 0.22) + blink(t, 1.70), lead=0.02)
-    both(units, "mouthFrown", 0.42 * swell(t, 0.25, 0.7, 1.7, 2.3))
+    add_both_sides(units, "mouthFrown", 0.42 * swell(t, 0.25, 0.7, 1.7, 2.3))
     add(units, "mouthShrugLower", 0.30 * swell(t, 0.25, 0.7, 1.7, 2.3))
-    both(units, "mouthPress", 0.22 * swell(t, 0.25, 0.7, 1.7, 2.3))
-    both(units, "browDown", 0.42 * swell(t, 0.2, 0.6, 1.7, 2.3))
+    add_both_sides(units, "mouthPress", 0.22 * swell(t, 0.25, 0.7, 1.7, 2.3))
+    add_both_sides(units, "browDown", 0.42 * swell(t, 0.2, 0.6, 1.7, 2.3))
     pitch = 1.6 * swell(t, 0.2, 0.7, 1.7, 2.3)
-    head = turned((pitch, yaw, -0.14 * yaw), stirring(t, 331, performance("shake-strong").seconds, 0.5))
+    head = sum_turns((pitch, yaw, -0.14 * yaw), head_sway(t, 331, performance("shake-strong").seconds, 0.5))
     return pose(units, head, (0.0, 0.0), 0.0, (0.0003 * yaw, 0.0, 0.0))
 
 
@@ -92,7 +92,7 @@ def _wink(t: float, seconds: float, force: float, tilt: float) -> Pose:
     add(units, "mouthSmileLeft", 0.72 * smile)
     add(units, "mouthDimpleLeft", 0.22 * smile)
     add(units, "mouthSmileRight", 0.18 * smile)
-    head = turned((0.9 * smile, 0.8 * smile, tilt * smile), stirring(t, 341, seconds, 0.35))
+    head = sum_turns((0.9 * smile, 0.8 * smile, tilt * smile), head_sway(t, 341, seconds, 0.35))
     return pose(units, head, glances(t, ((-1, 0, 0), (0.2, 0.3, 0.5), (1.1, 0, 0))), 0.0)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
-from engine.performances.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, step
+from engine.performances.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, smooth_step
 from engine.performances.figure import Figure
 
 HAIRLINE = [
@@ -23,7 +23,7 @@ the nape (u, v)."""
 
 
 @dataclass(frozen=True)
-class Crop:
+class Haircut:
     """Hair that moves with the skull: `points` (S, K, 3) of the rest pose, `roots` (S, 3) the normals of the
     scalp there, `widths` (S, K) metres, `tone` (S,) each hair's brightness."""
 
@@ -45,7 +45,7 @@ def hair_cover(chart: NDArray[np.floating]) -> NDArray[np.float32]:
     return (distance * side).astype(np.float32)
 
 
-def grow_crop(figure: Figure, chart: NDArray[np.floating], count: int = 34000, seed: int = 11) -> Crop:
+def grow_crop(figure: Figure, chart: NDArray[np.floating], count: int = 34000, seed: int = 11) -> Haircut:
     """Grow the hair of the head over the fine skin's rest pose; `chart` (N, 2) are its vertices on the map."""
     rng = np.random.default_rng(seed)
     rest = (figure.fine @ figure.rest).astype(np.float32)
@@ -61,7 +61,7 @@ def grow_crop(figure: Figure, chart: NDArray[np.floating], count: int = 34000, s
     points = _clump(rng, points)
     widths = np.linspace(1, 0.35, points.shape[1])[None] * rng.normal(1.0e-4, 1.2e-5, (len(points), 1))
     tone = np.exp(rng.normal(0, 0.22, len(points)))
-    return Crop(points.astype(np.float32), normals, widths.astype(np.float32), tone.astype(np.float32))
+    return Haircut(points.astype(np.float32), normals, widths.astype(np.float32), tone.astype(np.float32))
 
 
 def _comb(
@@ -69,8 +69,8 @@ def _comb(
 ) -> NDArray[np.float64]:
     """Let each hair rise along the normal and lie down where it is combed to: up and to his left in front, forward
     on the crown, down and back at the sides. Returns (S, 8, 3)."""
-    top = step(roots[:, 1], 0.835, 0.880)[:, None]
-    front = step(roots[:, 2], 0.075, 0.125)[:, None] * top
+    top = smooth_step(roots[:, 1], 0.835, 0.880)[:, None]
+    front = smooth_step(roots[:, 2], 0.075, 0.125)[:, None] * top
     side = np.sign(roots[:, :1]) * np.array([1.0, 0.0, 0.0])
     crown = np.array([0.30, 0.10, 0.75])
     quiff = np.array([0.42, 0.78, 0.10])

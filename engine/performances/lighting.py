@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.performances.actor import Part, Scene
-from engine.performances.chart import step
-from engine.performances.sight import Seen
+from engine.performances.chart import smooth_step
+from engine.performances.sight import VisiblePoints
 from engine.render.light import Lamps, dome, softbox
 
 KEY_BOX = (-40.0, 34.0, 44.0, 52.0)
@@ -52,7 +52,7 @@ def lamps(detail: float = 1.0) -> Lamps:
     )
 
 
-def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.float32]:
+def interreflection(scene: Scene, seen: VisiblePoints, wet: NDArray[np.float32]) -> NDArray[np.float32]:
     """Irradiance (N, 3) by light that surfaces pass on to each other: between the walls of the mouth, fading towards
     the throat, and from the white of the eye onto the `wet` (N,) rims of the lids."""
     inside = (seen.part == Part.TEETH) | (seen.part == Part.TONGUE)
@@ -63,7 +63,7 @@ def bounce(scene: Scene, seen: Seen, wet: NDArray[np.float32]) -> NDArray[np.flo
     return bounced
 
 
-def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:
+def catchlights(seen: VisiblePoints, irradiance: NDArray[np.float32]) -> NDArray[np.float32]:
     """What the wet eyes mirror (N, 3): the softboxes, sharp-edged, where the lids do not keep their light away."""
     mirrored = np.zeros_like(seen.position)
     eye = np.isin(seen.part, (Part.LEFT_EYE, Part.RIGHT_EYE))
@@ -75,7 +75,7 @@ def catchlights(seen: Seen, irradiance: NDArray[np.float32]) -> NDArray[np.float
     fresnel = 0.025 + 0.975 * (1 - np.clip(cosine[:, 0], 0, 1)) ** 5
     open_to = np.clip(irradiance[eye].mean(1) / 0.55, 0, 1)
     for (x, y, width, height), light in ((KEY_BOX, KEY_IRRADIANCE), (FILL_BOX, FILL_IRRADIANCE)):
-        inside = step(np.abs(azimuth - x), width / 2 + 3, width / 2 - 3) * step(
+        inside = smooth_step(np.abs(azimuth - x), width / 2 + 3, width / 2 - 3) * smooth_step(
             np.abs(elevation - y), height / 2 + 3, height / 2 - 3
         )
         radiance = light / (np.radians(width) * np.radians(height) * np.cos(np.radians(y)))

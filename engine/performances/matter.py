@@ -12,13 +12,13 @@ from engine.performances import chart
 from engine.performances.actor import Actor, Part, Scene
 from engine.performances.eyes import colour_of_eye
 from engine.performances.shirt import COLLAR_WIDTH
-from engine.performances.sight import Seen, unit
+from engine.performances.sight import VisiblePoints, unit
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.bump import bump
 
 
 @dataclass(frozen=True)
-class Matter:
+class SurfaceMaterials:
     """What the visible points are made of: `albedo` (N, 3), `bumped` normals (N, 3), `coarse` normals (N, 3) that
     the diffuse light follows, `roughness` (N,), `reflectance` (N,), `softness` (N, 3), `translucency` (N,),
     `wet` (N,) rims of the lids."""
@@ -33,10 +33,10 @@ class Matter:
     wet: NDArray[np.float32]
 
 
-def materials(actor: Actor, scene: Scene, seen: Seen) -> Matter:
+def materials(actor: Actor, scene: Scene, seen: VisiblePoints) -> SurfaceMaterials:
     """The material of every visible point."""
     n = len(seen.part)
-    matter = Matter(
+    matter = SurfaceMaterials(
         albedo=np.zeros((n, 3), np.float32),
         coarse=seen.normal.copy(),
         bumped=seen.normal.copy(),
@@ -54,7 +54,7 @@ def materials(actor: Actor, scene: Scene, seen: Seen) -> Matter:
     return matter
 
 
-def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
+def _skin(actor: Actor, scene: Scene, seen: VisiblePoints, matter: SurfaceMaterials) -> None:
     of_skin = seen.part == Part.SKIN
     count = len(actor.chart)
     triangles = scene.triangles[scene.part == Part.SKIN]
@@ -83,7 +83,7 @@ def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     rough = found[:, 3] + margin[:, 0] * (0.38 - found[:, 3])
     matter.roughness[of_skin] = rough + inner[:, 0] * (0.33 - rough)
     # relief finer than a pixel would sparkle where the skin turns away
-    facing = chart.step((seen.normal[of_skin] * seen.view[of_skin]).sum(1), 0.1, 0.55)[:, None]
+    facing = chart.smooth_step((seen.normal[of_skin] * seen.view[of_skin]).sum(1), 0.1, 0.55)[:, None]
     matter.bumped[of_skin] = bump(
         matter.coarse[of_skin], values[:, 2:8], (found[:, 4:6] + fold[:, 1:]) * (1 - inner) * facing
     )
@@ -93,7 +93,7 @@ def _skin(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     matter.wet[of_skin] = margin[:, 0]
 
 
-def _eye(actor: Actor, scene: Scene, seen: Seen, matter: Matter, side: int, part: Part) -> None:
+def _eye(actor: Actor, scene: Scene, seen: VisiblePoints, matter: SurfaceMaterials, side: int, part: Part) -> None:
     chosen = seen.part == part
     motion = scene.posed.eyes[side]
     turn, centre = motion[:3, :3], motion[:3, :3] @ actor.figure.eyes[side].centre + motion[:3, 3]
@@ -107,7 +107,7 @@ def _eye(actor: Actor, scene: Scene, seen: Seen, matter: Matter, side: int, part
     matter.translucency[chosen] = 0.3 * (1 - cornea)
 
 
-def _mouth(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
+def _mouth(actor: Actor, scene: Scene, seen: VisiblePoints, matter: SurfaceMaterials) -> None:
     teeth, tongue = seen.part == Part.TEETH, seen.part == Part.TONGUE
     first = int((scene.triangles[scene.part == Part.TEETH]).min())
     by_vertex = np.zeros((len(scene.vertices), 2), np.float32)
@@ -131,7 +131,7 @@ def _mouth(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
     matter.translucency[tongue] = 1
 
 
-def _cloth(actor: Actor, scene: Scene, seen: Seen, matter: Matter) -> None:
+def _cloth(actor: Actor, scene: Scene, seen: VisiblePoints, matter: SurfaceMaterials) -> None:
     chosen = seen.part == Part.CLOTH
     by_vertex = np.zeros((len(scene.vertices), 2), np.float32)
     by_vertex[-len(actor.shirt.weave) :] = actor.shirt.weave

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from engine.performances.acting import Units, add, both, lids, pose, turned
+from engine.performances.acting import Units, add, add_both_sides, lids, pose, sum_turns
 from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
-from engine.performances.timing import blink, glances, swell, unrest
+from engine.performances.timing import blink, glances, idle_noise, swell
 
 
 def idle(t: float) -> Pose:
@@ -20,21 +20,21 @@ def idle(t: float) -> Pose:
     units: Units = {}
     lids(units, blink(t, 1.27) + 0.94 * blink(t, 3.63, slow=1.15), lead=0.02)
     # tone in the muscles at rest: corners of the mouth, lips and brows wander by a few hundredths
-    settle = 0.5 + 0.5 * unrest(t, 41, period, 3) * 0.5
+    settle = 0.5 + 0.5 * idle_noise(t, 41, period, 3) * 0.5
     for side, seed in (("Left", 42), ("Right", 43)):
-        add(units, f"mouthSmile{side}", 0.022 * (unrest(t, seed, period, 3) + 0.4))
-        add(units, f"browOuterUp{side}", 0.03 * unrest(t, seed + 4, period, 3))
+        add(units, f"mouthSmile{side}", 0.022 * (idle_noise(t, seed, period, 3) + 0.4))
+        add(units, f"browOuterUp{side}", 0.03 * idle_noise(t, seed + 4, period, 3))
         add(units, f"mouthPress{side}", 0.05 * (settle - 0.5) ** 2)
-    add(units, "browInnerUp", 0.035 * unrest(t, 48, period, 3))
+    add(units, "browInnerUp", 0.035 * idle_noise(t, 48, period, 3))
     gaze = glances(
         t, ((-1, 0, 0), (0.86, -0.6, 2.2), (1.31, 0.3, -0.5), (2.48, -1.1, -2.8), (3.16, 0.2, -1.6), (3.67, 0, 0))
     )
     head = (
-        0.75 * unrest(t, 51, period, 4) - 0.35 * breath,
-        1.05 * unrest(t, 52, period, 4),
-        0.50 * unrest(t, 53, period, 3),
+        0.75 * idle_noise(t, 51, period, 4) - 0.35 * breath,
+        1.05 * idle_noise(t, 52, period, 4),
+        0.50 * idle_noise(t, 53, period, 3),
     )
-    lean = (0.0011 * unrest(t, 54, period, 3), 0.0, 0.0014 * unrest(t, 55, period, 3))
+    lean = (0.0011 * idle_noise(t, 54, period, 3), 0.0, 0.0014 * idle_noise(t, 55, period, 3))
     return pose(units, head, gaze, breath, lean)
 
 
@@ -49,19 +49,23 @@ def idle_strong(t: float) -> Pose:
     lids(units, blink(t, 0.92) + 0.95 * blink(t, 2.66, slow=1.1), lead=0.02)
     interest = swell(t, 0.95, 1.45, 1.75, 2.55, sag=0.2)
     warmth = swell(t, 1.7, 2.3, 2.7, 3.7, sag=0.15)
-    both(units, "browOuterUp", 0.34 * interest)
-    add(units, "browInnerUp", 0.26 * interest + 0.05 * unrest(t, 148, period, 3))
-    both(units, "mouthSmile", 0.30 * warmth + 0.02 * unrest(t, 142, period, 3), right=0.86)
-    both(units, "cheekSquint", 0.16 * warmth)
-    both(units, "mouthPress", 0.14 * swell(t, 0.35, 0.7, 0.85, 1.3))
+    add_both_sides(units, "browOuterUp", 0.34 * interest)
+    add(units, "browInnerUp", 0.26 * interest + 0.05 * idle_noise(t, 148, period, 3))
+    add_both_sides(units, "mouthSmile", 0.30 * warmth + 0.02 * idle_noise(t, 142, period, 3), right=0.86)
+    add_both_sides(units, "cheekSquint", 0.16 * warmth)
+    add_both_sides(units, "mouthPress", 0.14 * swell(t, 0.35, 0.7, 0.85, 1.3))
     gaze = glances(
         t, ((-1, 0, 0), (0.45, 1.0, 6.0), (0.98, 0.4, -1.5), (1.62, -1.0, -6.5), (2.30, 0.4, -2.0), (2.72, 0, 0))
     )
-    head = turned(
-        (1.3 * unrest(t, 151, period, 4) - 0.5 * breath, 1.6 * unrest(t, 152, period, 4), unrest(t, 153, period, 3)),
+    head = sum_turns(
+        (
+            1.3 * idle_noise(t, 151, period, 4) - 0.5 * breath,
+            1.6 * idle_noise(t, 152, period, 4),
+            idle_noise(t, 153, period, 3),
+        ),
         (-1.8 * interest, 3.2 * swell(t, 0.5, 1.0, 1.1, 1.7) - 4.0 * swell(t, 1.65, 2.2, 2.4, 3.3), 2.6 * warmth),
     )
-    lean = (0.002 * unrest(t, 154, period, 3), 0.0, 0.002 * unrest(t, 155, period, 3))
+    lean = (0.002 * idle_noise(t, 154, period, 3), 0.0, 0.002 * idle_noise(t, 155, period, 3))
     return pose(units, head, gaze, breath, lean)
 
 

@@ -7,7 +7,7 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.performances.chart import step
+from engine.performances.chart import smooth_step
 from engine.render.light import Lamps
 
 VOXEL_METRES = 0.0016
@@ -32,7 +32,7 @@ def light_through(
     density = np.zeros(shape, np.float32)
     cell = ((middles.reshape(-1, 3) - low) / VOXEL_METRES).astype(int)
     np.add.at(density, tuple(cell.T), (area.ravel() / VOXEL_METRES**3).astype(np.float32))
-    facing = step(normals @ lamps.directions.T, -0.35, 0.25)
+    facing = smooth_step(normals @ lamps.directions.T, -0.35, 0.25)
     passed = _march(
         density,
         np.ascontiguousarray(((points - low) / VOXEL_METRES).reshape(-1, 3), np.float32),

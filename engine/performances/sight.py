@@ -14,7 +14,7 @@ from engine.render.rasteriser import Raster, rasterise
 
 
 @dataclass(frozen=True)
-class Seen:
+class VisiblePoints:
     """The visible points of a picture, row by row, and where they lie: `covered` (H, W) marks their pixels."""
 
     covered: NDArray[np.bool_]
@@ -25,14 +25,14 @@ class Seen:
     view: NDArray[np.float32]
 
 
-def look(scene: Scene, camera: Camera) -> Seen:
+def visible_points(scene: Scene, camera: Camera) -> VisiblePoints:
     """Which points of the scene the camera sees."""
     raster = rasterise(camera.project(scene.vertices), scene.triangles, camera.size, perspective=True)
     covered = raster.triangle >= 0
     position = interpolate(scene.vertices, scene.triangles, raster)[covered]
     normal = unit(interpolate(scene.normals, scene.triangles, raster)[covered])
     view = unit(np.asarray(camera.eye, np.float32) - position)
-    return Seen(covered, raster, scene.part[raster.triangle[covered]], position, normal, view)
+    return VisiblePoints(covered, raster, scene.part[raster.triangle[covered]], position, normal, view)
 
 
 def unit(vectors: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -18,14 +18,14 @@ from engine.performances.chart import (
     LEFT,
     TEXELS_PER_METRE,
     TOP,
-    along,
     blob,
-    both,
+    curve_coordinates,
     grid,
+    mirrored_blobs,
     noise,
     slopes,
     smooth_curve,
-    step,
+    smooth_step,
 )
 
 BASE_REFLECTANCE = np.array([0.72, 0.52, 0.42], np.float32)
@@ -83,7 +83,7 @@ def _lips(rng: np.random.Generator) -> NDArray[np.float32]:
     cv2.fillPoly(inside, [np.rint(texels * 16).astype(np.int32)], 1, shift=4)
     distance = cv2.distanceTransform(inside, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - inside, cv2.DIST_L2, 5)
     ragged = distance / TEXELS_PER_METRE + 0.00022 * noise(rng, 0.0018)
-    return step(ragged, -0.0009, 0.0010)
+    return smooth_step(ragged, -0.0009, 0.0010)
 
 
 def mirrored(half: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -94,15 +94,15 @@ def mirrored(half: list[tuple[float, float]]) -> list[tuple[float, float]]:
 def _blood(rng: np.random.Generator) -> NDArray[np.float32]:
     """Haemoglobin: more where vessels lie near the surface, mottled everywhere."""
     flush = (
-        0.20 * both((0.037, 0.757), (0.015, 0.011), -0.5)  # cheeks
+        0.20 * mirrored_blobs((0.037, 0.757), (0.015, 0.011), -0.5)  # cheeks
         + 0.22 * blob((0.0, 0.756), (0.010, 0.008))  # tip of the nose
-        + 0.28 * both((0.0165, 0.7515), (0.0035, 0.004))  # wings of the nose and the crease behind them
+        + 0.28 * mirrored_blobs((0.0165, 0.7515), (0.0035, 0.004))  # wings of the nose and the crease behind them
         + 0.10 * blob((0.0, 0.695), (0.014, 0.009))  # chin
-        + 0.12 * both((0.030, 0.7835), (0.013, 0.0035), -0.05)  # lower lids
-        + 0.12 * both((0.031, 0.7985), (0.013, 0.0035), 0.0)  # upper lids
-        + 0.22 * both((0.0185, 0.7885), (0.0022, 0.0024))  # corners of the eyes
-        + 0.16 * both((0.0235, 0.7205), (0.004, 0.004))  # corners of the mouth
-        + 0.55 * both((0.155, 0.772), (0.028, 0.034))  # ears
+        + 0.12 * mirrored_blobs((0.030, 0.7835), (0.013, 0.0035), -0.05)  # lower lids
+        + 0.12 * mirrored_blobs((0.031, 0.7985), (0.013, 0.0035), 0.0)  # upper lids
+        + 0.22 * mirrored_blobs((0.0185, 0.7885), (0.0022, 0.0024))  # corners of the eyes
+        + 0.16 * mirrored_blobs((0.0235, 0.7205), (0.004, 0.004))  # corners of the mouth
+        + 0.55 * mirrored_blobs((0.155, 0.772), (0.028, 0.034))  # ears
         + 0.06 * blob((0.0, 0.84), (0.05, 0.02))
     )
     mottle = 0.034 * noise(rng, 0.009, 4) + 0.032 * noise(rng, 0.0022, 2)
@@ -113,12 +113,12 @@ def _melanin(rng: np.random.Generator) -> NDArray[np.float32]:
     """Melanin: a light tan, shadows under the eyes, freckles, a few moles."""
     tan = (
         0.05 * blob((0.0, 0.845), (0.06, 0.03))
-        + 0.05 * both((0.05, 0.765), (0.02, 0.015))
-        + 0.10 * both((0.0225, 0.7835), (0.009, 0.0035), -0.35)  # hollow under the eye
-        + 0.06 * both((0.032, 0.7995), (0.014, 0.004))
+        + 0.05 * mirrored_blobs((0.05, 0.765), (0.02, 0.015))
+        + 0.10 * mirrored_blobs((0.0225, 0.7835), (0.009, 0.0035), -0.35)  # hollow under the eye
+        + 0.06 * mirrored_blobs((0.032, 0.7995), (0.014, 0.004))
         - 0.05 * blob((0.0, 0.66), (0.06, 0.03))  # the throat sees no sun
     )
-    spots = np.maximum(noise(rng, 0.0016) - 2.3, 0) * (0.4 + both((0.032, 0.765), (0.02, 0.012)))
+    spots = np.maximum(noise(rng, 0.0016) - 2.3, 0) * (0.4 + mirrored_blobs((0.032, 0.765), (0.02, 0.012)))
     moles = sum(strength * blob(place, (size, size)) for place, size, strength in MOLES)
     return np.maximum(0.265 + tan + 0.022 * noise(rng, 0.016, 3) + 0.07 * spots + moles, 0.02)
 
@@ -131,13 +131,13 @@ def _beard(rng: np.random.Generator) -> NDArray[np.float32]:
     """The shadow of a shaved beard: where it grows, and the cut hairs in it."""
     u, v = grid()
     side = np.abs(u)
-    jaw = step(v, 0.742, 0.722) * step(v, 0.650, 0.685) * step(side, 0.122, 0.085)
-    cheek_line = step(v - 0.75 * side, 0.700, 0.668)
-    chin = step(v, 0.727, 0.706) * step(side, 0.055, 0.03)
-    moustache = step(v, 0.7490, 0.7425) * step(side, 0.033, 0.021) * step(v, 0.716, 0.722)
+    jaw = smooth_step(v, 0.742, 0.722) * smooth_step(v, 0.650, 0.685) * smooth_step(side, 0.122, 0.085)
+    cheek_line = smooth_step(v - 0.75 * side, 0.700, 0.668)
+    chin = smooth_step(v, 0.727, 0.706) * smooth_step(side, 0.055, 0.03)
+    moustache = smooth_step(v, 0.7490, 0.7425) * smooth_step(side, 0.033, 0.021) * smooth_step(v, 0.716, 0.722)
     zone = 1 - (1 - jaw * np.maximum(cheek_line, chin)) * (1 - moustache)
     zone = cv2.GaussianBlur(zone, (0, 0), 5.0)
-    zone *= 1 - 0.55 * both((0.020, 0.7085), (0.007, 0.006))  # bare beside the soul patch
+    zone *= 1 - 0.55 * mirrored_blobs((0.020, 0.7085), (0.007, 0.006))  # bare beside the soul patch
     zone *= 1 - 0.5 * blob((0.0, 0.740), (0.0022, 0.006))  # philtrum
     patchy = np.clip(0.55 + 0.09 * noise(rng, 0.012, 2), 0, 1)
     hairs = np.clip(0.80 + 0.42 * noise(rng, 0.0007), 0.2, 2.0)
@@ -147,15 +147,17 @@ def _beard(rng: np.random.Generator) -> NDArray[np.float32]:
 def brow_shadow() -> NDArray[np.float32]:
     """Where brows grow, the skin is darker: the shade of hairs too fine to draw, [0, 1]."""
     total = np.zeros(CHART_SHAPE, np.float32)
-    distance, place, (rows, columns) = along(BROW_LINE, 0.008)
+    distance, place, (rows, columns) = curve_coordinates(BROW_LINE, 0.008)
     half = np.interp(place, [0, 0.1, 0.4, 0.7, 1], [0.0022, 0.0036, 0.0036, 0.0028, 0.0010])
-    total[rows, columns] = np.exp(-0.5 * (distance / half) ** 2) * step(place, -0.02, 0.10) * step(place, 1.0, 0.86)
+    total[rows, columns] = (
+        np.exp(-0.5 * (distance / half) ** 2) * smooth_step(place, -0.02, 0.10) * smooth_step(place, 1.0, 0.86)
+    )
     return total + total[:, ::-1]
 
 
 def _pores(rng: np.random.Generator) -> NDArray[np.float32]:
     """Relief of the pores, unit strength: coarse on nose and cheeks, fine elsewhere."""
-    coarse = 0.35 + blob((0.0, 0.757), (0.013, 0.014)) + 0.8 * both((0.026, 0.757), (0.014, 0.012))
+    coarse = 0.35 + blob((0.0, 0.757), (0.013, 0.014)) + 0.8 * mirrored_blobs((0.026, 0.757), (0.014, 0.012))
     return noise(rng, 0.0008) * np.minimum(coarse, 1.3) + 0.5 * noise(rng, 0.0004)
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from engine.performances.acting import Units, add, both, lids, pose, stirring, turned
+from engine.performances.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
 from engine.performances.figure import Pose
 from engine.performances.timing import blink, ease, glances, swell
@@ -81,14 +81,14 @@ def talk(t: float) -> Pose:
     units: Units = {}
     _mouth(units, t, said, seconds, force=0.85)
     beat = _stress(t, said)
-    both(units, "browOuterUp", 0.16 * beat)
+    add_both_sides(units, "browOuterUp", 0.16 * beat)
     add(units, "browInnerUp", 0.12 * beat + 0.12 * swell(t, 1.5, 1.9, 2.4, 3.0))
-    both(units, "mouthSmile", 0.10 * swell(t, 0.2, 0.7, seconds - 0.9, seconds - 0.25))
+    add_both_sides(units, "mouthSmile", 0.10 * swell(t, 0.2, 0.7, seconds - 0.9, seconds - 0.25))
     lids(units, blink(t, 0.58) + blink(t, 2.72), lead=0.02)
-    head = turned(
+    head = sum_turns(
         (1.7 * beat - 0.6 * swell(t, 0.1, 0.5, 0.8, 1.5), 1.8 * swell(t, 1.0, 1.6, 2.1, 2.9), 0.0),
         (0.0, 0.0, 1.2 * swell(t, 1.8, 2.3, 2.7, 3.3)),
-        stirring(t, 401, seconds, 0.8),
+        head_sway(t, 401, seconds, 0.8),
     )
     gaze = glances(t, ((-1, 0, 0), (0.62, 0.6, -2.4), (1.25, 0.0, 0.4), (2.12, -0.8, 2.6), (2.75, 0, 0)))
     return pose(units, head, gaze, 0.4 * swell(t, 0.0, 0.4, 0.6, 2.4), (0.0, 0.0, 0.0015 * beat))
@@ -101,15 +101,15 @@ def talk_strong(t: float) -> Pose:
     units: Units = {}
     _mouth(units, t, said, seconds, force=1.25)
     beat = _stress(t, said)
-    both(units, "browOuterUp", 0.42 * beat)
+    add_both_sides(units, "browOuterUp", 0.42 * beat)
     add(units, "browInnerUp", 0.34 * beat)
-    both(units, "eyeWide", 0.20 * beat)
-    both(units, "mouthSmile", 0.12 * swell(t, 0.3, 0.9, seconds - 0.9, seconds - 0.25))
+    add_both_sides(units, "eyeWide", 0.20 * beat)
+    add_both_sides(units, "mouthSmile", 0.12 * swell(t, 0.3, 0.9, seconds - 0.9, seconds - 0.25))
     lids(units, blink(t, 0.62) + blink(t, 2.34), lead=0.02)
-    head = turned(
+    head = sum_turns(
         (3.0 * beat, -3.0 * swell(t, 0.9, 1.4, 1.9, 2.5), -1.8 * swell(t, 1.2, 1.8, 2.3, 3.1)),
         (0.0, 2.6 * swell(t, 2.0, 2.4, 2.6, 3.2), 0.0),
-        stirring(t, 411, seconds, 1.1),
+        head_sway(t, 411, seconds, 1.1),
     )
     gaze = glances(t, ((-1, 0, 0), (0.66, 0.4, 2.0), (1.10, 0, 0), (2.36, 0.8, -2.2), (2.9, 0, 0)))
     return pose(units, head, gaze, 0.6 * swell(t, 0.0, 0.4, 0.6, 2.4), (0.0, 0.0, 0.003 * beat))
@@ -127,7 +127,7 @@ def _mouth(units: Units, t: float, said: tuple[Phoneme, ...], seconds: float, fo
         for name, weight in MOUTH_SHAPES[one.shape].items():
             amount = force * louder * speaking * weight * pull / total
             if name.startswith(("mouthPress", "mouthStretch", "mouthSmile", "mouthUpperUp", "mouthLowerDown")):
-                both(units, name, amount, right=0.96)
+                add_both_sides(units, name, amount, right=0.96)
             else:
                 add(units, name, amount)
 

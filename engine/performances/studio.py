@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.performances.actor import Actor, Scene
-from engine.performances.lighting import bounce, catchlights, lamps
+from engine.performances.lighting import catchlights, interreflection, lamps
 from engine.performances.matter import materials
-from engine.performances.sight import look, unit
-from engine.render.film import develop, shrink
+from engine.performances.sight import unit, visible_points
+from engine.render.film import box_downsample, develop
 from engine.render.light import Lamps
 from engine.render.rasteriser import Raster
 from engine.render.shading import Surface, illuminate
@@ -59,7 +59,7 @@ def photograph(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, deta
 def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: float = 1.0) -> Exposure:
     """Light a scene."""
     camera = CAMERA.scaled(samples)
-    seen = look(scene, camera)
+    seen = visible_points(scene, camera)
     matter = materials(actor, scene, seen)
     surface = Surface(
         seen.position, matter.coarse, matter.bumped, seen.view, matter.roughness, matter.reflectance, matter.softness
@@ -67,7 +67,7 @@ def expose(actor: Actor, scene: Scene, samples: int = SAMPLES_PER_SIDE, detail: 
     centre = np.array([0.0, 0.745, 0.05], np.float32)
     lighting = illuminate(surface, lamps(detail), scene.casters, centre, 0.27)
     mirrored = lighting.mirrored + catchlights(seen, lighting.irradiance)
-    irradiance = _spread(lighting.irradiance + bounce(scene, seen, matter.wet), seen.covered)
+    irradiance = _spread(lighting.irradiance + interreflection(scene, seen, matter.wet), seen.covered)
     translucency = _spread(matter.translucency, seen.covered)
     scale = camera.focal / (camera.eye[2] - 0.12)
     wandered = diffuse(irradiance, translucency, seen.raster.depth, scale)[seen.covered]
@@ -87,7 +87,7 @@ def finish(exposure: Exposure, actor: Actor, samples: int = SAMPLES_PER_SIDE) ->
     for width, hairs, shine in zip(widths, exposure.scene.hairs, exposure.hair, strict=True):
         pixels = camera.project(hairs.reshape(-1, 3)).reshape(hairs.shape)
         draw_strands(picture, exposure.raster.depth, pixels, shine, width * camera.focal / pixels[..., 2])
-    return develop(shrink(picture, samples), EXPOSURE)
+    return develop(box_downsample(picture, samples), EXPOSURE)
 
 
 def parts_seen(scene: Scene, raster: Raster) -> NDArray[np.int8]:

@@ -53,7 +53,7 @@ def glances(t: float, places: tuple[tuple[float, float, float], ...]) -> tuple[f
     return up, left
 
 
-def unrest(t: float, seed: int, period: float, fastest: int = 5) -> float:
+def idle_noise(t: float, seed: int, period: float, fastest: int = 5) -> float:
     """Small motion that never quite stops: a sum of the first harmonics of `period`, so that it repeats without a
     seam; zero at t = 0, of about unit strength."""
     rng = np.random.default_rng(seed)

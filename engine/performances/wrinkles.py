@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.chart import CHART_SHAPE, along
+from engine.performances.chart import CHART_SHAPE, curve_coordinates
 
 Curve = list[tuple[float, float]]
 
@@ -127,7 +127,7 @@ def carve() -> Wrinkles:
     return Wrinkles(tuple(groups), np.stack([np.ascontiguousarray(relief) for relief in groups.values()]))
 
 
-def pressed(wrinkles: Wrinkles, units: Mapping[str, float]) -> NDArray[np.float32]:
+def wrinkle_relief(wrinkles: Wrinkles, units: Mapping[str, float]) -> NDArray[np.float32]:
     """The relief (H, W) float32 metres that a face with these unit weights wears."""
     total = np.zeros(CHART_SHAPE, np.float32)
     for name, relief in zip(wrinkles.names, wrinkles.relief, strict=True):
@@ -142,7 +142,7 @@ def _relief(furrows: tuple[Furrow, ...]) -> NDArray[np.float32]:
     total = np.zeros(CHART_SHAPE, np.float32)
     for furrow in furrows:
         width, depth = furrow.width / 1000, furrow.depth / 1000
-        distance, place, (rows, columns) = along(furrow.curve, 6 * width)
+        distance, place, (rows, columns) = curve_coordinates(furrow.curve, 6 * width)
         # shallow at both ends, and never quite even in between
         ends = np.clip(np.sin(np.pi * place), 0, 1) ** 0.7 * (0.85 + 0.15 * np.sin(17 * place + 40 * width * 1000))
         groove = -np.exp(-0.5 * (distance / width) ** 2)

@@ -20,7 +20,7 @@ from engine.errors import InputError
 from engine.geometry.rigid import fit_similarities
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.expression.features import expression, frontal
+from engine.perception.expression.features import frontalise, measure_expression
 from engine.perception.head_pose import canonical_face, head_pose
 from engine.perception.landmarks import RIGID_VERTICES, eye_distance
 from engine.perception.one_face import OneFace
@@ -89,13 +89,13 @@ def appearance_of_driver(
 
 def _gather(rows: list[tuple[NDArray[np.uint8], NDArray[np.floating]]]) -> Appearance:
     meshes = np.array([mesh for _, mesh in rows], float)
-    rigid = np.median(frontal(meshes)[:, list(RIGID_VERTICES), :2], axis=0)
+    rigid = np.median(frontalise(meshes)[:, list(RIGID_VERTICES), :2], axis=0)
     light, palette = (np.median(values, axis=0) for values in zip(*(_shading(*row) for row in rows), strict=True))
     return Appearance(
         proportions=(rigid - rigid.mean(axis=0)).astype(np.float32),
         light=light.astype(np.float32),
         palette=palette.astype(np.float32),
-        expressions=expression(meshes),
+        expressions=measure_expression(meshes),
         turn=_turn(meshes),
     )
 

@@ -78,7 +78,7 @@ def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> Selec
         except InputError as error:
             run.warn("driver_passed_over", f"The driver “{name}” cannot be used: {error.detail}")
         else:
-            scores[name] = fit(face, appearance)
+            scores[name] = score_driver(face, appearance)
     if not scores:
         raise InputError("no_driver_fits", "None of the drivers can be used: name a video or another performance.")
     best = max(score["total"] for score in scores.values())
@@ -86,7 +86,7 @@ def choose_driver(target: TargetFace, candidates: Candidates, run: Run) -> Selec
     return SelectedDriver(name, candidates.files[name], scores)
 
 
-def fit(target: Appearance, driver: Appearance) -> dict[str, float]:
+def score_driver(target: Appearance, driver: Appearance) -> dict[str, float]:
     """How well a driver fits a target: a score for each of `CRITERION_WEIGHTS`, and their weighted mean as `total`."""
     apart = np.sqrt(((target.proportions - driver.proportions) ** 2).sum(axis=1).mean())
     colour = (target.palette - driver.palette) * (LIGHTNESS_WEIGHT, 1, 1)

@@ -20,7 +20,7 @@ FIGURE_PERFORMANCE = "idle"
 """The performance in which the figure itself is measured: it moves least."""
 
 
-def measure() -> dict[str, Any]:
+def measure_library() -> dict[str, Any]:
     """The document that is kept beside the videos."""
     seen = {name: appearance_of_driver(video(name), Limits()) for name in names()}
     figure: Appearance = seen[FIGURE_PERFORMANCE]
@@ -37,4 +37,4 @@ def _rounded(values: NDArray[np.float32]) -> Any:
 
 
 if __name__ == "__main__":
-    (VIDEOS / "appearances.json").write_text(json.dumps(measure(), separators=(",", ":")) + "\n")
+    (VIDEOS / "appearances.json").write_text(json.dumps(measure_library(), separators=(",", ":")) + "\n")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation
-from engine.face_animation.neutral import choose_neutral_frame, warn_of_unrest
+from engine.face_animation.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given
@@ -21,7 +21,7 @@ from engine.perception.landmarks import fiducials
 from engine.portrait.driver_selection import choose_driver
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import in_pixels, look_for_face
-from engine.run import Beside, Run, write_report
+from engine.run import ConcurrentStage, Run, write_report
 
 STAGES = {
     "find_face": 1.0,
@@ -38,7 +38,11 @@ STAGES = {
 
 
 def animate_portrait(
-    inputs: Mapping[str, Given], options: PortraitOptions, out: Path, run: Run, face: Beside[TargetFace] | None = None
+    inputs: Mapping[str, Given],
+    options: PortraitOptions,
+    out: Path,
+    run: Run,
+    face: ConcurrentStage[TargetFace] | None = None,
 ) -> None:
     """Animate `inputs["image"]` by `inputs["driver"]`; leaves the artifacts of the contract in `out`. Whoever has begun to
     look for the picture's `face` hands it on."""
@@ -63,7 +67,7 @@ def animate_portrait(
         loop=options.loop,
     )
     track, neutral = performance.track, performance.neutral
-    warn_of_unrest(performance.choice, run.warn)
+    warn_if_never_at_rest(performance.choice, run.warn)
     residuals = performance.residuals_on(prepared, options.acting(), run)
     layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
@@ -91,7 +95,7 @@ def animate_portrait(
     )
 
 
-def first_impression(looking: Beside[TargetFace], out: Path, run: Run) -> TargetFace:
+def first_impression(looking: ConcurrentStage[TargetFace], out: Path, run: Run) -> TargetFace:
     """The target, once its face is found; leaves `preview.jpg` and `thumbnail.jpg`."""
     target = looking()
     for early in write_first_impression(out, target.rgb, target.alpha, run.mark_synthetic):

@@ -17,13 +17,13 @@ from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
 from engine.media.limits import Limits
-from engine.perception.expression.features import EXPRESSION_FEATURES, expression
+from engine.perception.expression.features import EXPRESSION_FEATURES, measure_expression
 from engine.perception.faces import find_faces, same_face
 from engine.perception.head_pose import head_pose, mesh_from_fiducials
 from engine.perception.landmarks import FACE_OVAL, eye_distance, eye_opening, mouth_opening
-from engine.perception.segmentation import people_in
+from engine.perception.segmentation import people_confidence
 from engine.portrait.options import PortraitOptions
-from engine.run import Beside, Run
+from engine.run import ConcurrentStage, Run
 
 MAX_PICTURE_SIDE = 1920
 """Pixels of the result by default (the project's conventions)."""
@@ -51,7 +51,7 @@ SHUT_EYE_OPENING = 0.13
 people have 0.22 to 0.43, a laugh 0.2."""
 
 
-def look_for_face(path: Path, options: PortraitOptions, run: Run) -> Beside[TargetFace]:
+def look_for_face(path: Path, options: PortraitOptions, run: Run) -> ConcurrentStage[TargetFace]:
     """Begin to look for the face that is to act, which nothing else has to wait for."""
     return run.beside("find_face", find_target_face, path, options.framing(), run.limits, run.warn)
 
@@ -70,7 +70,7 @@ def find_target_face(
     height, width = picture.rgb.shape[:2]
     with ThreadPoolExecutor(1, thread_name_prefix="people") as beside:
         whole = options.crop == "none" and picture.alpha is None
-        people = beside.submit(people_in, picture.rgb).result if whole else lambda: None
+        people = beside.submit(people_confidence, picture.rgb).result if whole else lambda: None
         meshes, index = _look(over_grey(picture.rgb, picture.alpha), options, warn)
     boxes = np.array([[*m[:, :2].min(axis=0), *np.ptp(m[:, :2], axis=0)] for m in meshes], np.float32)
     found = {"faces": in_pixels(boxes)}
@@ -198,7 +198,7 @@ def _check_face(
             ("landmarks", "face_index"),
             found,
         )
-    smile = float(expression(mesh[None])[0, EXPRESSION_FEATURES.index("corners_up")])
+    smile = float(measure_expression(mesh[None])[0, EXPRESSION_FEATURES.index("corners_up")])
     words = "is turned sideways", "looks up or down", "has its mouth open", "smiles"
     if shown := [
         word

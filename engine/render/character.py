@@ -26,7 +26,7 @@ from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
-from engine.render.multisampling import choose, draw_samples, sample_offsets
+from engine.render.multisampling import draw_samples, sample_offsets, select_pixels
 from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into
 from engine.render.scratch import Scratch
@@ -43,7 +43,7 @@ FRAMES_PER_THREAD = 2
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawnCharacter:
     """`rgb` (H, W, 3) uint8; `alpha` (H, W) float32 [0, 1]: how much of each pixel the character covers. Without a
     background, `rgb` is the character's own colour, not multiplied by `alpha`, and black where it is not."""
 
@@ -52,8 +52,8 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Subject:
-    """A character made ready for drawing: `prepare` makes it, once for all frames."""
+class PreparedCharacter:
+    """A character made ready for drawing: `prepare_character` makes it, once for all frames."""
 
     mesh: SkinnedMesh
     mipmap: Mipmap
@@ -68,14 +68,14 @@ class Subject:
     be drawn, and every pixel is covered as before."""
 
 
-def prepare(mesh: SkinnedMesh) -> Subject:
+def prepare_character(mesh: SkinnedMesh) -> PreparedCharacter:
     """Whatever about a mesh does not change from frame to frame."""
     height, width = mesh.texture.shape[:2]
     a, b, c = (mesh.uv[mesh.triangles[:, k]] * np.array([width, height], np.float32) for k in range(3))
     p, q = b - a, c - a
     spread = np.abs(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]) / 2
     point = weld(mesh)
-    return Subject(
+    return PreparedCharacter(
         mesh,
         build_mipmap(mesh.texture),
         spread.astype(np.float32),
@@ -86,14 +86,14 @@ def prepare(mesh: SkinnedMesh) -> Subject:
 
 
 def draw_character(
-    subject: Subject,
+    subject: PreparedCharacter,
     posed: NDArray[np.float32],
     camera: Camera,
     background: NDArray[np.uint8] | None = None,
     shadow: GroundShadow | None = None,
     samples: int = SAMPLES_PER_AXIS,
     shading: float = 0.0,
-) -> Drawn:
+) -> DrawnCharacter:
     """Draw the character as its vertices `posed` (V, 3) stand.
 
     Parameters
@@ -111,13 +111,13 @@ def draw_character(
     if background is not None and shadow is not None:
         cast_on_ground(rgb, background, posed, subject.mesh.triangles, camera, shadow, subject.closed)
     alpha = _draw_over(rgb, background is None, subject, posed, camera, Scratch(), samples, shading)
-    return Drawn(rgb, alpha)
+    return DrawnCharacter(rgb, alpha)
 
 
 def _draw_over(
     rgb: NDArray[np.uint8],
     alone: bool,
-    subject: Subject,
+    subject: PreparedCharacter,
     posed: NDArray[np.float32],
     camera: Camera,
     scratch: Scratch,
@@ -141,7 +141,7 @@ def _draw_over(
     corners = corner_table(points, subject.mesh.uv, _shade(subject, posed, shading) if shading else None)
     surface = corners, faces, subject.spread, *subject.mipmap
     colour_inside(*surface, ids, marks, rgb, alpha, left, top)
-    chosen, offsets = choose(marks), sample_offsets(samples)
+    chosen, offsets = select_pixels(marks), sample_offsets(samples)
     seen = draw_samples(points, faces, facing, subject.closed, *chosen, offsets)
     share = (offsets / SUBPIXEL_STEPS).astype(np.float32)
     colour_samples(*surface, seen, chosen.places, share, alone, rgb, alpha, left, top)
@@ -153,7 +153,7 @@ class Actor:
     """Who acts in a film: a `subject`, its `clip`, and where the origin of its own world lies in the film's, `place` (3,)
     metres."""
 
-    subject: Subject
+    subject: PreparedCharacter
     clip: Clip
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
@@ -218,7 +218,7 @@ def _without(
     return (np.dstack([np.clip(own, 0, 255), cover * 255]) + np.float32(0.5)).astype(np.uint8)
 
 
-def _shade(subject: Subject, posed: NDArray[np.float32], shading: float) -> NDArray[np.float32]:
+def _shade(subject: PreparedCharacter, posed: NDArray[np.float32], shading: float) -> NDArray[np.float32]:
     """(V,) by what the texture is multiplied: from 1 towards the light to 1 - `shading` away from it."""
     point = subject.point
     places = np.empty((int(point.max()) + 1, 3), np.float32)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def shrink(picture: NDArray[np.float32], factor: int) -> NDArray[np.float32]:
+def box_downsample(picture: NDArray[np.float32], factor: int) -> NDArray[np.float32]:
     """Mean of each `factor` by `factor` block of an (H, W, ...) picture."""
     height, width = picture.shape[0] // factor, picture.shape[1] // factor
     return picture.reshape(height, factor, width, factor, *picture.shape[2:]).mean((1, 3))

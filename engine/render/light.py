@@ -107,7 +107,7 @@ def _seen_by(vertices: np.ndarray, view: np.ndarray) -> np.ndarray:
 
 
 @njit(inline="always")
-def lit(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias: float) -> np.float32:
+def light_visibility(depth: np.ndarray, view: np.ndarray, x: float, y: float, z: float, bias: float) -> np.float32:
     """The share of light [0, 1] that reaches a point: four texels compared, blended bilinearly."""
     u = view[0, 0] * x + view[0, 1] * y + view[0, 2] * z + view[3, 0]
     v = view[1, 0] * x + view[1, 1] * y + view[1, 2] * z + view[3, 1]

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXEL_STEPS, bias, snapped
+from engine.render.rasteriser import SUBPIXEL_BITS, SUBPIXEL_STEPS, edge_bias, snap_to_subpixels
 
 BLOCK_SHIFT = 3
 """Binary logarithm of the side, in pixels, of the blocks by which triangles find the chosen pixels that they touch."""
 
 
-class Chosen(NamedTuple):
+class PixelSelection(NamedTuple):
     """The pixels of a picture of size (H, W) that are to be looked at.
 
     `places` (N, 2) int32: rows and columns, block by block; `starts` (B + 1,) int64 where each block's begin, the blocks
@@ -32,14 +32,14 @@ class Chosen(NamedTuple):
     size: tuple[int, int]
 
 
-def choose(marks: NDArray[np.bool_]) -> Chosen:
+def select_pixels(marks: NDArray[np.bool_]) -> PixelSelection:
     """The pixels that are set in `marks` (H, W)."""
     height, width = marks.shape
     places = np.stack(np.divmod(np.flatnonzero(marks), width), 1).astype(np.int32)
     down, across = (((side - 1) >> BLOCK_SHIFT) + 1 for side in (height, width))
     block = (places[:, 0] >> BLOCK_SHIFT) * across + (places[:, 1] >> BLOCK_SHIFT)
     starts = np.concatenate([[0], np.cumsum(np.bincount(block, minlength=down * across))])
-    return Chosen(places[np.argsort(block, kind="stable")], starts, (height, width))
+    return PixelSelection(places[np.argsort(block, kind="stable")], starts, (height, width))
 
 
 def sample_offsets(samples: int) -> NDArray[np.int64]:
@@ -59,7 +59,7 @@ def draw_samples(
     size: tuple[int, int],
     offsets: np.ndarray,
 ) -> np.ndarray:
-    """(N, S) int32: the nearest triangle at each sample of the `Chosen` pixels; -1 where there is none.
+    """(N, S) int32: the nearest triangle at each sample of the `PixelSelection` pixels; -1 where there is none.
 
     `points`, `faces` and `cull` as in `rasteriser.draw_into`, with perspective; `facing` from `outline.facings`;
     `offsets` (S, 2) from `sample_offsets`.
@@ -69,7 +69,7 @@ def draw_samples(
     ids = np.full((len(pixels), samples), -1, np.int32)
     depths = np.full((len(pixels), samples), np.inf, np.float32)
     reach = np.abs(offsets).max()
-    places = snapped(points)
+    places = snap_to_subpixels(points)
     for t in range(faces.shape[0]):
         if facing[t] == 0 or (cull and facing[t] < 0):
             continue
@@ -87,7 +87,7 @@ def draw_samples(
             continue
         step_a, step_b, step_c = by - cy, cy - ay, ay - by
         down_a, down_b, down_c = cx - bx, ax - cx, bx - ax
-        own_a, own_b, own_c = bias(down_a, -step_a), bias(down_b, -step_b), bias(down_c, -step_c)
+        own_a, own_b, own_c = edge_bias(down_a, -step_a), edge_bias(down_b, -step_b), edge_bias(down_c, -step_c)
         far_a, far_b, far_c = (
             reach * (abs(step_a) + abs(down_a)),
             reach * (abs(step_b) + abs(down_b)),

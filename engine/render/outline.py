@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.compiled import njit
-from engine.render.rasteriser import OUT_OF_RANGE, snapped
+from engine.render.rasteriser import OUT_OF_RANGE, snap_to_subpixels
 
 HIDDEN_DEPTH_RATIO = 0.998
 """An edge counts as hidden where all that is seen about it is nearer than this share of its own distance."""
@@ -19,7 +19,7 @@ HIDDEN_DEPTH_RATIO = 0.998
 def facings(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """(T,) int8: 1 for triangles seen from the front, -1 from behind, 0 for those that the rasteriser leaves out.
     `points` (V, 3) as `rasteriser.draw_into` takes them with perspective."""
-    places = snapped(points)
+    places = snap_to_subpixels(points)
     found = np.zeros(faces.shape[0], np.int8)
     for t in range(faces.shape[0]):
         a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]

@@ -90,7 +90,7 @@ def draw_into(
 ) -> None:
     """Draw triangles into what is already there, in the calling thread alone: for callers that draw several pictures
     side by side. Arrays are as in `rasterise` and `Raster`: float32 (V, 3), int32 (T, 3), int32 and float32 (H, W)."""
-    places = snapped(points)
+    places = snap_to_subpixels(points)
     for t in range(faces.shape[0]):
         _draw(places, points, faces, t, 0, ids.shape[0] - 1, perspective, cull, ids, depths)
 
@@ -101,7 +101,7 @@ def _snap(value: float) -> int:
 
 
 @njit(nogil=True, boundscheck=False, error_model="numpy")
-def snapped(points: np.ndarray) -> np.ndarray:
+def snap_to_subpixels(points: np.ndarray) -> np.ndarray:
     """(V, 2) int32: x and y of `points` (V, 3) in whole `SUBPIXEL_STEPS`; x is `OUT_OF_RANGE` where a vertex is too far out."""
     places = np.empty((len(points), 2), np.int32)
     for v in range(len(points)):
@@ -114,7 +114,7 @@ def snapped(points: np.ndarray) -> np.ndarray:
 
 
 @njit(inline="always")
-def bias(dx: int, dy: int) -> int:
+def edge_bias(dx: int, dy: int) -> int:
     """0 for a top or left edge, which owns the pixel centres lying on it; -1 for the others.
 
     The edge runs along (dx, dy) and the inside is to its right on the screen (y down).
@@ -128,7 +128,7 @@ def _nearest(
 ) -> tuple[np.ndarray, np.ndarray]:
     ids = np.full((height, width), -1, np.int32)
     depths = np.full((height, width), np.inf, np.float32)
-    places = snapped(points)
+    places = snap_to_subpixels(points)
     for band in prange(bands):  # each band of rows walks all triangles in their order: bands do not change the result
         first, last = height * band // bands, height * (band + 1) // bands - 1
         for t in range(faces.shape[0]):
@@ -177,9 +177,9 @@ def _draw(
     right_z = ((by - cy) * za + (cy - ay) * zb + (ay - by) * zc) * scale
     down_z = ((cx - bx) * za + (ax - cx) * zb + (bx - ax) * zc) * scale
     row_z = (row_a * za + row_b * zb + row_c * zc) / np.float32(area)
-    row_a += bias(cx - bx, cy - by)
-    row_b += bias(ax - cx, ay - cy)
-    row_c += bias(bx - ax, by - ay)
+    row_a += edge_bias(cx - bx, cy - by)
+    row_b += edge_bias(ax - cx, ay - cy)
+    row_c += edge_bias(bx - ax, by - ay)
     step_a, step_b, step_c = (by - cy) << SUBPIXEL_BITS, (cy - ay) << SUBPIXEL_BITS, (ay - by) << SUBPIXEL_BITS
     # where a row begins is estimated for wide triangles, which are mostly slanted slivers, and then found exactly
     wide = right - left > MAX_NARROW_WIDTH

@@ -15,7 +15,7 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.render.light import Lamps, cast_shadow, lit
+from engine.render.light import Lamps, cast_shadow, light_visibility
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ def _add(
                 continue
             # a surface seen at a grazing angle by the lamp needs a larger lift
             lift = bias * (one + np.float32(2) * (one - min(max(smooth, nought), one)))
-            share = lit(depths[k], light_views[k], px + lift * ax, py + lift * ay, pz + lift * az, bias)
+            share = light_visibility(depths[k], light_views[k], px + lift * ax, py + lift * ay, pz + lift * az, bias)
             if share <= 0:
                 continue
             for c in range(3):

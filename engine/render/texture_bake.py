@@ -127,7 +127,7 @@ def bake(
     return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts)
 
 
-def padded(texture: NDArray, known: NDArray[np.bool_], charts: NDArray[np.int32]) -> NDArray:
+def pad_charts(texture: NDArray, known: NDArray[np.bool_], charts: NDArray[np.int32]) -> NDArray:
     """A texture (S, S, C) whose texels beside the charts have the colour of the nearest that is `known` (S, S) on the nearest
     chart, so that neither filtering nor smaller sizes of it bring in anything else; `charts` (S, S) as `BakedTexture` has
     them. Texels of the charts stay, those that are not known, too.

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.hand_fitting import HandAnchor, HandFit, fit_hand, hand_length
-from engine.body.hands import FINGERS, HandModel, chain, hand_model
+from engine.body.hands import FINGERS, HandModel, finger_landmarks, hand_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera
@@ -56,9 +56,11 @@ def refit(model: HandModel, arm: np.ndarray, marks: np.ndarray) -> HandFit:
 def test_fingers_lie_beside_each_other_and_end_in_their_tips(model: HandModel) -> None:
     sign = 1 if model.side == "Left" else -1
     for finger in FINGERS:
-        out = sign * model.mean[chain(finger), 0]
+        out = sign * model.mean[finger_landmarks(finger), 0]
         assert (np.diff(out) > 0.01).all()
-        assert np.linalg.norm(np.diff(model.mean[chain(finger)], axis=0), axis=1)[2] > 0.012  # the tip is not the joint
+        assert (
+            np.linalg.norm(np.diff(model.mean[finger_landmarks(finger)], axis=0), axis=1)[2] > 0.012
+        )  # the tip is not the joint
     knuckles = model.mean[[HAND_JOINTS.index(f"{finger}1") for finger in FINGERS[1:]], 2]
     assert (np.diff(knuckles) < 0).all(), "from the index, in front, to the little finger"
 
@@ -79,14 +81,14 @@ def test_bent_fingers_make_a_fist(model: HandModel, space: BodySpace) -> None:
         for k in (1, 2, 3)
     }
     flat, fist = bent(model, space, {}, np.eye(3)), bent(model, space, turns, np.eye(3))
-    tips = [chain(finger)[3] for finger in FINGERS[1:]]
-    knuckles = [chain(finger)[0] for finger in FINGERS[1:]]
+    tips = [finger_landmarks(finger)[3] for finger in FINGERS[1:]]
+    knuckles = [finger_landmarks(finger)[0] for finger in FINGERS[1:]]
     assert (fist[tips, 1] < fist[knuckles, 1] - 0.01).all()
     assert (np.linalg.norm(fist[tips], axis=1) < 0.75 * np.linalg.norm(flat[tips], axis=1)).all()
-    thumb = chain("Thumb")[3]
+    thumb = finger_landmarks("Thumb")[3]
     bends = {f"Thumb{k}": Rotation.from_rotvec(0.6 * model.bend[0]) for k in (2, 3)}
     across = bent(model, space, bends, np.eye(3))[thumb], flat[thumb]
-    little = flat[chain("Pinky")[0]]
+    little = flat[finger_landmarks("Pinky")[0]]
     assert np.linalg.norm(across[0] - little) < np.linalg.norm(across[1] - little)
 
 
@@ -104,7 +106,7 @@ def test_known_turns_come_back(model: HandModel, space: BodySpace, seed: int) ->
     arm = Rotation.from_euler("xyz", [random.uniform(-0.6, 0.6), random.uniform(-0.5, 0.5), random.uniform(-1, 0.5)])
     truth = bent(model, space, turns, arm.as_matrix())
     fit = refit(model, arm.as_matrix(), seen(truth))
-    turned = [0, *(mark for finger in FINGERS for mark in chain(finger)[:3])]
+    turned = [0, *(mark for finger in FINGERS for mark in finger_landmarks(finger)[:3])]
     found = {HAND_JOINTS[mark]: Rotation.from_matrix(r) for mark, r in zip(turned, fit.rotations, strict=True)}
     away = np.linalg.norm(bent(model, space, found, arm.as_matrix()) - truth, axis=1)
     assert np.median(away[1:]) < 0.005

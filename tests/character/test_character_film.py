@@ -14,7 +14,7 @@ from engine.character.measures import pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
 from engine.geometry.camera import Camera
-from engine.motion.edit import repeated
+from engine.motion.edit import repeat_loop
 from engine.render.camera_moves import ORBIT_DEGREES, PERIOD_SECONDS, SLIDE_SHARE, Move
 from engine.render.ground_shadow import GroundShadow
 
@@ -39,7 +39,7 @@ def filmed(character: Character, move: Move, shadow: GroundShadow = DARK) -> np.
     )
     plate = np.full((HEIGHT, WIDTH, 3), GREY, np.uint8)
     plate[20:40, 85:105] = GREEN
-    clip = replace(repeated(character.pictured, 2), fps=4 / PERIOD_SECONDS)
+    clip = replace(repeat_loop(character.pictured, 2), fps=4 / PERIOD_SECONDS)
     return np.array(list(film([(character, clip)], fitted, plate, shadow, move, (WIDTH, HEIGHT)))).astype(int)
 
 

@@ -15,7 +15,7 @@ from engine.character.rigging import Character
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion import rotation
-from engine.motion.edit import repeated
+from engine.motion.edit import repeat_loop
 from engine.motion.foot_contact import sole_places
 from engine.motion.library import built_in
 from engine.motion.rotation import about
@@ -132,7 +132,7 @@ def test_feet_that_the_picture_cuts_off_stay_cut_and_the_head_in_it(character: C
 
 def file_of(skeleton: Skeleton, turn: float) -> SourceMotion:
     """A run of eight seconds that keeps its direction, as a motion's file tells it."""
-    run = repeated(built_in("run", skeleton), 240)
+    run = repeat_loop(built_in("run", skeleton), 240)
     turned = about("y", np.radians(turn))
     rotations = run.rotations.astype(np.float64)
     x, y, z = run.root.T.astype(np.float64)

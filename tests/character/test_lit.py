@@ -10,7 +10,7 @@ from template_character import still, template_character
 
 from engine.character.lit import lit_picture
 from engine.geometry.camera import Camera
-from engine.render.character import Actor, film_cast, prepare
+from engine.render.character import Actor, film_cast, prepare_character
 
 SIZE = (300, 320)
 CAMERA = Camera((0, 0.9, 4), 420, (160.0, 150.0), SIZE)
@@ -25,7 +25,7 @@ def covered(draw: Callable[[NDArray[np.uint8]], NDArray[np.uint8]]) -> NDArray[n
 def test_people_stand_where_they_do_in_the_film(opengl: None) -> None:
     """Two of them, one before the other: the nearer hides the farther."""
     mesh = template_character(texture_size=64)
-    subject, clip = prepare(mesh), still(mesh.skeleton)
+    subject, clip = prepare_character(mesh), still(mesh.skeleton)
     cast = [Actor(subject, clip, (0.1, 0.0, -1.5)), Actor(subject, clip, (-0.3, 0.0, 0.0))]
     plate = np.zeros((*SIZE, 3), np.uint8)
     both = lit_picture(cast, CAMERA, plate)

@@ -15,8 +15,8 @@ from engine.character.rigging import Character
 from engine.geometry.camera import Camera
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.edit import travel
-from engine.motion.foot_contact import sinking, sole_places
+from engine.motion.edit import loop_travel
+from engine.motion.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS
 from engine.motion.skeleton import Skeleton
@@ -85,7 +85,7 @@ def test_feet_stand_on_the_ground_and_loops_close(glb: Path, character: Characte
     clip = read_clip(Glb(glb), skeleton, name)
     assert clip.loops is (name in LOOPS)
     points = sole_places(skeleton, clip)
-    assert sinking(points) < 0.01
+    assert sinking_depth(points) < 0.01
     assert points[..., 1].min() < 0.002
     if name in STANDING:  # who walks in place walks as on a treadmill
         low = points[:, :, :2, 1].min(-1) < 0.002
@@ -96,7 +96,7 @@ def test_feet_stand_on_the_ground_and_loops_close(glb: Path, character: Characte
         np.testing.assert_allclose(places[-1], places[0], atol=2e-4)
         speed = np.linalg.norm(np.diff(places, axis=0), axis=-1).max(-1)
         assert speed[-1] < 1.05 * speed.max()
-        assert np.linalg.norm(travel(Clip(name, clip.fps, clip.rotations[:-1], clip.root[:-1], True))) < 0.01
+        assert np.linalg.norm(loop_travel(Clip(name, clip.fps, clip.rotations[:-1], clip.root[:-1], True))) < 0.01
 
 
 def test_what_is_kept_is_kept_in_all_of_them(character: Character) -> None:

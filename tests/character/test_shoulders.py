@@ -13,7 +13,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.regions import find_regions
 from engine.character.shoulders import labelled_shoulders
 from engine.character.template_fit import load_human
-from engine.imaging.mask_distance import grown
+from engine.imaging.mask_distance import dilate_mask
 from tests.character.test_overlapping_legs import SIZE, standing
 
 HEAD, TORSO, LEFT, RIGHT = (BODY_PARTS.index(name) for name in ("head", "torso", "left_arm", "right_arm"))
@@ -116,7 +116,7 @@ def test_a_forearm_whose_upper_arm_is_before_the_trunk_hides_it() -> None:
     turned = replace(template, vertices=template.vertices + _behind(template, LEFT))
     body, (behind,) = find_regions(apart, [LEFT], turned, rig)
     assert behind.behind
-    assert body.mask[(labels == LEFT) & grown(labels == TORSO, 1)].any(), "nothing gapes between them"
+    assert body.mask[(labels == LEFT) & dilate_mask(labels == TORSO, 1)].any(), "nothing gapes between them"
 
 
 def _behind(template: PosedTemplate, limb: int) -> np.ndarray:

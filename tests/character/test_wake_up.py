@@ -23,7 +23,7 @@ from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation
 from engine.motion.gltf_motion import read_gltf_motion
-from engine.render.character import draw_character, prepare
+from engine.render.character import draw_character, prepare_character
 from engine.run import Progress
 from galatea import wake_up
 
@@ -244,7 +244,7 @@ def test_real_pictures(media: Callable[[str], Path], tmp_path: Path, name: str) 
     mask = read_image(out / "mask.png").rgb[..., 0]
     covered = outline(camera.project(written.pictured), written.mesh.triangles, camera.size)
     assert (covered & (mask > 127)).sum() > 0.99 * (covered | (mask > 127)).sum()
-    drawn = draw_character(prepare(written.mesh), written.pictured.astype(np.float32), camera)
+    drawn = draw_character(prepare_character(written.mesh), written.pictured.astype(np.float32), camera)
     inside = (mask > 0.95 * 255) & (drawn.alpha > 0.95)
     error = np.square(drawn.rgb[inside].astype(float) - read_image(photo).rgb[inside]).mean()
     assert 10 * np.log10(255**2 / error) > 30

@@ -11,10 +11,10 @@ from glb_reader import Glb, validate
 from PIL import Image
 from template_character import still, template_character, walk
 
-from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, Written, jpeg, write_glb
+from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, WrittenGlb, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
-from engine.motion.edit import travel
+from engine.motion.edit import loop_travel
 from engine.motion.library import CLIPS, built_in
 
 
@@ -159,11 +159,11 @@ def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: 
     noise = np.random.default_rng(5).integers(0, 256, (512, 1024, 3), np.uint8)
     noisy, file = replace(mesh, texture=noise), tmp_path / "a.glb"
     free = write_glb(file, noisy)
-    assert free == write_glb(file, noisy, most=free.size) == Written(file.stat().st_size, 1, JPEG_QUALITY)
+    assert free == write_glb(file, noisy, most=free.size) == WrittenGlb(file.stat().st_size, 1, JPEG_QUALITY)
     before = free
     for smaller, quality in TEXTURE_REDUCTIONS:
         written = write_glb(file, noisy, most=before.size - 1)
-        assert written == Written(file.stat().st_size, smaller, quality)
+        assert written == WrittenGlb(file.stat().st_size, smaller, quality)
         assert written.size < before.size
         assert validate(file)["messages"] == []
         glb = Glb(file)
@@ -192,4 +192,4 @@ def test_every_built_in_clip_is_valid_and_loops_close(mesh: SkinnedMesh, tmp_pat
         if clip.loops:
             moved = glb.posed(clip.name, clip.seconds) - glb.posed(clip.name, 0.0)
             np.testing.assert_allclose(moved, np.broadcast_to(moved[0], moved.shape), atol=1e-5)
-            np.testing.assert_allclose(moved[0], travel(clip) if clip.name in ("walk", "run") else 0, atol=2e-4)
+            np.testing.assert_allclose(moved[0], loop_travel(clip) if clip.name in ("walk", "run") else 0, atol=2e-4)

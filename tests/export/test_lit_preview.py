@@ -13,7 +13,7 @@ from template_character import template_character, walk
 from engine.export.lit_preview import LitPreview
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
-from engine.render.character import draw_character, prepare
+from engine.render.character import draw_character, prepare_character
 
 SIZE = (480, 360)
 CAMERA = Camera((0, 0, 0), 520, (175.0, 240.5), SIZE).aimed((1.4, 1.3, 2.6), (0, 0.85, 0.3))
@@ -34,7 +34,7 @@ def test_both_renderers_draw_the_same_silhouette(opengl: None) -> None:
     background = np.full((*SIZE, 3), (30, 60, 200), np.uint8)
     with LitPreview(mesh, SIZE) as preview:
         lit, alone = preview.draw(posed, CAMERA, background), preview.draw(posed, CAMERA)
-    unlit = draw_character(prepare(mesh), posed, CAMERA, background)
+    unlit = draw_character(prepare_character(mesh), posed, CAMERA, background)
     assert unlit.alpha.sum() > 5000
     assert np.minimum(unlit.alpha, lit.alpha).sum() / np.maximum(unlit.alpha, lit.alpha).sum() > 0.99
     assert np.hypot(*(middle(unlit.alpha) - middle(lit.alpha))) < 0.1  # half a pixel would be a convention mixed up

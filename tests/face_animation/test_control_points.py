@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.control_points import ControlPoints, carry_periphery, place_control_points
 from engine.geometry.rigid import Similarity
-from engine.perception.face_track.periphery import fading
+from engine.perception.face_track.periphery import tracked_weights
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (240, 200)
@@ -114,7 +114,7 @@ def test_tracks_that_are_lost_fade_out_and_in(tracked: NDArray) -> None:
     """All points go the same way and are lost for a while, held: shoulders come to rest, and no step is a jump."""
     lost = np.ones((120, 60), bool)
     lost[40:80] = False
-    trust = fading(lost)
+    trust = tracked_weights(lost)
     assert trust.max() == 1 and trust[50:70].max() == 0
     moved = np.broadcast_to([20.0, 0.0], (120, 60, 2))
     carried = carry_periphery(IDENTITY, tracked, moved, trust, tracked[:5], 40)[..., 0]
@@ -124,7 +124,7 @@ def test_tracks_that_are_lost_fade_out_and_in(tracked: NDArray) -> None:
     one[:, 1:] = True  # the first alone is lost: it goes elsewhere, and the others outvote it little by little
     elsewhere = moved.copy()
     elsewhere[:, 0] = (-200.0, 0.0)
-    near = carry_periphery(IDENTITY, tracked, elsewhere, fading(one), tracked[:1], 40)[:, 0, 0]
+    near = carry_periphery(IDENTITY, tracked, elsewhere, tracked_weights(one), tracked[:1], 40)[:, 0, 0]
     assert np.abs(np.diff(near)).max() < 0.2 * np.ptp(near)
 
 

@@ -21,7 +21,7 @@ from engine.face_animation.dense_field import (
 )
 from engine.face_animation.warp_mesh import WarpMesh
 from engine.imaging.delaunay import delaunay
-from engine.imaging.fold_edges import folded
+from engine.imaging.fold_edges import folded_box
 from engine.imaging.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
@@ -232,7 +232,7 @@ def test_where_the_sheet_folds_the_nearer_side_is_seen(mesh: WarpMesh, offsets: 
     middle = np.linalg.norm(mesh.vertices - CENTRE, axis=1) < 0.4 * UNIT
     moved[middle, 0] += 0.8 * UNIT
     depth = np.where(middle, 1.0, 2.0).astype(np.float32)
-    left, top, right, bottom = folded(mesh.vertices + moved, mesh.triangles, SHAPE)
+    left, top, right, bottom = folded_box(mesh.vertices + moved, mesh.triangles, SHAPE)
     assert 0 < left < right < SHAPE[1] and 0 < top < bottom < SHAPE[0]
     plain = inverse_map(mesh.vertices + moved, mesh.vertices, mesh.triangles, SHAPE, depth)
     assert np.quantile(np.abs(mesh.inverse_map(moved, depth) - plain), 0.999) < 0.01

@@ -12,7 +12,7 @@ import pytest
 from made_face import BROWN, SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes import MIN_EYE_WIDTH, draw_eye, gaze, prepare_eyes
+from engine.face_animation.eyes import MIN_EYE_WIDTH, draw_eye, gaze_offsets, prepare_eyes
 from engine.face_animation.lids_and_lips import LID_PAIRS
 from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
 
@@ -92,11 +92,11 @@ def test_a_gaze_moves_the_iris_by_the_asked_distance(picture, mesh, look: tuple[
 
 
 def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray) -> None:
-    """What `gaze` reads from two meshes is what `draw_eye` wants: both eyes look to the picture's right."""
+    """What `gaze_offsets` reads from two meshes is what `draw_eye` wants: both eyes look to the picture's right."""
     looking = mesh.copy()
     for iris in IRISES:
         looking[list(iris), 0] += 5.0
-    found = gaze(looking[None], mesh)[0]
+    found = gaze_offsets(looking[None], mesh)[0]
     assert found[0, 0] == pytest.approx(5 / width(mesh, 0), abs=0.01)  # outer to inner corner: to the right
     assert found[1, 0] == pytest.approx(-5 / width(mesh, 1), abs=0.01)  # the left eye's inner corner is on its left
     picture = painted(mesh, SIZE)
@@ -111,7 +111,7 @@ def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray) -> None:
 def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
     a = np.deg2rad(20)
     turned = 1.3 * (mesh[:, :2] - 180) @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) + 90
-    np.testing.assert_allclose(gaze(turned[None], mesh[:, :2])[0], 0, atol=1e-5)
+    np.testing.assert_allclose(gaze_offsets(turned[None], mesh[:, :2])[0], 0, atol=1e-5)
 
 
 def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> None:

@@ -8,7 +8,7 @@ import pytest
 from made_face import SKIN, painted, placed, shut
 from numpy.typing import NDArray
 
-from engine.face_animation.eyes import closing, prepare_eyes
+from engine.face_animation.eyes import lid_closing_share, prepare_eyes
 from engine.face_animation.lid_skin import (
     BELOW_BROW_VERTICES,
     EDGE_SHADE_SHARE,
@@ -107,7 +107,7 @@ def test_it_begins_where_the_lid_begins_to_close() -> None:
     eyes = prepare_eyes(painted(FACE, SIZE), FACE)
     for side, eye in enumerate(eyes):
         assert eye is not None
-        shares = [closing(eye, shut(FACE, share)[:, :2], side) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)]
+        shares = [lid_closing_share(eye, shut(FACE, share)[:, :2], side) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.0)]
         assert shares[0] == 0 and shares[-2:] == [1, 1]
         assert (np.diff(shares) >= 0).all() and 0 < shares[2] < 1
 

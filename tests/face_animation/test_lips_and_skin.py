@@ -15,7 +15,7 @@ from engine.face_animation.lips_and_skin import (
     SKIN_BELOW_COLUMNS,
     UPPER_LIP_COLUMNS,
     keep_lips_off_skin,
-    lips_room,
+    philtrum_compression,
 )
 
 UNIT = 60.0
@@ -101,7 +101,7 @@ def test_a_head_that_is_inclined_is_led_back_along_itself(roll: float) -> None:
 def test_the_driver_says_how_far_the_skin_under_the_nose_is_pressed() -> None:
     nose, lip = (float(REST[v, 1]) for v in (SKIN_ABOVE_COLUMNS[4][2], SKIN_ABOVE_COLUMNS[4][0]))
     usual = (lip - nose) / UNIT
-    rooms = lips_room(np.stack([REST, torn(REST, 0.75 * usual), torn(REST, 2.0)]), REST)
+    rooms = philtrum_compression(np.stack([REST, torn(REST, 0.75 * usual), torn(REST, 2.0)]), REST)
     np.testing.assert_allclose(rooms, [MAX_SKIN_SHARE, 0.25, MIN_SKIN_SHARE], atol=1e-3)
     tight, wide = (led_back(torn(REST, 0.5), room) for room in (MIN_SKIN_SHARE, MAX_SKIN_SHARE))
     for back, share in ((tight, MIN_SKIN_SHARE), (wide, MAX_SKIN_SHARE)):

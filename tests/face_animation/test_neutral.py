@@ -15,15 +15,15 @@ from engine.errors import InputError
 from engine.face_animation.driver import track_driver
 from engine.face_animation.neutral import (
     choose_neutral_frame,
-    probable_rest,
-    unlike_rest,
-    warn_of_unrest,
-    worn_expression,
+    distance_from_rest,
+    estimate_rest,
+    expression_beyond_rest,
+    warn_if_never_at_rest,
 )
 from engine.media.image import read_image
 from engine.media.limits import Limits
 from engine.media.video import read_video
-from engine.perception.expression.features import expression, lopsided
+from engine.perception.expression.features import lip_asymmetry, measure_expression
 from engine.perception.expression.measures import MEASURES, REST_SPREAD, general_rest, measure
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
@@ -146,12 +146,12 @@ def test_a_mouth_torn_to_a_side_does_not_stand_for_a_smile(tmp_path: Path, rest:
 
 
 def test_how_far_lips_are_lopsided_is_the_distance_from_their_mirror_image(rest: NDArray) -> None:
-    assert np.abs(lopsided(rest[None])).max() < 0.01
+    assert np.abs(lip_asymmetry(rest[None])).max() < 0.01
     moved = placed(50, (100, 100), yaw=15)
-    assert np.abs(lopsided(moved[None])).max() < 0.02  # a turn is none
+    assert np.abs(lip_asymmetry(moved[None])).max() < 0.02  # a turn is none
     aside = rest.copy()
     aside[list(LIPS_OUTER + LIPS_INNER), 0] += 0.1 * eye_distance(rest)
-    assert np.allclose(lopsided(aside[None]) - lopsided(rest[None]), (0.2, 0), atol=0.01)
+    assert np.allclose(lip_asymmetry(aside[None]) - lip_asymmetry(rest[None]), (0.2, 0), atol=0.01)
 
 
 def test_a_driver_that_is_surprised_most_of_the_time_rests_where_it_is_not(tmp_path: Path, rest: NDArray) -> None:
@@ -171,7 +171,7 @@ def test_a_built_in_performance_rests_where_it_begins(name: str, tmp_path: Path,
     """Each begins and ends with a face that does nothing."""
     with FaceTracker() as tracker:
         meshes = [tracker(frame.rgb)[0] for frame in read_video(video(name), fps=15, longest_side=480)]
-    shown = expression(np.stack(meshes))
+    shown = measure_expression(np.stack(meshes))
     assert np.abs(shown[taken(driver(tmp_path, meshes), rest)] - shown[0]).max() < 0.05
 
 
@@ -226,12 +226,14 @@ def test_a_driver_that_is_never_at_rest_is_told_of(tmp_path: Path, rest: NDArray
     told: list[str] = []
     laughing = [opened(smiling(raised(rest, 0.15), 0.3), 0.2 + 0.01 * i) for i in range(10)]
     for frames in (laughing, [*laughing, rest]):
-        warn_of_unrest(choose_neutral_frame(driver(tmp_path, frames), rest, None), lambda code, _: told.append(code))
+        warn_if_never_at_rest(
+            choose_neutral_frame(driver(tmp_path, frames), rest, None), lambda code, _: told.append(code)
+        )
     assert told == ["driver_never_at_rest"]
 
 
 def test_rest_is_what_few_frames_show_if_the_others_are_unlike_any_rest(rest: NDArray) -> None:
-    own = probable_rest(measure(np.stack(lively(rest))))
+    own = estimate_rest(measure(np.stack(lively(rest))))
     np.testing.assert_allclose(own, measure(rest[None])[0], atol=0.02)
 
 
@@ -240,7 +242,7 @@ def test_a_rest_of_thousands_of_frames_takes_little_memory() -> None:
     values = general_rest() + np.random.default_rng(5).normal(size=(5400, len(MEASURES))) * REST_SPREAD
     tracemalloc.start()
     try:
-        probable_rest(values)
+        estimate_rest(values)
         assert tracemalloc.get_traced_memory()[1] < 10e6
     finally:
         tracemalloc.stop()
@@ -251,7 +253,7 @@ def test_rest_is_calm_here_and_a_habit_where_moments_are_cut(rest: NDArray) -> N
     habit = smiling(rest, 0.2)
     values = measure(np.stack([*[habit] * 60, *[rest] * 3, *[smiling(rest, 1)] * 20])).astype(float)
     values += np.random.default_rng(3).normal(0, 0.005, values.shape)
-    assert np.abs(probable_rest(values) - measure(rest[None])[0]).max() < 0.02
+    assert np.abs(estimate_rest(values) - measure(rest[None])[0]).max() < 0.02
     assert np.abs(own_rest(values) - measure(habit[None])[0]).max() < 0.02
 
 
@@ -260,13 +262,13 @@ def test_being_unlike_rest_is_the_mean_square_in_what_people_differ_by(rest: NDA
     more = calm.copy()
     more[0, MEASURES.index("mouth_wide")] += 0.3  # three standard deviations of one of nine measures
     slope = 2 * 3 * (calm[0, 1] - general_rest()[1]) / 0.1
-    assert unlike_rest(more) - unlike_rest(calm) == pytest.approx((9 + slope) / 9, abs=1e-6)
+    assert distance_from_rest(more) - distance_from_rest(calm) == pytest.approx((9 + slope) / 9, abs=1e-6)
 
 
 def test_what_a_target_wears_is_beyond_what_people_differ_by(rest: NDArray) -> None:
-    assert not worn_expression(rest).any()
-    assert not worn_expression(raised(rest, 0.2)).any()
-    worn = worn_expression(opened(rest, 0.3))
+    assert not expression_beyond_rest(rest).any()
+    assert not expression_beyond_rest(raised(rest, 0.2)).any()
+    worn = expression_beyond_rest(opened(rest, 0.3))
     assert worn[0] == pytest.approx(measure(opened(rest, 0.3)[None])[0, 0] - general_rest()[0] - 0.03, abs=1e-5)
 
 

@@ -9,7 +9,7 @@ from made_face import opened, placed
 from numpy.typing import NDArray
 
 from engine.face_animation.hidden_regions import LOWER_INNER_LIP, UPPER_INNER_LIP
-from engine.face_animation.teeth import behind_lips, draw_teeth, shown_teeth
+from engine.face_animation.teeth import draw_teeth, find_teeth, teeth_positions
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER
 
 REST = opened(placed(80, (200, 160)), 0.3)
@@ -35,13 +35,13 @@ def with_lips(across: float, down: float) -> NDArray[np.float32]:
 def spots(face: NDArray) -> NDArray[np.float32]:
     """(478, 2) what lies behind the lips, where they have it."""
     behind = np.full((478, 2), np.nan, np.float32)
-    behind[LIPS] = behind_lips(REST[:, :2], face[:, :2])
+    behind[LIPS] = teeth_positions(REST[:, :2], face[:, :2])
     return behind
 
 
 def test_at_rest_nothing_changes() -> None:
     np.testing.assert_allclose(spots(REST)[LIPS], REST[LIPS, :2], atol=1e-3)
-    frame, teeth = picture(), shown_teeth(picture(), REST)
+    frame, teeth = picture(), find_teeth(picture(), REST)
     assert teeth is not None
     draw_teeth(frame, teeth, REST[:, :2])
     assert np.abs(frame.astype(int) - picture()).max() <= 1
@@ -71,11 +71,11 @@ def test_a_mouth_that_gets_larger_shows_no_lip_in_their_place() -> None:
 
 
 def test_lips_that_close_press_the_mouth_s_inside_together() -> None:
-    frame, teeth = picture(), shown_teeth(picture(), REST)
+    frame, teeth = picture(), find_teeth(picture(), REST)
     assert teeth is not None
     draw_teeth(frame, teeth, with_lips(1.0, 0.1)[:, :2])
     np.testing.assert_array_equal(frame, picture())
 
 
 def test_closed_lips_show_none() -> None:
-    assert shown_teeth(picture(), placed(80, (200, 160))) is None
+    assert find_teeth(picture(), placed(80, (200, 160))) is None

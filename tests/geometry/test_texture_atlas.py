@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.body import load_template
 from engine.geometry.surface import triangulate
-from engine.geometry.texture_atlas import TextureAtlas, laid_out, unfolded
+from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.texture_bake import chart_gap, texel_raster
 
 SIZE = 512
@@ -23,7 +23,7 @@ def torus() -> tuple[NDArray, NDArray]:
 
 @pytest.fixture(scope="module")
 def atlas(torus: tuple[NDArray, NDArray]) -> tuple[TextureAtlas, NDArray]:
-    return unfolded(*torus, SIZE, gap=8)
+    return unwrap(*torus, SIZE, gap=8)
 
 
 def test_each_place_shows_its_triangles_own_vertices(torus, atlas) -> None:
@@ -62,7 +62,7 @@ def test_charts_are_little_distorted(torus, atlas) -> None:
 
 
 def test_cutting_is_the_same_each_time(torus, atlas) -> None:
-    again, shown = unfolded(*torus, SIZE, gap=8)
+    again, shown = unwrap(*torus, SIZE, gap=8)
     np.testing.assert_array_equal(again.uv, atlas[0].uv)
     np.testing.assert_array_equal(shown, atlas[1])
 
@@ -70,7 +70,7 @@ def test_cutting_is_the_same_each_time(torus, atlas) -> None:
 def test_the_templates_own_charts() -> None:
     template = load_template()
     span = slice(*template.parts["body"])
-    own = laid_out(template.uv, triangulate(template.uv_quads[span]))
+    own = atlas_from_uv(template.uv, triangulate(template.uv_quads[span]))
     assert len(own.corners) == 2 * len(template.quads[span])
     assert 1 <= own.charts.max() + 1 < 60
     # two triangles of a quad are on one chart
@@ -85,7 +85,7 @@ def test_pieces_triangles_without_area_and_vertices_of_none() -> None:
     count = len(box.vertices)
     vertices = np.concatenate([box.vertices, box.vertices + 3, [[9.0, 9, 9]]])
     faces = np.concatenate([box.faces, box.faces + count, [[0, 1, 0]]])
-    found, shown = unfolded(vertices, faces, 256)
+    found, shown = unwrap(vertices, faces, 256)
     assert len(found.corners) == len(faces)
     np.testing.assert_array_equal(shown[found.corners], faces)
 
@@ -93,12 +93,12 @@ def test_pieces_triangles_without_area_and_vertices_of_none() -> None:
 def test_what_cannot_be_unfolded_is_refused(torus) -> None:
     vertices, triangles = torus
     with pytest.raises(ValueError, match="triangles"):
-        unfolded(vertices, triangles[:0], SIZE)
+        unwrap(vertices, triangles[:0], SIZE)
     with pytest.raises(ValueError, match="finite"):
-        unfolded(np.where(vertices > 1.2, np.nan, vertices), triangles, SIZE)
+        unwrap(np.where(vertices > 1.2, np.nan, vertices), triangles, SIZE)
     with pytest.raises(ValueError, match="not there"):
-        unfolded(vertices, triangles + len(vertices), SIZE)
+        unwrap(vertices, triangles + len(vertices), SIZE)
     with pytest.raises(ValueError, match="within"):
-        laid_out(np.array([[0, 0], [1.5, 0], [0, 1.0]]), np.array([[0, 1, 2]]))
+        atlas_from_uv(np.array([[0, 0], [1.5, 0], [0, 1.0]]), np.array([[0, 1, 2]]))
     with pytest.raises(ValueError, match="no place"):
-        laid_out(np.zeros((2, 2)), np.array([[0, 1, 2]]))
+        atlas_from_uv(np.zeros((2, 2)), np.array([[0, 1, 2]]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-from engine.imaging.composite import doubled, over, warp_layer
+from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 
 
 def _layer() -> np.ndarray:
@@ -20,13 +20,13 @@ def _identity(shape: tuple[int, int]) -> np.ndarray:
 
 def test_a_layer_that_does_not_move_stays_as_it_is() -> None:
     layer = _layer()
-    same = warp_layer(doubled(layer), _identity(layer.shape[:2]))
+    same = warp_layer(upsample_twice(layer), _identity(layer.shape[:2]))
     assert np.abs(same.astype(int) - layer)[2:-2, 2:-2].max() <= 1
 
 
 def test_a_shift_by_whole_pixels_shifts() -> None:
     layer = _layer()
-    moved = warp_layer(doubled(layer), _identity(layer.shape[:2]) + np.float32([2 * 5, 2 * 3]))
+    moved = warp_layer(upsample_twice(layer), _identity(layer.shape[:2]) + np.float32([2 * 5, 2 * 3]))
     assert np.abs(moved[2:50, 2:70].astype(int) - layer[5:53, 7:75]).max() <= 1
 
 
@@ -34,5 +34,5 @@ def test_alpha_decides_between_layer_and_plate() -> None:
     plate = np.full((4, 3, 3), 100, np.uint8)
     layer = np.full((4, 3, 4), 200, np.uint8)
     layer[..., 3] = np.array([0, 255, 51, 128], np.uint8)[:, None]
-    out = over(layer, plate)
+    out = composite_over(layer, plate)
     assert (out[0] == 100).all() and (out[1] == 200).all() and (out[2] == 120).all() and (out[3] == 150).all()

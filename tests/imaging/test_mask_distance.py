@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.imaging.mask_distance import distance_inside, distance_to, grown
+from engine.imaging.mask_distance import dilate_mask, distance_inside, distance_to
 
 
 def square() -> np.ndarray:
@@ -30,5 +30,5 @@ def test_how_far_a_mask_is() -> None:
 def test_a_mask_grows_by_pixels_in_each_direction() -> None:
     wide = np.zeros((9, 11), np.bool_)
     wide[0:9, 1:10] = True
-    np.testing.assert_array_equal(grown(square(), 2), wide)
-    assert grown(np.zeros((3, 3), np.bool_), 1).sum() == 0
+    np.testing.assert_array_equal(dilate_mask(square(), 2), wide)
+    assert dilate_mask(np.zeros((3, 3), np.bool_), 1).sum() == 0

@@ -12,7 +12,7 @@ from humanoids import told_by
 from engine.motion import rotation
 from engine.motion.beginning import MAX_MOTION_SECONDS, beginning, duration, length_warning
 from engine.motion.check import check_motion
-from engine.motion.edit import repeated
+from engine.motion.edit import repeat_loop
 from engine.motion.library import built_in
 from engine.motion.retarget import retarget
 from engine.motion.skeleton import Skeleton
@@ -22,7 +22,7 @@ from engine.motion.source_motion import SourceMotion
 def walking(skeleton: Skeleton, rounds: int, fps: float = 30.0) -> SourceMotion:
     """A walk of some rounds, and the first pose again."""
     clip = built_in("walk", skeleton, fps)
-    clip = repeated(clip, rounds * len(clip.root) + 1)
+    clip = repeat_loop(clip, rounds * len(clip.root) + 1)
     return told_by(skeleton, clip, rotation.identity(len(skeleton.names)), rotation.identity(), 0.01)
 
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from engine.motion.clip import Clip
-from engine.motion.confine import Room, confined
-from engine.motion.edit import repeated
-from engine.motion.foot_contact import sinking, sole_places
+from engine.motion.confine import MovementRoom, confine_clip
+from engine.motion.edit import repeat_loop
+from engine.motion.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS, built_in
 from engine.motion.library.posture import Foot, Posture, embody
@@ -18,8 +18,8 @@ from engine.motion.skeleton import Skeleton
 from engine.motion.step_out import step_out
 
 LUNGE = Posture(1, feet={"Left": Foot(aside=0.08, ahead=0.25), "Right": Foot(aside=-0.08, ahead=-0.15, yaw=20.0)})
-WIDE = Room(100.0, 100.0, 100.0, 100.0)
-ROOMS = [Room(0.5, 1.0, 0.3, 0.3), Room(0.0, 1.0, 0.0, 0.0), Room(-0.3, 1.0, 0.1, 0.1)]
+WIDE = MovementRoom(100.0, 100.0, 100.0, 100.0)
+ROOMS = [MovementRoom(0.5, 1.0, 0.3, 0.3), MovementRoom(0.0, 1.0, 0.0, 0.0), MovementRoom(-0.3, 1.0, 0.1, 0.1)]
 
 
 @pytest.fixture(scope="module")
@@ -43,21 +43,21 @@ def skates(skeleton: Skeleton, clip: Clip) -> float:
 @pytest.mark.parametrize("name", CLIPS)
 @pytest.mark.parametrize("room", ROOMS, ids=["some room", "no room", "back"])
 def test_who_has_no_room_treads_on_the_spot_and_does_not_skate(
-    skeleton: Skeleton, pictured: Clip, name: str, room: Room
+    skeleton: Skeleton, pictured: Clip, name: str, room: MovementRoom
 ) -> None:
     before = film(skeleton, pictured, name)
-    after = confined(skeleton, before, room)
+    after = confine_clip(skeleton, before, room)
     assert np.array_equal(after.rotations[0], before.rotations[0]) and np.array_equal(after.root[0], before.root[0])
     way = after.root - after.root[0]
     assert way[:, 2].max() <= max(room.ahead, 0) + 1e-6 and np.abs(way[:, 0]).max() <= room.left + 1e-6
     assert skates(skeleton, after) < 0.005
-    assert sinking(sole_places(skeleton, after)) < 0.2
+    assert sinking_depth(sole_places(skeleton, after)) < 0.2
     fastest = [np.linalg.norm(np.diff(joint_places(skeleton, c), axis=0), axis=-1).max() for c in (before, after)]
     assert fastest[1] < 1.4 * fastest[0], "nothing jumps"
 
 
 def test_a_walk_comes_to_the_end_of_its_room_and_goes_on_treading(skeleton: Skeleton, pictured: Clip) -> None:
-    after = confined(skeleton, film(skeleton, pictured, "walk"), Room(0.5, 1.0, 0.3, 0.3))
+    after = confine_clip(skeleton, film(skeleton, pictured, "walk"), MovementRoom(0.5, 1.0, 0.3, 0.3))
     deep = after.root[:, 2] - after.root[0, 2]
     assert 0.45 < deep[-1] <= 0.5 and (np.diff(deep) > -0.002).all()
     feet = sole_places(skeleton, after)[-90:, :, 1]
@@ -66,30 +66,32 @@ def test_a_walk_comes_to_the_end_of_its_room_and_goes_on_treading(skeleton: Skel
 
 
 def test_without_room_ahead_the_steps_lead_back(skeleton: Skeleton, pictured: Clip) -> None:
-    after = confined(skeleton, film(skeleton, pictured, "walk"), Room(-0.3, 1.0, 0.1, 0.1))
+    after = confine_clip(skeleton, film(skeleton, pictured, "walk"), MovementRoom(-0.3, 1.0, 0.1, 0.1))
     assert after.root[-1, 2] - after.root[0, 2] == pytest.approx(-0.3, abs=0.02)
 
 
 @pytest.mark.parametrize("name", CLIPS)
 def test_in_a_wide_room_nothing_changes(skeleton: Skeleton, pictured: Clip, name: str) -> None:
     before = film(skeleton, pictured, name)
-    assert np.array_equal(confined(skeleton, before, WIDE).rotations, before.rotations)
+    assert np.array_equal(confine_clip(skeleton, before, WIDE).rotations, before.rotations)
 
 
 def test_who_runs_far_to_all_sides_stays_in_the_room(skeleton: Skeleton, pictured: Clip) -> None:
-    run = repeated(built_in("run", skeleton, 60.0), 600)
+    run = repeat_loop(built_in("run", skeleton, 60.0), 600)
     for turn in range(4):
         x, y, z = run.root.T - run.root[:1].T
         c, s = np.cos(turn * np.pi / 2), np.sin(turn * np.pi / 2)
         gone = replace(run, root=(run.root[0] + np.stack([c * x + s * z, y, c * z - s * x], 1)).astype(np.float32))
-        way = confined(skeleton, gone, Room(0.4, 0.9, 0.2, 0.3)).root - gone.root[0]
+        way = confine_clip(skeleton, gone, MovementRoom(0.4, 0.9, 0.2, 0.3)).root - gone.root[0]
         assert way[:, 2].min() >= -0.9 and way[:, 2].max() <= 0.4
         assert way[:, 0].min() >= -0.3 and way[:, 0].max() <= 0.2
 
 
 def test_lower_leaps_leave_what_is_on_the_ground(skeleton: Skeleton) -> None:
     jump = built_in("jump", skeleton)
-    heights = [sole_places(skeleton, confined(skeleton, jump, WIDE, leap))[..., 1].min((1, 2)) for leap in (1.0, 0.25)]
+    heights = [
+        sole_places(skeleton, confine_clip(skeleton, jump, WIDE, leap))[..., 1].min((1, 2)) for leap in (1.0, 0.25)
+    ]
     assert heights[0].max() > 0.1
     np.testing.assert_allclose(heights[1], heights[0] * 0.25, atol=0.01)
 

@@ -10,8 +10,8 @@ from humanoids import build_skeleton
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.edit import repeated, travel
-from engine.motion.foot_contact import find_contacts, floor_height, sinking, sliding, sole_places
+from engine.motion.edit import loop_travel, repeat_loop
+from engine.motion.foot_contact import find_contacts, floor_height, sinking_depth, sliding_speed, sole_places
 from engine.motion.foot_hold import hold_feet
 from engine.motion.kinematics import joint_places, local_rotations, world_rotations
 from engine.motion.library import built_in
@@ -23,7 +23,7 @@ def spoiled(skeleton: Skeleton) -> tuple[Clip, Clip]:
     """A walk, and the same walk skating: the root slides by another 6 cm to and fro and sinks by 2 cm, legs as before,
     and the ground is 30 cm higher."""
     clip = built_in("walk", skeleton)
-    clip = repeated(clip, 3 * len(clip.root))
+    clip = repeat_loop(clip, 3 * len(clip.root))
     time = np.arange(len(clip.root)) / clip.fps
     off = np.stack([0.03 * np.sin(5 * time), 0.3 - 0.01 + 0.01 * np.cos(9 * time), 0.05 * np.sin(7 * time)], 1)
     return clip, replace(clip, root=(clip.root + off).astype(np.float32))
@@ -40,7 +40,7 @@ def test_soles_lie_on_the_ground_at_rest(skeleton: Skeleton) -> None:
 
 def test_contacts_are_those_that_the_clip_was_made_with(skeleton: Skeleton) -> None:
     clip = built_in("walk", skeleton, 60.0)
-    stands = find_contacts(sole_places(skeleton, repeated(clip, 132)), 60.0)
+    stands = find_contacts(sole_places(skeleton, repeat_loop(clip, 132)), 60.0)
     own = (np.arange(132) / 66 + np.array([[0.0], [0.5]])) % 1.0
     surely_stands, surely_swings = (own > 0.04) & (own < 0.58), (own > 0.72) & (own < 0.9)
     assert stands.T[surely_stands].mean() > 0.97
@@ -52,7 +52,7 @@ def test_a_skating_walk_is_held(skeleton: Skeleton) -> None:
     held, report = hold_feet(skeleton, skating)
     assert report.sliding_before > 8
     assert report.sliding_after < 0.3
-    assert sinking(sole_places(skeleton, held)) < 0.01
+    assert sinking_depth(sole_places(skeleton, held)) < 0.01
     assert floor_height(sole_places(skeleton, held), held.fps) == pytest.approx(0, abs=0.01)
     # and it is still that walk: joints are where they were, but for what was spoiled
     apart = np.linalg.norm(joint_places(skeleton, held) - joint_places(skeleton, clip), axis=-1)
@@ -88,8 +88,8 @@ def test_a_loop_stays_a_loop(skeleton: Skeleton) -> None:
     held, _ = hold_feet(skeleton, clip)
     assert held.loops
     assert len(held.root) == len(clip.root)
-    assert np.allclose(travel(held), travel(clip), atol=0.002)
-    places = joint_places(skeleton, repeated(held, 2 * len(held.root)))
+    assert np.allclose(loop_travel(held), loop_travel(clip), atol=0.002)
+    places = joint_places(skeleton, repeat_loop(held, 2 * len(held.root)))
     steps = np.linalg.norm(np.diff(places, n=2, axis=0), axis=-1).max(-1)
     seam = len(held.root)
     assert steps[seam - 2 : seam + 1].max() <= 1.1 * steps[: seam - 2].max()
@@ -119,7 +119,7 @@ def test_a_shuffling_foot_is_let_go_while_it_moves(skeleton: Skeleton) -> None:
     assert stands[:36].all()
     assert stands[60:].all()
     assert not stands[46:49].any()
-    assert sliding(points, stands, 30.0) < 5
+    assert sliding_speed(points, stands, 30.0) < 5
     held, _ = hold_feet(skeleton, clip)
     assert np.linalg.norm(np.diff(sole_places(skeleton, held), axis=0), axis=-1).max() < 0.035
 

@@ -8,8 +8,8 @@ from humanoids import build_skeleton
 
 from engine.motion import rotation
 from engine.motion.catalogue import CATALOGUE
-from engine.motion.edit import repeated, travel
-from engine.motion.foot_contact import find_contacts, sinking, sliding, sole_places
+from engine.motion.edit import loop_travel, repeat_loop
+from engine.motion.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import CLIPS, built_in
 from engine.motion.skeleton import Skeleton
@@ -39,9 +39,9 @@ def test_the_catalogue_tells_the_truth(skeleton: Skeleton) -> None:
 @pytest.mark.parametrize("name", CLIPS)
 def test_soles_neither_sink_nor_slide(skeleton: Skeleton, name: str) -> None:
     clip = built_in(name, skeleton)
-    clip = repeated(clip, 2 * len(clip.root)) if clip.loops else clip
+    clip = repeat_loop(clip, 2 * len(clip.root)) if clip.loops else clip
     points = sole_places(skeleton, clip)
-    assert sinking(points) < 0.01
+    assert sinking_depth(points) < 0.01
     # while they lie on the ground; that they begin and end to stand between two frames is allowed for
     low = points[:, :, :2, 1].min(-1) < 0.002
     steps = np.linalg.norm(np.diff(points[:, :, :2][..., [0, 2]], axis=0), axis=-1).min(-1)
@@ -54,7 +54,7 @@ def test_loops_close_exactly(skeleton: Skeleton, name: str) -> None:
     """Across the end, joints go on as smoothly as anywhere: no frame is there twice, none is missing."""
     clip = built_in(name, skeleton)
     frames = len(clip.root)
-    places = joint_places(skeleton, repeated(clip, 3 * frames))
+    places = joint_places(skeleton, repeat_loop(clip, 3 * frames))
     jerk = np.linalg.norm(np.diff(places, n=3, axis=0), axis=-1).max(-1)
     assert jerk[frames - 3 : frames + 1].max() <= 1.05 * jerk[:frames].max()
     speed = np.linalg.norm(np.diff(places, axis=0), axis=-1).max(-1)
@@ -98,8 +98,8 @@ def test_a_runner_in_the_air_falls(skeleton: Skeleton) -> None:
 def test_walking_speed_and_stride_are_a_grown_ups(skeleton: Skeleton) -> None:
     for name, speed in (("walk", 1.15), ("run", 3.1)):
         clip = built_in(name, skeleton)
-        assert travel(clip)[2] / clip.seconds == pytest.approx(speed, rel=0.05)
-        assert abs(travel(clip)[0]) < 1e-3
+        assert loop_travel(clip)[2] / clip.seconds == pytest.approx(speed, rel=0.05)
+        assert abs(loop_travel(clip)[0]) < 1e-3
 
 
 def test_arms_swing_against_legs_and_shoulders_against_hips(skeleton: Skeleton) -> None:
@@ -144,7 +144,7 @@ def test_fingers_and_toes_may_be_missing(name: str) -> None:
     skeleton = build_skeleton(fingers=False, toes=False)
     clip = built_in(name, skeleton)
     assert np.isfinite(clip.rotations).all()
-    assert sinking(sole_places(skeleton, clip)) < 0.01
+    assert sinking_depth(sole_places(skeleton, clip)) < 0.01
 
 
 def test_the_jump_leaves_the_ground_and_lands(skeleton: Skeleton) -> None:
@@ -186,8 +186,8 @@ def test_who_stands_first_stands_like_who_idles(skeleton: Skeleton, name: str) -
 
 def test_feet_that_stand_are_found_in_a_walk(skeleton: Skeleton) -> None:
     clip = built_in("walk", skeleton, 60.0)
-    whole = repeated(clip, 2 * len(clip.root))
+    whole = repeat_loop(clip, 2 * len(clip.root))
     stands = find_contacts(sole_places(skeleton, whole), 60.0, leg_length(skeleton))
     assert stands.any(1).all()
     assert 0.55 < stands.mean() < 0.75
-    assert sliding(sole_places(skeleton, whole), stands, 60.0) < 2
+    assert sliding_speed(sole_places(skeleton, whole), stands, 60.0) < 2

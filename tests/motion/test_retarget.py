@@ -15,7 +15,7 @@ from engine.motion import rotation
 from engine.motion.bvh import read_bvh
 from engine.motion.check import check_motion
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import find_contacts, sinking, sliding, sole_places
+from engine.motion.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
 from engine.motion.glitches import without_flips
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
@@ -136,9 +136,9 @@ def test_feet_neither_slide_nor_sink(media: Media, skeleton: Skeleton, name: str
     assert result.feet.sliding_after <= SLIDING[name]
     assert result.feet.sinking_after < 0.01
     points = sole_places(skeleton, result.clip)
-    assert sinking(points) < 0.01
+    assert sinking_depth(points) < 0.01
     # measured anew on what came out: feet that stand in it, also in the frames in which they begin and end to stand
-    again = sliding(points, find_contacts(points, result.clip.fps, leg_length(skeleton)), result.clip.fps)
+    again = sliding_speed(points, find_contacts(points, result.clip.fps, leg_length(skeleton)), result.clip.fps)
     assert again < 2.5
 
 
@@ -149,7 +149,7 @@ def test_skeletons_may_lack_fingers_and_toes(media: Media, fingers: bool, toes: 
     result = retarget(read_bvh(media("mocap/makehuman_walk_cycle.bvh")), skeleton)
     assert result.clip.rotations.shape[1] == len(skeleton.names)
     assert np.isfinite(result.clip.rotations).all()
-    assert sinking(sole_places(skeleton, result.clip)) < 0.01
+    assert sinking_depth(sole_places(skeleton, result.clip)) < 0.01
 
 
 def test_a_joint_that_flips_over_and_back_is_bridged(skeleton: Skeleton) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import sinking, sole_places
+from engine.motion.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS, built_in
 from engine.motion.library.posture import Arm, Foot, Posture, embody
@@ -58,7 +58,7 @@ def test_feet_step_and_do_not_skate(skeleton: Skeleton, pictured: Clip, name: st
     may leave or touch the ground between them."""
     out = step_out(skeleton, pictured, built_in(name, skeleton, 60.0))
     points = sole_places(skeleton, out)
-    assert sinking(points) < 0.05
+    assert sinking_depth(points) < 0.05
     low = points[:, :, :2, 1].min(-1) < 0.004
     steps = np.linalg.norm(np.diff(points[:, :, :2][..., [0, 2]], axis=0), axis=-1).min(-1)
     assert steps[low[1:] & low[:-1]].max() < 0.005

@@ -7,7 +7,7 @@ import pytest
 from made_face import in_crop, opened, painted, placed, smiling
 from numpy.typing import NDArray
 
-from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, between, crop_face, crop_place
+from engine.perception.face_track.face_crop import CROP_SHAPE, FaceCrop, crop_face, crop_place, interpolate_crops
 
 REST = placed(60, (150, 120))
 OTHER = opened(smiling(placed(72, (190, 140), roll=12)), 0.35)
@@ -29,7 +29,7 @@ def test_a_face_is_cut_out_upright_by_its_eyes() -> None:
 
 @pytest.mark.parametrize(("share", "whose"), [(0.0, REST), (1.0, OTHER)])
 def test_at_either_end_it_is_the_one_or_the_other(share: float, whose: NDArray[np.float32]) -> None:
-    seen = between(look(REST), look(OTHER), share)
+    seen = interpolate_crops(look(REST), look(OTHER), share)
     np.testing.assert_allclose(seen.mesh, whose, atol=1e-3)
     assert np.abs(seen.crop.astype(int) - look(whose).crop)[INSIDE].mean() < 1.5
 
@@ -37,7 +37,7 @@ def test_at_either_end_it_is_the_one_or_the_other(share: float, whose: NDArray[n
 @pytest.mark.parametrize("share", [0.25, 0.5, 0.8])
 def test_on_the_way_features_lie_where_the_mesh_between_has_them(share: float) -> None:
     """Two drawings of one face make a third one of it, no double exposure."""
-    seen = between(look(REST), look(OTHER), share)
+    seen = interpolate_crops(look(REST), look(OTHER), share)
     np.testing.assert_allclose(seen.mesh, (1 - share) * REST + share * OTHER, atol=1e-3)
     drawn = painted(in_crop(seen.mesh), CROP_SHAPE[::-1])
     assert np.abs(seen.crop[INSIDE].astype(int) - drawn[INSIDE]).mean() < 1.5

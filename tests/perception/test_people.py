@@ -14,7 +14,7 @@ from benchmarks.known_places import places
 from benchmarks.scanned_bodies import read_scan
 from engine.perception.body import find_body
 from engine.perception.people import find_people, person_box
-from engine.perception.segmentation import people_in
+from engine.perception.segmentation import people_confidence
 
 
 @pytest.mark.parametrize(("place", "stands_out"), [("yard", True), ("garage door", False)])
@@ -33,7 +33,7 @@ def test_whoever_is_found_by_a_second_look_is_cut_out_by_one(media: Callable[[st
     """What the networks believe is nearer to the truth if the one that finds joints is content with little here too."""
     known = draw_into(read_scan(media("scans3d/body_soldier/soldier.glb"), -1), places(PICTURE_SIZE)["garage door"])
     there = cv2.resize(known.alpha, (600, 800), interpolation=cv2.INTER_AREA) > 0.5
-    content, strict = (people_in(known.rgb, whole) > 0.5 for whole in (True, False))
+    content, strict = (people_confidence(known.rgb, whole) > 0.5 for whole in (True, False))
     overlaps = [(seen & there).sum() / (seen | there).sum() for seen in (content, strict)]
     assert overlaps[0] > overlaps[1] + 0.03
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.perception.temporal_filter import noise_level, steady
+from engine.perception.temporal_filter import noise_level, remove_jitter
 
 SIGMA = 0.4
 
@@ -36,25 +36,25 @@ def test_noise_level_is_blind_to_smooth_motion() -> None:
 
 def test_points_at_rest_lose_two_thirds_of_their_jitter() -> None:
     tracks = still()
-    assert steady(tracks)[10:-10].std(axis=0).mean() < SIGMA / 3
+    assert remove_jitter(tracks)[10:-10].std(axis=0).mean() < SIGMA / 3
     assert tracks.std(axis=0).mean() == pytest.approx(SIGMA, rel=0.1)
 
 
 def test_a_still_track_stays_where_it_is() -> None:
     tracks = np.full((30, 5, 3), 7.25, np.float32)
-    np.testing.assert_allclose(steady(tracks), tracks, atol=1e-5)
+    np.testing.assert_allclose(remove_jitter(tracks), tracks, atol=1e-5)
 
 
 @pytest.mark.parametrize("speed", [0.05, 1.0, 20.0])
 def test_linear_motion_is_neither_bent_nor_delayed(speed: float) -> None:
     line = np.arange(60, dtype=np.float32)[:, None, None] * np.float32(speed) + np.zeros((1, 4, 2), np.float32)
-    np.testing.assert_allclose(steady(line, np.full(4, SIGMA)), line, atol=2e-4 * max(speed, 1))
+    np.testing.assert_allclose(remove_jitter(line, np.full(4, SIGMA)), line, atol=2e-4 * max(speed, 1))
 
 
 def test_a_step_keeps_its_moment_and_its_height() -> None:
     tracks = still(80)
     tracks[40:] += 20 * SIGMA
-    out = steady(tracks, np.full(30, SIGMA))
+    out = remove_jitter(tracks, np.full(30, SIGMA))
     jump = np.diff(out.mean(axis=(1, 2)))
     assert int(np.argmax(jump)) == 39
     assert jump[39] == pytest.approx(20 * SIGMA, rel=0.1)
@@ -67,10 +67,10 @@ def test_a_blink_of_three_frames_keeps_its_depth_and_its_moment(depth: float, ke
     in the clips (see the driver's tests), whose lids rest on the lower one."""
     lids = np.zeros((80, 30, 2), np.float32)
     lids[..., 1] = blink(80, 40, depth * SIGMA)[:, None]
-    out = steady(lids, np.full(30, SIGMA))[..., 1]
+    out = remove_jitter(lids, np.full(30, SIGMA))[..., 1]
     assert (out.argmax(axis=0) == 40).all()
     assert out[40].min() >= kept * depth * SIGMA
-    noisy = steady(lids + still(80), np.full(30, SIGMA))[..., 1] - still(80)[..., 1].mean(axis=0)
+    noisy = remove_jitter(lids + still(80), np.full(30, SIGMA))[..., 1] - still(80)[..., 1].mean(axis=0)
     assert int(noisy.mean(axis=1).argmax()) == 40
     assert noisy[40].mean() >= kept * depth * SIGMA
 
@@ -79,13 +79,13 @@ def test_time_has_no_direction() -> None:
     """Read backwards the filter gives the same: it neither delays nor foresees."""
     tracks = still(50)
     tracks[20:23] += 5
-    np.testing.assert_allclose(steady(tracks[::-1])[::-1], steady(tracks), atol=1e-4)
+    np.testing.assert_allclose(remove_jitter(tracks[::-1])[::-1], remove_jitter(tracks), atol=1e-4)
 
 
 @pytest.mark.parametrize("frames", [1, 2, 3, 4, 5, 9])
 def test_short_clips_pass(frames: int) -> None:
     tracks = still(frames)
-    out = steady(tracks)
+    out = remove_jitter(tracks)
     assert out.shape == tracks.shape
     assert np.abs(out - tracks).max() <= np.ptp(tracks, axis=0).max()
     if frames < 3:
@@ -94,7 +94,7 @@ def test_short_clips_pass(frames: int) -> None:
 
 def test_the_ends_are_as_quiet_as_a_clip_allows() -> None:
     tracks = still(120)
-    apart = np.abs(steady(tracks) - tracks.mean(axis=0)).mean(axis=(1, 2))
+    apart = np.abs(remove_jitter(tracks) - tracks.mean(axis=0)).mean(axis=(1, 2))
     raw = np.abs(tracks - tracks.mean(axis=0)).mean()
     assert apart[60] < 0.35 * raw
     assert max(apart[0], apart[-1]) < 0.7 * raw, "half as many frames say where the first one is"
@@ -102,6 +102,6 @@ def test_the_ends_are_as_quiet_as_a_clip_allows() -> None:
 
 def test_in_place_is_the_same() -> None:
     tracks = still(40, points=150)
-    expected = steady(tracks)
-    assert steady(tracks, out=tracks) is tracks
+    expected = remove_jitter(tracks)
+    assert remove_jitter(tracks, out=tracks) is tracks
     np.testing.assert_array_equal(tracks, expected)

@@ -11,7 +11,7 @@ from engine.performances.hair import hair_cover
 from engine.performances.shirt import drape, sew_shirt
 from engine.performances.skin import Skin, paint_skin
 from engine.performances.teeth import build_dentition
-from engine.performances.wrinkles import PRESSED_BY, Wrinkles, carve, pressed
+from engine.performances.wrinkles import PRESSED_BY, Wrinkles, carve, wrinkle_relief
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def test_the_same_seed_paints_the_same_skin(skin: Skin) -> None:
 
 
 def test_a_neutral_face_has_hardly_any_furrows(wrinkles: Wrinkles) -> None:
-    assert np.abs(pressed(wrinkles, {})).max() < 2.2e-4
+    assert np.abs(wrinkle_relief(wrinkles, {})).max() < 2.2e-4
     assert set(PRESSED_BY) == set(wrinkles.names)
 
 
@@ -80,7 +80,7 @@ def test_a_neutral_face_has_hardly_any_furrows(wrinkles: Wrinkles) -> None:
 def test_units_press_in_their_own_furrows(
     wrinkles: Wrinkles, units: dict[str, float], place: tuple[float, float]
 ) -> None:
-    relief = pressed(wrinkles, units) - pressed(wrinkles, {})
+    relief = wrinkle_relief(wrinkles, units) - wrinkle_relief(wrinkles, {})
     row, column = (
         int((chart.TOP - place[1]) * chart.TEXELS_PER_METRE),
         int((place[0] - chart.LEFT) * chart.TEXELS_PER_METRE),

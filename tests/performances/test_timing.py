@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.performances.timing import blink, ease, glances, swell, unrest
+from engine.performances.timing import blink, ease, glances, idle_noise, swell
 
 
 def test_an_eased_step_starts_and_ends_at_rest() -> None:
@@ -48,7 +48,7 @@ def test_glances_hold_between_saccades() -> None:
 @pytest.mark.parametrize("seed", range(5))
 def test_unrest_repeats_without_a_seam_from_zero(seed: int) -> None:
     t = np.linspace(0, 10, 2001)
-    values = np.array([unrest(x, seed, 5.0) for x in t])
+    values = np.array([idle_noise(x, seed, 5.0) for x in t])
     assert values[0] == pytest.approx(0, abs=1e-12)
     np.testing.assert_allclose(values[:1000], values[1000:2000], atol=1e-9)
     assert 0.5 < values.std() < 1.5

@@ -22,7 +22,7 @@ from engine.media.video import read_video
 from engine.perception.faces import find_faces
 from engine.performances import names, performance, video
 from engine.portrait.appearance import Appearance, appearance_of_driver, appearance_of_face
-from engine.portrait.driver_selection import CRITERION_WEIGHTS, choose_driver, fit, library_appearances
+from engine.portrait.driver_selection import CRITERION_WEIGHTS, choose_driver, library_appearances, score_driver
 from engine.run import Run
 from galatea import animate
 
@@ -39,7 +39,7 @@ def appearance(rgb: NDArray[np.uint8]) -> Appearance:
 
 
 def best(face: Appearance, among: dict[str, Appearance]) -> str:
-    return max(among, key=lambda name: fit(face, among[name])["total"])
+    return max(among, key=lambda name: score_driver(face, among[name])["total"])
 
 
 @pytest.mark.parametrize("name", names())
@@ -48,7 +48,7 @@ def test_what_is_written_down_of_the_library_is_what_its_videos_show(name: str) 
     np.testing.assert_allclose(kept.expressions, seen.expressions, atol=0.02)
     assert kept.turn == pytest.approx(seen.turn, abs=0.5)
     # one figure in one light: what is kept of it holds for every performance
-    scores = fit(replace(seen, expressions=kept.expressions[:1], turn=0.0), kept)
+    scores = score_driver(replace(seen, expressions=kept.expressions[:1], turn=0.0), kept)
     assert min(scores[measure] for measure in ("proportions", "light", "palette")) > 0.85
 
 
@@ -60,15 +60,15 @@ def test_a_face_with_an_expression_gets_a_performance_that_shows_it(name: str, s
     chosen = best(face, dict(library_appearances()))
     assert performance(chosen).state == state
     assert (
-        fit(face, library_appearances()["idle"])["expression"]
+        score_driver(face, library_appearances()["idle"])["expression"]
         < 0.7
-        < fit(face, library_appearances()[name])["expression"]
+        < score_driver(face, library_appearances()[name])["expression"]
     )
 
 
 def test_all_performances_fit_a_neutral_face_alike() -> None:
     face = appearance(moment("idle", 0))
-    totals = [fit(face, one)["total"] for one in library_appearances().values()]
+    totals = [score_driver(face, one)["total"] for one in library_appearances().values()]
     assert min(totals) > 0.95
 
 
@@ -77,7 +77,7 @@ def test_light_from_the_other_side_is_told() -> None:
     straight, mirrored = appearance(face), appearance(np.ascontiguousarray(face[:, ::-1]))
     assert straight.light[0] < -0.1 < 0.1 < mirrored.light[0]
     driver = library_appearances()["idle"]
-    assert fit(mirrored, driver)["light"] < 0.5 < fit(straight, driver)["light"]
+    assert score_driver(mirrored, driver)["light"] < 0.5 < score_driver(straight, driver)["light"]
 
 
 def test_a_picture_without_colour_has_a_palette_without() -> None:
@@ -85,21 +85,21 @@ def test_a_picture_without_colour_has_a_palette_without() -> None:
     grey = np.repeat(face.mean(axis=2, keepdims=True), 3, axis=2).astype(np.uint8)
     assert np.abs(appearance(grey).palette[1:]).max() < 0.5 < np.abs(appearance(face).palette[1:]).min()
     assert (
-        fit(appearance(grey), library_appearances()["idle"])["palette"]
-        < fit(appearance(face), library_appearances()["idle"])["palette"]
+        score_driver(appearance(grey), library_appearances()["idle"])["palette"]
+        < score_driver(appearance(face), library_appearances()["idle"])["palette"]
     )
 
 
 def test_a_driver_that_turns_too_far_for_a_turned_face_loses() -> None:
     driver = library_appearances()["idle"]
     face = replace(driver, expressions=driver.expressions[:1], turn=20.0)
-    assert fit(face, replace(driver, turn=4.0))["turn"] == 1
-    assert fit(face, replace(driver, turn=20.0))["turn"] < 0.5
+    assert score_driver(face, replace(driver, turn=4.0))["turn"] == 1
+    assert score_driver(face, replace(driver, turn=20.0))["turn"] < 0.5
 
 
 def test_scores_are_shares_and_their_weighted_mean() -> None:
     one, other = library_appearances()["idle"], library_appearances()["happy"]
-    scores = fit(replace(one, expressions=one.expressions[:1]), other)
+    scores = score_driver(replace(one, expressions=one.expressions[:1]), other)
     assert set(scores) == {*CRITERION_WEIGHTS, "total"} and all(0 <= score <= 1 for score in scores.values())
     assert sum(CRITERION_WEIGHTS.values()) == pytest.approx(1)
     assert scores["total"] == pytest.approx(

@@ -24,9 +24,9 @@ from engine.performances import STATES
 from engine.portrait.moments import find_moments
 from engine.portrait.moments.gestures import swings
 from engine.portrait.moments.pipeline import Moment, work
-from engine.portrait.moments.rest import own_rest, unrest
+from engine.portrait.moments.rest import distance_from_rest, own_rest
 from engine.portrait.moments.segments import MAX_UNREST, Segment, find_segments
-from engine.portrait.moments.watching import WATCHED_FPS, watch
+from engine.portrait.moments.watching import WATCHED_FPS, measure_video_face
 from engine.run import Run
 
 Mesh = NDArray[np.floating]
@@ -61,8 +61,8 @@ def test_everything_that_was_joined_is_found_and_nothing_else(
 def test_segments_begin_and_end_at_rest_and_do_not_overlap(
     joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
 ) -> None:
-    watched = watch(joined[0], Limits())
-    unresting = unrest(watched.values - own_rest(watched.values[watched.found]))
+    watched = measure_video_face(joined[0], Limits())
+    unresting = distance_from_rest(watched.values - own_rest(watched.values[watched.found]))
     for moment in found:
         first, last = round(moment.start * WATCHED_FPS), round(moment.end * WATCHED_FPS) - 1
         assert max(unresting[first], unresting[min(last, len(unresting) - 1)]) <= 1, moment
@@ -251,7 +251,7 @@ def test_rest_is_what_the_face_comes_back_to_though_it_smiles_for_longer() -> No
     quiet = film(lambda mesh, much: mesh, 2.0, noise=0.15)
     smiling = film(lambda mesh, much: smile(mesh, 1.0), 4.0, noise=0.15)
     values = measure(np.concatenate([quiet, smiling]))
-    assert unrest((values - own_rest(values))[: len(quiet)]).max() <= 1
+    assert distance_from_rest((values - own_rest(values))[: len(quiet)]).max() <= 1
 
 
 def test_a_segment_ends_where_the_face_is_lost() -> None:

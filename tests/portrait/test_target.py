@@ -16,7 +16,7 @@ from engine.errors import InputError
 from engine.face_animation.layers import separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
-from engine.perception.expression.features import expression
+from engine.perception.expression.features import measure_expression
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import eye_distance, eye_opening, fiducials, mouth_opening
 from engine.portrait.options import PortraitOptions
@@ -138,7 +138,9 @@ def test_a_smile_is_told_with_open_or_closed_lips(small: Small, name: str, smile
 
 def test_a_turn_does_not_change_the_measured_smile(small: Small) -> None:
     (mesh,) = find_faces(read_image(small("pair1_smile.png", 320)).rgb)
-    straight, turned = expression(np.stack([mesh, mesh @ cv2.Rodrigues(np.array([0.3, -0.5, 0.2]))[0].astype("f4")]))
+    straight, turned = measure_expression(
+        np.stack([mesh, mesh @ cv2.Rodrigues(np.array([0.3, -0.5, 0.2]))[0].astype("f4")])
+    )
     np.testing.assert_allclose(turned[1:5], straight[1:5], atol=1e-4)  # lengths, in eye distances
 
 

@@ -14,7 +14,14 @@ from engine.motion.clip import Clip
 from engine.motion.skeleton import Skeleton
 from engine.render.backdrop import Backdrop
 from engine.render.camera_moves import camera_at
-from engine.render.character import LIGHT_DIRECTION, SAMPLES_PER_AXIS, Actor, draw_character, film_cast, prepare
+from engine.render.character import (
+    LIGHT_DIRECTION,
+    SAMPLES_PER_AXIS,
+    Actor,
+    draw_character,
+    film_cast,
+    prepare_character,
+)
 from engine.render.ground_shadow import CELL_METRES, GroundShadow, shadow_map
 
 ONE = Skeleton(("Hips",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))
@@ -44,7 +51,7 @@ def noise(size: int, seed: int = 0) -> np.ndarray:
 def test_a_texture_seen_one_to_one_comes_back() -> None:
     texture = noise(64)
     mesh = card(texture, (0, 0, 0))
-    drawn = draw_character(prepare(mesh), mesh.vertices, FLAT)
+    drawn = draw_character(prepare_character(mesh), mesh.vertices, FLAT)
     assert (drawn.alpha == 1).all()
     off = np.abs(drawn.rgb.astype(int) - texture).max(2)
     assert off[~np.eye(64, dtype=bool)].max() <= 1  # a pixel on the diagonal is coloured twice, off its centre
@@ -54,12 +61,12 @@ def test_edges_are_as_opaque_as_they_are_covered() -> None:
     """The card's left edge lies 1/3 into the column 20, its upper edge 2/3 into the row 10."""
     mesh = card(noise(8), ((20 - 31.5 - 0.5 + 1 / 3) / 32 + 1, (31.5 - 10 + 0.5 - 2 / 3) / 32 - 1, 0))
     background = noise(64, 1)
-    drawn = draw_character(prepare(mesh), mesh.vertices, FLAT, background)
+    drawn = draw_character(prepare_character(mesh), mesh.vertices, FLAT, background)
     assert drawn.alpha[40, 20] == pytest.approx(2 / 3, abs=0.35 / SAMPLES_PER_AXIS)
     assert drawn.alpha[10, 40] == pytest.approx(1 / 3, abs=0.35 / SAMPLES_PER_AXIS)
     assert not drawn.alpha[:, :20].any() and not drawn.alpha[:10].any() and (drawn.alpha[11:, 21:] == 1).all()
     np.testing.assert_array_equal(drawn.rgb[drawn.alpha == 0], background[drawn.alpha == 0])
-    alone = draw_character(prepare(mesh), mesh.vertices, FLAT)
+    alone = draw_character(prepare_character(mesh), mesh.vertices, FLAT)
     np.testing.assert_array_equal(alone.alpha, drawn.alpha)
     mixed = alone.alpha[..., None] * alone.rgb + (1 - alone.alpha[..., None]) * background
     assert np.abs(mixed - drawn.rgb).max() <= 1.01
@@ -70,7 +77,9 @@ def test_the_nearer_card_hides_the_other() -> None:
     texture[:8] = 50
     far_then_near = card(texture, (0, 0, -1), (0, 0.5, 0.5))
     near_then_far = card(texture, (0, 0.5, 0.5), (0, 0, -1))
-    first, second = (draw_character(prepare(mesh), mesh.vertices, FLAT).rgb for mesh in (far_then_near, near_then_far))
+    first, second = (
+        draw_character(prepare_character(mesh), mesh.vertices, FLAT).rgb for mesh in (far_then_near, near_then_far)
+    )
     np.testing.assert_array_equal(first, second)
 
 
@@ -83,7 +92,7 @@ def test_where_two_surfaces_pass_through_each_other_a_pixel_shows_both() -> None
     mesh.vertices[4:, 2] = np.where(mesh.vertices[4:, 0] < 0, -0.1, 0.1) - 0.1 * line
     mesh.uv[:4, 0] = 0.25
     mesh.uv[4:, 0] = 0.75
-    row = draw_character(prepare(mesh), mesh.vertices, FLAT).rgb[32, :, 0]
+    row = draw_character(prepare_character(mesh), mesh.vertices, FLAT).rgb[32, :, 0]
     assert (row[:20] == 50).all() and (row[22:60] == 200).all()
     assert row[20] == pytest.approx(50 + 150 * 2 / 3, abs=150 / 2 / SAMPLES_PER_AXIS)
 
@@ -92,17 +101,17 @@ def test_a_fine_pattern_far_away_is_its_mean() -> None:
     y, x = np.mgrid[:512, :512]
     texture = np.where((x + y)[..., None] % 2, 255, 0).repeat(3, 2).astype(np.uint8)
     mesh = card(texture, (0, 0, 0))
-    drawn = draw_character(prepare(mesh), mesh.vertices, FLAT)
+    drawn = draw_character(prepare_character(mesh), mesh.vertices, FLAT)
     assert np.abs(drawn.rgb.astype(int) - 127).max() <= 2
 
 
 def test_an_open_surface_has_two_sides_and_a_closed_ones_backs_cover_nothing_new() -> None:
     mesh = card(noise(8), (0, 0, 0))
     behind = Camera((0, 0, 0), 64, (31.5, 31.5), (64, 64)).aimed((0, 0, -2), (0, 0, 0))
-    assert not prepare(mesh).closed
-    assert (draw_character(prepare(mesh), mesh.vertices, behind).alpha[4:60, 4:60] == 1).all()
+    assert not prepare_character(mesh).closed
+    assert (draw_character(prepare_character(mesh), mesh.vertices, behind).alpha[4:60, 4:60] == 1).all()
     body = template_character(texture_size=64)
-    subject, clip = prepare(body), walk(body.skeleton, 4)
+    subject, clip = prepare_character(body), walk(body.skeleton, 4)
     assert subject.closed
     bent = clip.rotations.copy()
     bent[:, body.skeleton.index("LeftForeArm")] = [0, -0.98, 0, 0.2]  # folded into itself
@@ -120,7 +129,7 @@ def test_shading_is_none_towards_the_light_and_full_away_from_it() -> None:
         camera = Camera((0, 0, 0), 64, (31.5, 31.5), (64, 64)).aimed(3 * away * towards, (0, 0, 0))
         right, up, _ = np.array(camera.axes)
         posed = (mesh.vertices[:, :1] * right + mesh.vertices[:, 1:2] * up).astype(np.float32)
-        drawn = draw_character(prepare(mesh), posed, camera, shading=0.5)
+        drawn = draw_character(prepare_character(mesh), posed, camera, shading=0.5)
         assert drawn.alpha[32, 32] == 1 and abs(int(drawn.rgb[32, 32, 0]) - expected) <= 1
 
 
@@ -128,11 +137,11 @@ def test_nothing_in_view_leaves_the_background() -> None:
     background = noise(64)
     for place in ((9.0, 0.0, 0.0), (0.0, 0.0, 5.0)):
         mesh = card(noise(8), place)
-        drawn = draw_character(prepare(mesh), mesh.vertices, FLAT, background)
+        drawn = draw_character(prepare_character(mesh), mesh.vertices, FLAT, background)
         np.testing.assert_array_equal(drawn.rgb, background)
         assert not drawn.alpha.any()
     with pytest.raises(ValueError, match="background"):
-        draw_character(prepare(mesh), mesh.vertices, FLAT, background[1:])
+        draw_character(prepare_character(mesh), mesh.vertices, FLAT, background[1:])
 
 
 def test_the_shadow_is_dark_under_what_touches_the_ground_and_fades_with_height() -> None:
@@ -165,7 +174,7 @@ def test_the_shadow_falls_where_the_camera_sees_the_ground_under_the_feet() -> N
     camera = Camera(eye=(0, 1.6, 0), focal=150, centre=(99.5, 74.5), size=(150, 200)).aimed((1, 1.6, 2), (0, 0.4, 0))
     background = np.full((150, 200, 3), 200, np.uint8)
     shadow = GroundShadow(strength=0.5, reach=np.inf)
-    drawn = draw_character(prepare(mesh), mesh.vertices, camera, background, shadow)
+    drawn = draw_character(prepare_character(mesh), mesh.vertices, camera, background, shadow)
     x, y = camera.project(np.zeros((1, 3)))[0, :2].round().astype(int)
     dark = 200 - drawn.rgb[..., 0].astype(float)
     assert dark[y, x] > 0.9 * dark.max() > 20
@@ -180,7 +189,7 @@ def test_the_shadow_falls_where_the_camera_sees_the_ground_under_the_feet() -> N
 def test_a_film_is_its_frames_in_order() -> None:
     mesh = template_character(texture_size=64)
     clip = walk(mesh.skeleton, 7)
-    subject = prepare(mesh)
+    subject = prepare_character(mesh)
     camera = Camera((0, 0, 0), 120, (59.5, 79.5), (160, 120)).aimed((0, 1.0, 3.0), (0, 0.85, 0))
     plate = np.random.default_rng(2).integers(0, 256, (160, 120, 3), np.uint8)
     stage = Backdrop(plate, camera, 6.0)
@@ -205,8 +214,8 @@ def test_a_clip_of_one_frame_gives_one() -> None:
     mesh = card(noise(8), (0, 0, 0))
     clip = Clip("still", 30, np.array([[[0, 0, 0, 1]]], np.float32), np.zeros((1, 3), np.float32))
     empty = np.zeros((64, 64, 3), np.uint8)
-    (drawn,) = film_cast([Actor(prepare(mesh), clip)], lambda second: FLAT, lambda camera: empty)
-    np.testing.assert_array_equal(drawn, draw_character(prepare(mesh), mesh.vertices, FLAT).rgb)
+    (drawn,) = film_cast([Actor(prepare_character(mesh), clip)], lambda second: FLAT, lambda camera: empty)
+    np.testing.assert_array_equal(drawn, draw_character(prepare_character(mesh), mesh.vertices, FLAT).rgb)
 
 
 def test_who_is_nearer_stands_before_the_others() -> None:
@@ -214,7 +223,7 @@ def test_who_is_nearer_stands_before_the_others() -> None:
     clip = Clip("still", 30, np.array([[[0, 0, 0, 1]]], np.float32), np.zeros((1, 3), np.float32))
     cards = []
     for grey in (50, 200):
-        cards.append(prepare(card(np.full((8, 8, 3), grey, np.uint8), (0, 0, 0))))
+        cards.append(prepare_character(card(np.full((8, 8, 3), grey, np.uint8), (0, 0, 0))))
     empty = np.zeros((64, 64, 3), np.uint8)
     cast = [Actor(cards[0], clip), Actor(cards[1], clip, (0.5, 0.0, 0.2))]
     (drawn,) = film_cast(cast, lambda second: FLAT, lambda camera: empty)
@@ -232,11 +241,11 @@ def test_no_shadow_falls_on_somebody_and_where_two_meet_the_darker_stays() -> No
     sun = GroundShadow(reach=np.inf, light=(0.5, 1.0, 0.5))
 
     def filmed(*cast: SkinnedMesh) -> np.ndarray:
-        actors = [Actor(prepare(mesh), clip) for mesh in cast]
+        actors = [Actor(prepare_character(mesh), clip) for mesh in cast]
         return next(film_cast(actors, lambda second: camera, lambda camera: ground, sun))
 
     first, second, both = filmed(upright), filmed(hanging), filmed(upright, hanging)
-    covered = draw_character(prepare(upright), upright.vertices, camera).alpha
+    covered = draw_character(prepare_character(upright), upright.vertices, camera).alpha
     behind = (covered == 1) & (second[..., 0] < 150)
     assert behind.sum() > 100
     assert (both[behind] == 200).all()

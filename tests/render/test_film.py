@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from engine.render.film import develop, shrink
+from engine.render.film import box_downsample, develop
 
 
 def test_film_keeps_middle_tones_and_rolls_off_highlights() -> None:
@@ -16,4 +16,4 @@ def test_film_keeps_middle_tones_and_rolls_off_highlights() -> None:
 
 def test_shrinking_takes_the_mean() -> None:
     picture = np.arange(16, dtype=np.float32).reshape(4, 4)
-    np.testing.assert_allclose(shrink(picture, 2), [[2.5, 4.5], [10.5, 12.5]])
+    np.testing.assert_allclose(box_downsample(picture, 2), [[2.5, 4.5], [10.5, 12.5]])

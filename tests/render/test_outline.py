@@ -8,11 +8,11 @@ from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import weld
-from engine.render.multisampling import choose, draw_samples, sample_offsets
+from engine.render.multisampling import draw_samples, sample_offsets, select_pixels
 from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into, rasterise
 
-EVERYWHERE = choose(np.ones((48, 64), np.bool_))
+EVERYWHERE = select_pixels(np.ones((48, 64), np.bool_))
 
 
 @pytest.mark.parametrize("samples", [1, 2, 3, 4])
@@ -39,7 +39,7 @@ def test_only_chosen_pixels_are_looked_at_and_each_as_among_all() -> None:
     marks = rng.random((48, 64)) < 0.05
     facing, offsets = facings(points, faces), sample_offsets(3)
     every = draw_samples(points, faces, facing, False, *EVERYWHERE, offsets)
-    chosen = choose(marks)
+    chosen = select_pixels(marks)
     assert sorted(map(tuple, chosen.places.tolist())) == list(zip(*np.nonzero(marks), strict=True))
     some = draw_samples(points, faces, facing, False, *chosen, offsets)
     np.testing.assert_array_equal(some, every[marks[tuple(EVERYWHERE.places.T)]])
@@ -58,7 +58,7 @@ def test_every_pixel_that_a_figure_covers_in_part_is_on_its_outline_and_few_othe
         marks = np.zeros(camera.size, np.bool_)
         facing = facings(points, faces)
         mark_outline(points, edges, facing, depths, marks)
-        every = choose(np.ones(camera.size, np.bool_))
+        every = select_pixels(np.ones(camera.size, np.bool_))
         order = np.lexsort(every.places.T[::-1])
         seen = draw_samples(points, faces, facing, True, *every, sample_offsets(3))[order].reshape(400, 300, 9)
         covered = (seen >= 0).sum(-1)

@@ -8,11 +8,11 @@ import trimesh
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.geometry.texture_atlas import TextureAtlas, laid_out, unfolded
+from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.mipmap import build_mipmap
 from engine.render.rasteriser import rasterise
-from engine.render.texture_bake import BakedTexture, View, bake, chart_gap, padded, texel_raster
+from engine.render.texture_bake import BakedTexture, View, bake, chart_gap, pad_charts, texel_raster
 
 SIZE = 256
 
@@ -40,7 +40,7 @@ def ring(count: int, distance: float = 4.0, size: int = 300, height: float = 0.0
 def ball() -> tuple[NDArray, NDArray, TextureAtlas]:
     mesh = trimesh.creation.icosphere(4)
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    atlas, _ = unfolded(vertices, faces, SIZE)
+    atlas, _ = unwrap(vertices, faces, SIZE)
     return vertices, faces, atlas
 
 
@@ -89,7 +89,7 @@ def two_walls() -> tuple[NDArray, NDArray, TextureAtlas]:
     uv = np.concatenate([(np.stack([x, y], 2) * 0.45 + [0.02 + 0.5 * k, 0.02]).reshape(-1, 2) for k in (0, 1)])
     corners = np.concatenate(faces)
     assert square.shape == (4, 3)
-    return np.concatenate(vertices), corners, laid_out(uv, corners)
+    return np.concatenate(vertices), corners, atlas_from_uv(uv, corners)
 
 
 def quads(count: int) -> NDArray:
@@ -160,13 +160,13 @@ def test_what_lies_behind_the_camera_or_beside_the_picture_gives_nothing(ball) -
 def test_padded_texels_have_the_colours_of_the_nearest_chart_at_every_size(ball) -> None:
     """Charts of one colour each, as different as can be: whatever size is looked up, on a chart there is its colour alone."""
     vertices, faces, _ = ball
-    atlas, _ = unfolded(vertices, faces, SIZE, gap=8)
+    atlas, _ = unwrap(vertices, faces, SIZE, gap=8)
     raster = texel_raster(atlas, SIZE)
     on = raster.triangle >= 0
     charts = np.where(on, atlas.charts[raster.triangle], -1).astype(np.int32)
     colour = np.random.default_rng(1).integers(0, 256, (charts.max() + 1, 3), np.uint8)
     texture = np.where(on[..., None], colour[charts], np.uint8(0)).astype(np.uint8)
-    whole = padded(texture, on, charts)
+    whole = pad_charts(texture, on, charts)
     gap = chart_gap(charts)
     assert gap >= 7.5
     uv, wanted = atlas.uv[atlas.corners], colour[atlas.charts][:, None].astype(float)  # rims of charts among them
@@ -187,10 +187,10 @@ def test_unknown_texels_of_a_chart_lend_no_colour_to_its_surroundings() -> None:
     known[5:15, 33:35] = True  # of the other chart only what lies far off is known
     texture = np.zeros((40, 40, 3), np.float32)
     texture[5:15, 5:15], texture[5:15, 33:35] = 10, 20
-    found = padded(texture, known, charts)
+    found = pad_charts(texture, known, charts)
     assert (found[5:15, 15:19] == 10).all() and (found[5:15, 21:25] == 20).all()
     assert (found[5:15, 25:33] == 0).all(), "what is on a chart stays as it is"
-    np.testing.assert_array_equal(padded(texture, np.zeros_like(known), charts), texture)
+    np.testing.assert_array_equal(pad_charts(texture, np.zeros_like(known), charts), texture)
 
 
 def test_the_gap_between_charts_is_counted_in_texels() -> None:

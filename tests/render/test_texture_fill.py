@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from engine.geometry.texture_atlas import TextureAtlas, laid_out, unfolded
+from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.attributes import interpolate
 from engine.render.texture_bake import BakedTexture, bake, texel_raster
 from engine.render.texture_fill import filled_over_surface
@@ -34,7 +34,7 @@ def known_where(
 def ball() -> tuple[NDArray, NDArray, TextureAtlas]:
     mesh = trimesh.creation.icosphere(3)
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    return vertices, faces, unfolded(vertices, faces, SIZE, gap=4)[0]
+    return vertices, faces, unwrap(vertices, faces, SIZE, gap=4)[0]
 
 
 def test_one_colour_is_continued_as_it_is_across_the_seams(ball) -> None:
@@ -64,7 +64,7 @@ def test_on_a_plane_a_ramp_is_continued_as_a_ramp() -> None:
     flat = np.stack([x - 0.5 * y, np.sqrt(0.75) * y, 0 * x], 2).reshape(-1, 3)  # equilateral triangles
     a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
     faces = np.concatenate([np.stack([a, a + 1, a + count + 1], 1), np.stack([a, a + count + 1, a + count], 1)])
-    atlas = laid_out(np.stack([x, y], 2).reshape(-1, 2), faces)
+    atlas = atlas_from_uv(np.stack([x, y], 2).reshape(-1, 2), faces)
     middle = flat[faces].mean(1)
     hole = (np.abs(middle[:, :2] - middle[:, :2].mean(0)) < 0.2).all(1)
     baked, unseen, whole = known_where(
@@ -78,7 +78,7 @@ def test_a_piece_of_which_nothing_is_known_has_the_mean_of_the_rest() -> None:
     box = trimesh.creation.box()
     vertices = np.concatenate([box.vertices, box.vertices + 3])
     faces = np.concatenate([box.faces, box.faces + len(box.vertices)])
-    atlas, _ = unfolded(vertices, faces, SIZE, gap=4)
+    atlas, _ = unwrap(vertices, faces, SIZE, gap=4)
     seen = np.arange(len(faces)) < len(box.faces)
     baked, hole, _ = known_where(vertices, faces, atlas, seen, np.tile([10.0, 20, 30], (len(vertices), 1)))
     found = filled_over_surface(baked, vertices, faces, atlas)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion.clip import Clip
-from engine.motion.library.curves import cycle, ease
+from engine.motion.library.curves import ease, periodic_curve
 from engine.motion.library.posture import Arm, Foot, Posture, Value, embody
 from engine.motion.skeleton import Skeleton
 
@@ -29,7 +29,7 @@ def dance(skeleton: Skeleton, fps: float) -> Clip:
     right_at, right_up = _goes(bar, out=2.0, back=1.0, out_first=False)
     side = np.sin(2 * np.pi * (bar - 0.1) / 4)
     bounce = np.cos(2 * np.pi * beat)
-    up = cycle(beat / BEATS, ((0.0, 0.0), (0.44, 0.0), (0.56, 1.0), (0.88, 1.0)))
+    up = periodic_curve(beat / BEATS, ((0.0, 0.0), (0.44, 0.0), (0.56, 1.0), (0.88, 1.0)))
     groove = np.sin(2 * np.pi * beat / 2 - 0.5)
     posture = Posture(
         frames=frames,

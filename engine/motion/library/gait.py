@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion.clip import Clip
-from engine.motion.library.curves import Keys, cycle, ease, thrown
+from engine.motion.library.curves import Keys, ease, hermite_curve, periodic_curve
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.skeleton import Skeleton
 
@@ -59,7 +59,7 @@ def walk(skeleton: Skeleton, fps: float) -> Clip:
         frames=frames,
         root=(
             0.022 * sway,
-            cycle(phase * 2, ((0.0, -0.046), (0.12, -0.054), (0.6, -0.008))),
+            periodic_curve(phase * 2, ((0.0, -0.046), (0.12, -0.054), (0.6, -0.008))),
             WALK_STRIDE * phase + 0.008 * np.sin(2 * turn),
         ),
         hips=(2.0 + 1.0 * np.sin(2 * turn), -6.0 * np.cos(turn), 4.5 * np.sin(turn + 0.4)),
@@ -108,7 +108,7 @@ def _running_height(phase: Array) -> Array:
     flight = np.clip((half - landed) / (1 - landed), 0, 1)
     speed = 4 * RUN_RISE / (1 - landed)
     caught = ((0.0, 0.0, -speed), (landed / 2, -speed * landed / 4, 0.0), (landed, 0.0, speed))
-    return RUN_HEIGHT + np.where(half < landed, thrown(half, caught), 4 * RUN_RISE * flight * (1 - flight))
+    return RUN_HEIGHT + np.where(half < landed, hermite_curve(half, caught), 4 * RUN_RISE * flight * (1 - flight))
 
 
 def _going_foot(
@@ -124,7 +124,7 @@ def _going_foot(
     gone = ease_foot((own - stance) / (1 - stance))
     # over the middle of standing the hips are at stride * stance / 2 from where they were as the foot touched
     place = stride * (rounds + gone + stance / 2) + ahead * stance
-    return Foot(aside=aside, up=cycle(own, lift), ahead=place, pitch=cycle(own, pitch), yaw=7.0)
+    return Foot(aside=aside, up=periodic_curve(own, lift), ahead=place, pitch=periodic_curve(own, pitch), yaw=7.0)
 
 
 def ease_foot(share: Array) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.motion.clip import Clip
-from engine.motion.library.curves import through, thrown
+from engine.motion.library.curves import curve_through, hermite_curve
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.library.standing import STANDING_FEET
 from engine.motion.skeleton import Skeleton
@@ -23,7 +23,7 @@ def jump(skeleton: Skeleton, fps: float) -> Clip:
     time = np.arange(frames) / fps
     flight = np.clip((time - TAKE_OFF_SECONDS) / (LANDING_SECONDS - TAKE_OFF_SECONDS), 0, 1)
     rise = TAKE_OFF_LEG_LENGTHS_PER_SECOND * (LANDING_SECONDS - TAKE_OFF_SECONDS) * flight * (1 - flight)
-    height = thrown(
+    height = hermite_curve(
         time,
         (
             *(
@@ -36,21 +36,21 @@ def jump(skeleton: Skeleton, fps: float) -> Clip:
         ),
     )
     height = np.where((time > TAKE_OFF_SECONDS) & (time < LANDING_SECONDS), rise + 0.08 - 0.05 * flight, height)
-    lean = through(time, ((0.1, 0.0), (0.5, 1.0), (0.76, -0.05), (1.1, 0.1), (1.36, 0.85), (1.95, 0.0)))
-    arms = through(
+    lean = curve_through(time, ((0.1, 0.0), (0.5, 1.0), (0.76, -0.05), (1.1, 0.1), (1.36, 0.85), (1.95, 0.0)))
+    arms = curve_through(
         time, ((0.05, 2.0), (0.42, -44.0), (0.86, 138.0), (1.0, 146.0), (1.3, 40.0), (1.55, 12.0), (2.0, 2.0))
     )
-    bent = through(time, ((0.05, 14.0), (0.45, 22.0), (0.62, 55.0), (0.86, 18.0), (1.25, 45.0), (2.0, 14.0)))
+    bent = curve_through(time, ((0.05, 14.0), (0.45, 22.0), (0.62, 55.0), (0.86, 18.0), (1.25, 45.0), (2.0, 14.0)))
     arm = Arm(
         swing=arms,
-        lift=through(time, ((0.05, 9.0), (0.5, 14.0), (0.9, 16.0), (1.3, 26.0), (2.0, 9.0))),
+        lift=curve_through(time, ((0.05, 9.0), (0.5, 14.0), (0.9, 16.0), (1.3, 26.0), (2.0, 9.0))),
         twist=-8.0,
         elbow=bent,
         palm=-6.0,
-        shrug=through(time, ((0.5, 0.0), (0.85, 10.0), (1.3, 0.0))),
+        shrug=curve_through(time, ((0.5, 0.0), (0.85, 10.0), (1.3, 0.0))),
         curl=20.0,
     )
-    pitch = through(
+    pitch = curve_through(
         time, ((0.55, 0.0), (0.68, 16.0), (TAKE_OFF_SECONDS, 52.0), (0.95, 42.0), (LANDING_SECONDS, 20.0), (1.27, 0.0))
     )
     feet = {

@@ -16,7 +16,7 @@ from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.inverse_kinematics import two_bones
 from engine.motion.kinematics import local_rotations, place_joints
-from engine.motion.legs import HeldFoot, ankle_over_ball, lowering, set_legs
+from engine.motion.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
 from engine.motion.skeleton import Skeleton
 from engine.motion.sole import Sole, leg_length, soles
 
@@ -90,7 +90,7 @@ def embody(posture: Posture, skeleton: Skeleton, name: str, fps: float, loops: b
     feet = [(sole, _stand(sole, posture.feet[side], side, leg, frames)) for sole, side in _sides(skeleton)]
     _straighten_legs(world, feet)
     places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
-    root = root - lowering(feet, places, fps, loops)[:, None] * [0, 1, 0]
+    root = root - hip_lowering(feet, places, fps, loops)[:, None] * [0, 1, 0]
     set_legs(world, place_joints(skeleton.parents, skeleton.offsets(), world, root), feet)
     for side, arm in posture.arms.items():
         if np.any(np.asarray(arm.rests) > 0):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.motion.clip import Clip
-from engine.motion.library.curves import ease, through
+from engine.motion.library.curves import curve_through, ease
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.library.standing import STANDING_FEET
 from engine.motion.skeleton import Skeleton
@@ -16,7 +16,7 @@ def sit(skeleton: Skeleton, fps: float) -> Clip:
     frames = round(3.0 * fps) + 1
     time = np.arange(frames) / fps
     down = ease((time - 0.25) / 1.35)
-    lean = through(time, ((0.1, 0.0), (0.95, 1.0), (1.5, 0.75), (2.3, 0.0)))
+    lean = curve_through(time, ((0.1, 0.0), (0.95, 1.0), (1.5, 0.75), (2.3, 0.0)))
     arm = Arm(
         swing=2.0 + 22.0 * lean + 10.0 * down,
         lift=9.0 + 5.0 * lean + 2.0 * down,

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion.clip import Clip
-from engine.motion.library.curves import ease, through
+from engine.motion.library.curves import curve_through, ease
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.skeleton import Skeleton
 
@@ -83,8 +83,8 @@ def bow(skeleton: Skeleton, fps: float) -> Clip:
     """A bow from the hips, held for a moment; begins and ends standing."""
     frames = round(3.0 * fps) + 1
     time = np.arange(frames) / fps
-    down = through(time, ((0.2, 0.0), (1.15, 1.0), (1.75, 1.0), (2.8, 0.0)))
-    head = through(time, ((0.1, 0.0), (1.0, 1.0), (1.85, 1.0), (2.9, 0.0)))
+    down = curve_through(time, ((0.2, 0.0), (1.15, 1.0), (1.75, 1.0), (2.8, 0.0)))
+    head = curve_through(time, ((0.1, 0.0), (1.0, 1.0), (1.85, 1.0), (2.9, 0.0)))
     arm = Arm(
         swing=2.0 + 26.0 * down,
         lift=9.0 - 2.0 * down,

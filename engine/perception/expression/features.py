@@ -17,7 +17,7 @@ CHUNK_FRAMES = 256
 """Meshes that are turned to the front together, so that memory does not grow with a video's length."""
 
 
-def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+def measure_expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """`EXPRESSION_FEATURES` of meshes (N, 478, 3) whose heads may be turned: (N, 6)."""
     return np.concatenate(
         [_expressed(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)]
@@ -25,7 +25,7 @@ def expression(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
 
 
 def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
-    front = frontal(meshes)
+    front = frontalise(meshes)
     middle = (front[:, 13] + front[:, 14]) / 2
     corners = (front[:, 61] + front[:, 291]) / 2
     lids = (front[:, 33] + front[:, 133] + front[:, 263] + front[:, 362]) / 4
@@ -43,20 +43,20 @@ def _expressed(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     ).astype(np.float32)
 
 
-def lopsided(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
+def lip_asymmetry(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """(N, L, 2) by how much the lips' points of meshes (N, 478, 3) lie off the mirror images of those opposite, in eye
     distances of the face turned to the front."""
     lips = list(LIPS_OUTER + LIPS_INNER)
     opposite = mirror_vertices()[lips]
 
     def off(some: NDArray[np.floating]) -> NDArray[np.float32]:
-        front = frontal(some)[..., :2]
+        front = frontalise(some)[..., :2]
         return np.asarray(front[:, lips] - front[:, opposite] * (-1, 1), np.float32)
 
     return np.concatenate([off(meshes[start : start + CHUNK_FRAMES]) for start in range(0, len(meshes), CHUNK_FRAMES)])
 
 
-def frontal(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
+def frontalise(meshes: NDArray[np.floating]) -> NDArray[np.float64]:
     """Meshes (N, 478, 3) turned to the front, the eye distance 1."""
     chosen = list(RIGID_VERTICES)
     scale, rotation, shift = fit_similarities(

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarities
-from engine.perception.expression.features import frontal
+from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID_VERTICES, eye_opening
 
@@ -41,7 +41,7 @@ performances of surprise, whose corners do nothing of themselves): what is left 
 
 def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
     """`MEASURES` of meshes (N, 478, 3) in pixels: (N, 12)."""
-    face = frontal(meshes)
+    face = frontalise(meshes)
     nose = face[:, 2, 1]
     mouth_open = np.linalg.norm(face[:, 13] - face[:, 14], axis=1)
     lids = face[:, [33, 133, 263, 362], 1].mean(axis=1)
@@ -67,7 +67,7 @@ def general_rest() -> NDArray[np.float32]:
     return measure(canonical_face()[None].astype(float))[0]
 
 
-def lowered(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
+def lid_lowering(values: NDArray[np.floating], usual: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) by which share of how far they are `usual`ly open (2,) the lids of measures (N, 12) are lowered, beyond what these
     vary by."""
     return np.asarray(

@@ -50,7 +50,7 @@ def crop_face(rgb: NDArray[np.uint8], mesh: NDArray[np.float32]) -> FaceCrop:
     return FaceCrop(mesh, place, np.asarray(crop, np.uint8))
 
 
-def between(one: FaceCrop, other: FaceCrop, share: float) -> FaceCrop:
+def interpolate_crops(one: FaceCrop, other: FaceCrop, share: float) -> FaceCrop:
     """The face on its way from one look to another, 0 is the one, 1 the other: both are warped to the mesh between them,
     and faded into each other. The inside of the mouth is of the one who opens it more."""
     mesh = (one.mesh + np.float32(share) * (other.mesh - one.mesh)).astype(np.float32)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import Similarity, fit_similarity
-from engine.perception.face_track.held_face import EASE_BACK, way_back
+from engine.perception.face_track.held_face import EASE_BACK, return_share
 from engine.perception.segmentation import selfie_mask
 
 MAX_POINTS = 100
@@ -67,14 +67,14 @@ class PeripheryTracker:
         self._last = grey
 
     def result(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `fading`: without a face as
+        """(N, K, 2) positions in pixels of the frame and (N, K) how far they are trusted, see `tracked_weights`: without a face as
         far as before, so that all holds still."""
         if not len(self._start):
             frames = self._before + len(self._points)
             return np.zeros((frames, 0, 2), np.float32), np.zeros((frames, 0), np.float32)
         points = np.array([self._points[0]] * self._before + self._points, np.float32)
         tracked, trusted = (np.array([given[0]] * self._before + given) for given in (self._tracked, self._trusted))
-        return (easing(points, tracked) + 0.5) / self._scale - 0.5, fading(trusted)
+        return (ease_returns(points, tracked) + 0.5) / self._scale - 0.5, tracked_weights(trusted)
 
     def _grey(self, rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
         grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
@@ -110,18 +110,18 @@ class PeripheryTracker:
         return np.where(sound[:, None], anchored, moved).astype(np.float32), good | sound
 
 
-def easing(points: NDArray[np.float32], tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
+def ease_returns(points: NDArray[np.float32], tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
     """(N, K, 2): a point that is found again goes over from where it was lost, at the pace of a face that comes back."""
     eased, lost = points.copy(), points[0]
     since = np.full(points.shape[1], EASE_BACK + 1)
     for i in range(1, len(points)):
         lost = np.where((tracked[i] | ~tracked[i - 1])[:, None], lost, eased[i - 1])
         since = np.where(tracked[i], since + 1, 0)
-        eased[i] = lost + way_back(since)[:, None] * (points[i] - lost)
+        eased[i] = lost + return_share(since)[:, None] * (points[i] - lost)
     return eased
 
 
-def fading(tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
+def tracked_weights(tracked: NDArray[np.bool_]) -> NDArray[np.float32]:
     """(N, K) in [0, 1]: whether each point is tracked, averaged over `FADE_FRAMES` frames around: what comes or goes, does so
     without a jump."""
     box = np.ones((FADE_FRAMES, 1), np.float32) / FADE_FRAMES

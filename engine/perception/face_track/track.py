@@ -24,7 +24,7 @@ from engine.perception.face_track.held_face import HeldFace
 from engine.perception.face_track.periphery import PeripheryTracker
 from engine.perception.landmarks import MESH_SIZE
 from engine.perception.one_face import OneFace
-from engine.perception.temporal_filter import steady
+from engine.perception.temporal_filter import remove_jitter
 
 MAX_TRACKED_SIDE = 1280
 """Pixels; larger videos are read at this size, which holds all that is kept of them."""
@@ -152,9 +152,9 @@ def track_face(
         fps=fps or info.fps,
         times=_times(starts, end, fps or (None if info.variable_rate else info.fps)),
         has_sound=info.has_sound,
-        meshes=steady(stack, out=stack),
+        meshes=remove_jitter(stack, out=stack),
         found=np.array(found),
-        periphery=steady(points),
+        periphery=remove_jitter(points),
         trust=trust,
         crops=strip,
         crop_places=np.array(places),

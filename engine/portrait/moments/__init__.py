@@ -58,9 +58,9 @@ def find_moments(path: str | Path, limits: Limits | None = None) -> Moments:
     FileNotFoundError : there is no such video.
     """
     from engine.portrait.moments.pipeline import moments_of
-    from engine.portrait.moments.watching import watch
+    from engine.portrait.moments.watching import measure_video_face
 
-    return moments_of(watch(Path(path), limits or Limits()))
+    return moments_of(measure_video_face(Path(path), limits or Limits()))
 
 
 __all__ = ["KIND", "find_moments"]

@@ -20,7 +20,7 @@ from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
 from engine.portrait.moments.rest import own_rest
 from engine.portrait.moments.segments import Segment, find_segments
-from engine.portrait.moments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, Watched, watch
+from engine.portrait.moments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, FaceMeasurements, measure_video_face
 from engine.run import Run, write_report
 
 STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
@@ -71,7 +71,7 @@ def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
     driver = inputs["driver"]
     assert isinstance(driver, Path)
     run.plan(STAGES)
-    watched = run.stage("watch", watch, driver, run.limits, run.tick, shared=True)
+    watched = run.stage("watch", measure_video_face, driver, run.limits, run.tick, shared=True)
     with run.timed("find_portions"):
         moments = moments_of(watched)
     with run.timed("posters"):
@@ -85,7 +85,7 @@ def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
     write_report(out / "report.json", "moments", run, inputs_, {"driver_face_share": seen})
 
 
-def moments_of(watched: Watched) -> Moments:
+def moments_of(watched: FaceMeasurements) -> Moments:
     """The moments of a video that was watched."""
     rest = own_rest(watched.values[watched.found])
     apart = np.linalg.norm((watched.values - rest) / REST_SPREAD, axis=1)
@@ -94,14 +94,14 @@ def moments_of(watched: Watched) -> Moments:
     return Moments(at_rest / WATCHED_FPS, tuple(_named(segments, watched.seconds)))
 
 
-def write_moments(path: Path, moments: Moments, watched: Watched) -> None:
+def write_moments(path: Path, moments: Moments, watched: FaceMeasurements) -> None:
     """Write `moments.json`."""
     listed = [{**asdict(one), "seconds": one.seconds, "poster": one.poster} for one in moments.moments]
     document = {"seconds": round(watched.seconds, 3), "rest": round(moments.rest, 3), "moments": listed}
     path.write_text(json.dumps(document, indent=2) + "\n")
 
 
-def picture(path: Path, time: float, watched: Watched, limits: Limits) -> NDArray[np.uint8]:
+def picture(path: Path, time: float, watched: FaceMeasurements, limits: Limits) -> NDArray[np.uint8]:
     """The face at a time of the video and as much around it as there is, (256, 256, 3)."""
     place = min(round(time * WATCHED_FPS), len(watched.found) - 1)
     span = (max(time - 0.25 / WATCHED_FPS, 0.0), time + 1 / WATCHED_FPS)

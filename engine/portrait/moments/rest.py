@@ -13,7 +13,7 @@ from engine.perception.expression.measures import (
     REST_SPREAD,
     SPREAD_BETWEEN_PEOPLE,
     general_rest,
-    lowered,
+    lid_lowering,
 )
 
 UNLIKE_REST_WEIGHT = 0.3
@@ -44,13 +44,13 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOUR_SHARE * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / REST_SPREAD, values / REST_SPREAD), axis=1)[:, : neighbours + 1]
     unlike = np.sqrt(np.mean(((values - general_rest()) / SPREAD_BETWEEN_PEOPLE)[:, FACE_MEASURES] ** 2, axis=1))
-    blinking = lowered(values, np.quantile(values[:, LID_MEASURES], 0.7, axis=0))
+    blinking = lid_lowering(values, np.quantile(values[:, LID_MEASURES], 0.7, axis=0))
     best = int(np.argmin(apart.mean(axis=1) + UNLIKE_REST_WEIGHT * unlike + LOWERED_LIDS_WEIGHT * blinking))
     nearest = np.argsort(np.linalg.norm((values - values[best]) / REST_SPREAD, axis=1))[: neighbours + 1]
     return np.asarray(np.median(values[nearest], axis=0), float)
 
 
-def unrest(moved: NDArray[np.floating]) -> NDArray[np.float64]:
+def distance_from_rest(moved: NDArray[np.floating]) -> NDArray[np.float64]:
     """(N,) how far from rest each frame is, from differences (N, 12): up to 1 it counts as calm. A blink is no unrest."""
     share = np.abs(moved) / REST_SPREAD
     blink = moved[:, LID_MEASURES].max(axis=1) < 0

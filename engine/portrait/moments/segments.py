@@ -13,7 +13,7 @@ from engine.perception.expression.prototypes import show
 from engine.performances import STATES, State
 from engine.performances.catalogue import Strength
 from engine.portrait.moments.gestures import gestures
-from engine.portrait.moments.rest import unrest
+from engine.portrait.moments.rest import distance_from_rest
 
 ONSET_CLARITY, OFFSET_CLARITY = 1.0, 0.5
 """A segment begins where a state is clearly shown, and lasts while half of it still is (hysteresis)."""
@@ -89,7 +89,7 @@ def find_segments(
     measures at rest. fps : frames a second.
     """
     moved = np.asarray(values - rest, float)
-    unresting = np.where(found, unrest(moved), np.inf)
+    unresting = np.where(found, distance_from_rest(moved), np.inf)
     cores = [core for first, last in _runs(found) for core in _cores(moved, rest, first, last, fps)]
     cores = [core for core in cores if not _speech(core, cores)]
     extended = (_extended(core, cores, unresting, fps) for core in _strongest(cores))

@@ -26,7 +26,7 @@ BLOCK_FRAMES = 120
 
 
 @dataclass(frozen=True)
-class Watched:
+class FaceMeasurements:
     """A video's face, frame by frame at `WATCHED_FPS`.
 
     seconds : how long the video is. values : (N, 12) float32, `MEASURES`. found : (N,) whether there is a face.
@@ -39,7 +39,9 @@ class Watched:
     boxes: NDArray[np.float32]
 
 
-def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fraction: None) -> Watched:
+def measure_video_face(
+    path: Path, limits: Limits, tick: Callable[[float], None] = lambda fraction: None
+) -> FaceMeasurements:
     """Look through a whole video.
 
     Raises
@@ -77,7 +79,7 @@ def watch(path: Path, limits: Limits, tick: Callable[[float], None] = lambda fra
             ("driver",),
         )
     seen = np.array(found)
-    return Watched(info.seconds, _spread(values, seen, len(MEASURES)), seen, _spread(boxes, seen, 4))
+    return FaceMeasurements(info.seconds, _spread(values, seen, len(MEASURES)), seen, _spread(boxes, seen, 4))
 
 
 def _spread(blocks: list[NDArray[np.float32]], found: NDArray[np.bool_], width: int) -> NDArray[np.float32]:

@@ -35,18 +35,18 @@ follow it: that many must be decoded at worst before a bridge is seen, and whole
 
 
 @dataclass(frozen=True)
-class Stride:
+class PoseDistance:
     """How far two poses are apart, in pixels: by half of the control points (the head), and by the furthest (a lid)."""
 
     head: float
     furthest: float
 
     @classmethod
-    def between(cls, one: NDArray[np.float32], other: NDArray[np.float32] | float = 0.0) -> Stride:
+    def between(cls, one: NDArray[np.float32], other: NDArray[np.float32] | float = 0.0) -> PoseDistance:
         far = np.linalg.norm(one - other, axis=1)
         return cls(float(np.median(far)), float(far.max()))
 
-    def against(self, other: Stride) -> float:
+    def against(self, other: PoseDistance) -> float:
         """The larger of the two ratios."""
         return max(self.head / max(other.head, 1e-3), self.furthest / max(other.furthest, 1e-3))
 
@@ -62,7 +62,7 @@ class Segment:
 
 
 @dataclass(frozen=True)
-class Exits:
+class ExitBridges:
     """Ways out of one clip: the poses that bridges begin at by their `frames`, each bridge's length, and for each frame
     of the clip the exit `at` it; -1 where it is at rest, or as good as."""
 
@@ -83,27 +83,27 @@ class Exits:
         return placed
 
 
-def longest_step(poses: Sequence[Pose], loops: bool) -> Stride:
+def longest_step(poses: Sequence[Pose], loops: bool) -> PoseDistance:
     """The longest steps from frame to frame of a clip."""
     offsets = [pose.motion.offsets for pose in poses]
     ahead = offsets[1:] + (offsets[:1] if loops else [])
-    steps = [Stride.between(one, other) for one, other in zip(offsets, ahead, strict=False)]
-    return Stride(max(step.head for step in steps), max(step.furthest for step in steps))
+    steps = [PoseDistance.between(one, other) for one, other in zip(offsets, ahead, strict=False)]
+    return PoseDistance(max(step.head for step in steps), max(step.furthest for step in steps))
 
 
-def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
+def find_exits(poses: Sequence[Pose], step: PoseDistance, pace: PoseDistance) -> ExitBridges:
     """Exits for a clip, as few as serve all of its frames.
 
     Parameters
     ----------
     step : the longest of the clip itself; pace : the longest of all clips of the profile.
     """
-    step = Stride(
+    step = PoseDistance(
         max(step.head, MIN_PACE * pace.head, UNSEEN_PIXELS[0] / EXIT_TOLERANCE),
         max(step.furthest, MIN_PACE * pace.furthest, UNSEEN_PIXELS[1] / EXIT_TOLERANCE),
     )
     offsets = [pose.motion.offsets for pose in poses]
-    resting = [Stride.between(one).against(step) <= EXIT_TOLERANCE for one in offsets]
+    resting = [PoseDistance.between(one).against(step) <= EXIT_TOLERANCE for one in offsets]
     frames: list[int] = []
     at: list[int] = []
     while len(at) < len(poses):
@@ -115,21 +115,21 @@ def find_exits(poses: Sequence[Pose], step: Stride, pace: Stride) -> Exits:
         frames.append(chosen)
         last = _furthest(offsets, resting, chosen, chosen, step)
         at += [len(frames) - 1] * (last - first + 1)
-    far = [Stride.between(offsets[frame]).against(pace) for frame in frames]
+    far = [PoseDistance.between(offsets[frame]).against(pace) for frame in frames]
     steps = [one / (CALM_STEP * (1 - TAPER_SHARE / 2)) for one in far]
     lengths = tuple(int(np.clip(np.ceil(one) - 1, MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES)) for one in steps)
-    return Exits(tuple(frames), lengths, tuple(at))
+    return ExitBridges(tuple(frames), lengths, tuple(at))
 
 
 def _furthest(
-    offsets: Sequence[NDArray[np.float32]], resting: Sequence[bool], start: int, of: int, step: Stride
+    offsets: Sequence[NDArray[np.float32]], resting: Sequence[bool], start: int, of: int, step: PoseDistance
 ) -> int:
     """The last frame from `start` on up to which all are near the pose of the frame `of`."""
     last = start
     while (
         last + 1 < len(offsets)
         and not resting[last + 1]
-        and Stride.between(offsets[last + 1], offsets[of]).against(step) <= EXIT_TOLERANCE
+        and PoseDistance.between(offsets[last + 1], offsets[of]).against(step) <= EXIT_TOLERANCE
     ):
         last += 1
     return last
@@ -139,13 +139,13 @@ def bridge(pose: Pose, segment: Segment, rest: NDArray[np.float32]) -> Iterator[
     """The frames of a bridge's segment: the poses between this one and rest, with what comes before and after."""
     if segment.opens:
         yield pose.eased(0.0, rest)
-    for weight in 1 - glide(np.arange(1, segment.length + 1) / (segment.length + 1)):
+    for weight in 1 - ease_in_out(np.arange(1, segment.length + 1) / (segment.length + 1)):
         yield pose.eased(float(weight), rest)
     for _ in range(HOLD_FRAMES):
         yield pose.eased(0.0, rest)
 
 
-def glide(t: NDArray[np.floating]) -> NDArray[np.float64]:
+def ease_in_out(t: NDArray[np.floating]) -> NDArray[np.float64]:
     """From 0 at 0 to 1 at 1, at rest at both and with an even pace between, so that no step is much longer than the mean
     (the integral of a cosine-tapered window)."""
     late = t > 0.5

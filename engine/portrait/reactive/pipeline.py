@@ -18,7 +18,7 @@ from engine.face_animation.head_proxy import build_head_proxy
 from engine.face_animation.landmark_residuals import LandmarkResiduals
 from engine.face_animation.layers import Layers
 from engine.face_animation.motion import carry_motion
-from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_of_unrest
+from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.rig import Rig
 from engine.face_animation.stages import (
     DriverPerformance,
@@ -32,7 +32,7 @@ from engine.media.video import probe_video
 from engine.performances.catalogue import FPS
 from engine.portrait.options import PortraitOptions
 from engine.portrait.pipeline import STAGES, first_impression, write_landmarks
-from engine.portrait.reactive.bridges import HOLD_FRAMES, Exits, Stride, bridge, find_exits, longest_step
+from engine.portrait.reactive.bridges import HOLD_FRAMES, ExitBridges, PoseDistance, bridge, find_exits, longest_step
 from engine.portrait.reactive.bundle import player, write_bundle
 from engine.portrait.reactive.document import Profile, StatePart, TransitionPart, TriggerPart
 from engine.portrait.reactive.excursion import Pose, excursion
@@ -46,13 +46,13 @@ PER_DRIVER = ("track_driver", "register_driver", "ratio_images", "glance_at_driv
 
 
 @dataclass(frozen=True)
-class Act:
+class StatePerformance:
     """One state's performance on the target: its poses, and the ways out of them."""
 
     state: State
     performance: DriverPerformance
     poses: tuple[Pose, ...]
-    exits: Exits
+    exits: ExitBridges
     rest: NDArray[np.float32]
 
     def bridges(self) -> Iterator[Pose]:
@@ -79,7 +79,7 @@ def make_profile(inputs: Mapping[str, Given], options: PortraitOptions, out: Pat
     performances = [_analyse(state, target, fps, options, run) for state in states]
     residuals = [one.residuals_on(prepared, options.acting(), run) for one in performances]
     layers, rig = prepared.layers(), prepared.rig()
-    acts = plan_acts(states, performances, residuals, target, rig, options)
+    acts = plan_performances(states, performances, residuals, target, rig, options)
     _draw(acts, target, layers, rig, options, fps, out, run)
     profile = _describe(acts, target, fps)
     (out / "profile.json").write_text(profile.model_dump_json(indent=1, exclude_none=True) + "\n")
@@ -133,7 +133,7 @@ def _analyse(state: State, target: TargetFace, fps: float, options: PortraitOpti
     performance = analyse_driver(
         tracking, lambda track: choose_neutral_frame(track, target.mesh, state.neutral_frame), run
     )
-    warn_of_unrest(performance.choice, run.warn)
+    warn_if_never_at_rest(performance.choice, run.warn)
     return performance
 
 
@@ -142,14 +142,14 @@ def _frame(state: State, fps: float) -> float:
     return (state.neutral_frame or 0) * fps / FPS
 
 
-def plan_acts(
+def plan_performances(
     states: Sequence[State],
     performances: Sequence[DriverPerformance],
     residuals: Sequence[LandmarkResiduals | None],
     target: TargetFace,
     rig: Rig,
     options: PortraitOptions,
-) -> list[Act]:
+) -> list[StatePerformance]:
     """The poses of all states, and the ways out of them, before anything is drawn."""
     proxy = build_head_proxy(rig.control.points, target.mesh) if options.head_3d else None
     poses, rests = [], []
@@ -160,15 +160,15 @@ def plan_acts(
         rests.append(motions[one.neutral].depth)
         poses.append(excursion(motions, rests[-1], one.track.fps, state.loops))
     steps = [longest_step(one, state.loops) for state, one in zip(states, poses, strict=True)]
-    pace = Stride(max(step.head for step in steps), max(step.furthest for step in steps))
+    pace = PoseDistance(max(step.head for step in steps), max(step.furthest for step in steps))
     return [
-        Act(state, one, acted, find_exits(acted, step, pace), rest)
+        StatePerformance(state, one, acted, find_exits(acted, step, pace), rest)
         for state, one, acted, step, rest in zip(states, performances, poses, steps, rests, strict=True)
     ]
 
 
 def _draw(
-    acts: Sequence[Act], target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, fps: float,
+    acts: Sequence[StatePerformance], target: TargetFace, layers: Layers, rig: Rig, options: PortraitOptions, fps: float,
     out: Path, run: Run,
 ) -> None:  # fmt: skip
     """All clips, their bridges, all of it in one animation, and the poster."""
@@ -219,7 +219,7 @@ def bridges_name(state: State) -> str:
     return f"bridges-{state.name}.mp4"
 
 
-def _describe(acts: Sequence[Act], target: TargetFace, fps: float) -> Profile:
+def _describe(acts: Sequence[StatePerformance], target: TargetFace, fps: float) -> Profile:
     states, transitions = {}, {}
     for act in acts:
         state = act.state

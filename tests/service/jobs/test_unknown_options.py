@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from engine.unknown_options import explained
+from engine.unknown_options import with_suggestions
 
 
 class Inner(BaseModel):
@@ -32,4 +32,4 @@ class Options(BaseModel):
 def test_what_is_said(given: dict[str, object], said: str) -> None:
     with pytest.raises(ValidationError) as caught:
         Options.model_validate(given)
-    assert [error["msg"] for error in explained(caught.value.errors(), Options)] == [said]
+    assert [error["msg"] for error in with_suggestions(caught.value.errors(), Options)] == [said]
