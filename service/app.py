@@ -26,7 +26,7 @@ from service.links.endpoints import router as links
 from service.motions.endpoints import router as motions
 from service.traces.requests import Requests
 from service.uploads.endpoints import router as uploads
-from service.uploads.under_way import UnderWay
+from service.uploads.under_way import ActiveUploads
 from service.webhooks.endpoints import router as webhooks
 
 
@@ -43,7 +43,7 @@ def make_app(context: Context) -> FastAPI:
         telemetry={"tracing": False, "metrics": False, "logs": False, "auto_configure": False},
     )
     app.state.context = context
-    app.state.uploads = UnderWay()
+    app.state.uploads = ActiveUploads()
     app.state.stopping = Stopping()
     app.state.watch = Watch(context, app.state.stopping)
     problems.install(app)

@@ -15,7 +15,7 @@ BEAT_SECONDS = 1.0
 FORGOTTEN_SECONDS = 3600.0
 
 
-def owner(host: str, process: int) -> str:
+def worker_name(host: str, process: int) -> str:
     """The name of a worker, unique among all machines."""
     return f"{host}:{process}"
 
@@ -41,12 +41,12 @@ class Pulse:
         self._file.unlink(missing_ok=True)
 
 
-def silence(data_dir: Path, name: str) -> float:
+def silent_seconds(data_dir: Path, name: str) -> float:
     """For how many seconds nothing was heard of a worker; infinite where it was never heard."""
     return _silence(data_dir / PULSE_FOLDER / name)
 
 
-def least_silence(data_dir: Path) -> float:
+def least_silent_seconds(data_dir: Path) -> float:
     """For how many seconds nothing was heard of the worker on this machine that was heard last."""
     folder = data_dir / PULSE_FOLDER
     return min(map(_silence, folder.iterdir()), default=float("inf")) if folder.is_dir() else float("inf")

@@ -184,7 +184,7 @@ class Settings(BaseSettings):
             return value
         from service.database import postgresql  # SQLAlchemy with it, which only who serves needs
 
-        if not postgresql.speaks(value):
+        if not postgresql.is_postgresql_url(value):
             raise ValueError("use sqlite:///PATH or postgresql://USER:PASSWORD@HOST/NAME")
         postgresql.address(value)
         return value

@@ -189,7 +189,7 @@ def _database(settings: Settings) -> Iterator[Finding]:
     from service.database.sessions import Database
     from shell.opening import explain_database_error
 
-    if not postgresql.speaks(settings.database):
+    if not postgresql.is_postgresql_url(settings.database):
         return  # a file, made where it is not there
     database = Database(settings.database)
     try:
@@ -197,7 +197,7 @@ def _database(settings: Settings) -> Iterator[Finding]:
     except DBAPIError as error:
         yield Finding("missing", explain_database_error(settings, error))
     else:
-        yield Finding("ok", f"PostgreSQL at {postgresql.shown(settings.database)} answers")
+        yield Finding("ok", f"PostgreSQL at {postgresql.redacted_url(settings.database)} answers")
     finally:
         database.close()
 

@@ -123,7 +123,7 @@ def migrate(version: str, down: bool) -> None:
     """
     from alembic.util import CommandError
 
-    from service.database.sessions import Database, DatabaseInUse, WouldForget
+    from service.database.sessions import Database, DatabaseInUse, DowngradeLosesData
     from service.vault import SecretUnreadable
     from shell.cli_error import CliError
     from shell.settings import read_settings
@@ -134,7 +134,7 @@ def migrate(version: str, down: bool) -> None:
         if down and (lost := database.forgets(version)):
             click.echo(f"Going down to {version} erases {'; '.join(lost)}.", err=True)
         database.migrate(version, forget=down)
-    except WouldForget as lost:
+    except DowngradeLosesData as lost:
         raise CliError(
             f"{version} is older than the tables are. Going down to it erases {lost}. Nothing was done: make a backup, "
             "then say --down."

@@ -45,9 +45,9 @@ def check_kinds(settings: Settings) -> None:
 
 def explain_database_error(settings: Settings, error: DBAPIError) -> str:
     """What is wrong with the database, and what to do; without its password."""
-    if not postgresql.speaks(settings.database):
+    if not postgresql.is_postgresql_url(settings.database):
         return f"The database {settings.database.removeprefix('sqlite:///')} cannot be used: {error.orig}."
-    place = postgresql.shown(settings.database)
+    place = postgresql.redacted_url(settings.database)
     if said := postgresql.message(error.orig):
         return f"PostgreSQL at {place} refuses: {said}. Correct GALATEA_DATABASE_URL, or what it names."
     return f"PostgreSQL at {place} cannot be reached: start it, or correct GALATEA_DATABASE_URL."

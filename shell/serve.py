@@ -25,9 +25,9 @@ from service.connections.connection_limit import ConnectionLimit, most_connectio
 from service.connections.protocol import Config
 from service.connections.stopping import Stopping
 from service.context import Context
-from service.http.page import NOT_BUILT, built
+from service.http.page import NOT_BUILT, is_built
 from service.logs import configure
-from service.pulse import BEAT_SECONDS, owner, silence
+from service.pulse import BEAT_SECONDS, silent_seconds, worker_name
 from service.redis_server import redis_command, socket_path
 from service.settings import Settings
 from shell.cli_error import CliError
@@ -77,7 +77,7 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
         command = module_command("shell.main", "worker")
         supervisor.keep("worker", command, 10, partial(_worker_lives, settings.data_dir))
     app = make_app(context)
-    if not built(settings.web_dir):
+    if not is_built(settings.web_dir):
         click.echo(NOT_BUILT, err=True)
     Server(_config(settings, app), app.state.stopping).run(sockets=[listening])
 
@@ -194,7 +194,7 @@ def _redis_lives(client: redis.Redis, process: int) -> bool:
 
 
 def _worker_lives(data_dir: Path, process: int) -> bool:
-    return silence(data_dir, owner(socket.gethostname(), process)) < WORKER_SECONDS
+    return silent_seconds(data_dir, worker_name(socket.gethostname(), process)) < WORKER_SECONDS
 
 
 def _interrupt(number: int, frame: FrameType | None) -> None:

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 import structlog
 
 from worker.programs.interpreter import module_environment
-from worker.programs.parent_death import tied_to_parent
+from worker.programs.parent_death import tied_command
 
 LOOK_SECONDS = 0.2
 MAX_PAUSE_SECONDS = 30.0
@@ -113,7 +113,7 @@ class Supervisor:
             program.pause = 0.5 if steady else min(max(program.pause * 2, 0.5), MAX_PAUSE_SECONDS)
             program.started = moment
             program.process = subprocess.Popen(  # noqa: S603  (our own programs)
-                tied_to_parent(list(program.command), signal.SIGTERM),
+                tied_command(list(program.command), signal.SIGTERM),
                 pass_fds=self._inherited,
                 stdin=subprocess.DEVNULL,
                 env=module_environment(),

@@ -21,15 +21,15 @@ from service.database.sessions import database_unavailable
 from service.job_records import jobs as repository
 from service.jobs import leases
 from service.jobs.leases import Lease
-from service.pulse import BEAT_SECONDS, Pulse, owner
+from service.pulse import BEAT_SECONDS, Pulse, worker_name
 from service.queue import TASK_NAME, queue_name
 from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job
 from service.traces.current import origin_logged
 from worker.attempts.attempt import Attempt
 from worker.attempts.spans import AttemptSpans
-from worker.compilation.announcement import announced
-from worker.compilation.rehearsal import rehearse, rehearsed
+from worker.compilation.announcement import announcing
+from worker.compilation.rehearsal import is_rehearsed, rehearse
 from worker.job_process.children import Child, WarmChildren
 from worker.periodic.housekeeping import keep_house
 from worker.periodic.sweep import sweep
@@ -58,7 +58,7 @@ class Worker:
         self.children: WarmChildren
         self.lane: ShortLane | None = None
         self.sender = WebhookSender(context)
-        self.owner = owner(socket.gethostname(), os.getpid())
+        self.owner = worker_name(socket.gethostname(), os.getpid())
         self.pulse = Pulse(context.settings.data_dir, self.owner)
         context.queue.celery.task(name=TASK_NAME)(self.run_job)
 
@@ -141,8 +141,8 @@ class Worker:
         those that wait are not lost."""
         for number in (signal.SIGTERM, signal.SIGINT):  # Celery listens only later
             signal.signal(number, self._quit)
-        if not rehearsed(self.context.settings):
-            with announced(self.context, kinds):
+        if not is_rehearsed(self.context.settings):
+            with announcing(self.context, kinds):
                 rehearse(self.context.settings)
 
     def _quit(self, number: int, *_: Any) -> None:

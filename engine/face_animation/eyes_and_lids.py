@@ -18,7 +18,7 @@ class EyesAndLids:
         self._lids = lid_skins(target.rgb, target.mesh)
 
     def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], look: NDArray[np.float32]) -> None:
-        """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `eyes.gaze`."""
+        """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `eyes.gaze_offsets`."""
         for side, eyeball in enumerate(self._eyeballs):
             if eyeball is not None:
                 draw_lid(frame, self._lids[side], face, side, lid_closing_share(eyeball, face, side))

@@ -45,7 +45,7 @@ CHUNK_FRAMES = 32
 @dataclass(frozen=True)
 class ControlMotion:
     """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer;
-    `look` (2, 2) of the irises, see `eyes.gaze`."""
+    `look` (2, 2) of the irises, see `eyes.gaze_offsets`."""
 
     frame: int
     offsets: NDArray[np.float32]

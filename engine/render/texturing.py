@@ -48,7 +48,7 @@ def colour_inside(
     and `marks` (h, w) are of a part of the picture that begins at column `left` and row `top`. Pixels are then marked where the texture jumps to the next one: another piece of surface
     begins there.
 
-    `corners` from `corner_table`, the other arrays as in `engine.render.character.Subject`.
+    `corners` from `corner_table`, the other arrays as in `engine.render.character.PreparedCharacter`.
     """
     height, width = ids.shape
     high, wide = np.float32(sizes[0, 0]), np.float32(sizes[0, 1])
@@ -159,7 +159,7 @@ def colour_samples(
     left: int,
     top: int,
 ) -> None:
-    """Each of the pixels that were chosen (`places` (N, 2) of `multisampling.Chosen`) gets the mean of its samples,
+    """Each of the pixels that were chosen (`places` (N, 2) of `multisampling.PixelSelection`) gets the mean of its samples,
     `ids` (N, S) and `offsets` (S, 2) in pixels, over what `rgb` holds (or `alone`). The samples of a pixel that one triangle covers are coloured together, in their middle."""
     samples = len(offsets)
     full, half = np.float32(samples), np.float32(0.5)

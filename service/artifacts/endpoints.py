@@ -17,8 +17,8 @@ from service.context import InContext
 from service.http.delivery import DELIVERED_IN_PARTS, deliver
 from service.job_records import artifacts as repository
 from service.job_records import jobs
-from service.job_records.owned import found
-from service.job_records.signed_links import good
+from service.job_records.owned import own_job
+from service.job_records.signed_links import is_valid
 from service.problems import Problem, responses
 from service.tables.jobs import Status
 
@@ -47,7 +47,7 @@ def get_artifact(
         else:
             caller = identify(request, context)
             caller.require("read")
-            found(session, caller.owner, job_id)
+            own_job(session, caller.owner, job_id)
         artifact = repository.get(session, job_id, name)
         job = jobs.get(session, job_id)
     if artifact is None or job is None:
@@ -65,7 +65,7 @@ def get_artifact(
 def get_archive(job_id: str, caller: Reader, context: InContext) -> StreamingResponse:
     """All artifacts of a job that has ended, as one zip."""
     with context.database.read() as session:
-        job = found(session, caller.owner, job_id)
+        job = own_job(session, caller.owner, job_id)
         artifacts = repository.of_jobs(session, [job_id])[job_id]
     if not Status(job.status).final:
         raise Problem(409, "job_not_finished", f"The job is {job.status}: wait for its end.")
@@ -76,5 +76,5 @@ def get_archive(job_id: str, caller: Reader, context: InContext) -> StreamingRes
 def _require_good_link(session: Session, job_id: str, name: str, expires: str, signature: str) -> None:
     job = jobs.get(session, job_id)
     key = get_key(session, job.owner) if job is not None else None
-    if key is None or not good(key, job_id, name, expires, signature):
+    if key is None or not is_valid(key, job_id, name, expires, signature):
         raise Problem(403, "link_expired", "The link has expired, or is not one that the service gave: get a new one.")

@@ -65,7 +65,9 @@ def _known(request: Request, context: Context) -> Caller:
     session = request.cookies.get(COOKIE)
     if token is None and session is None:
         if context.settings.keys_required:
-            raise not_known("key_missing", "Send a key: `Authorization: Bearer KEY`. `galatea keys create` makes one.")
+            raise unknown_key_problem(
+                "key_missing", "Send a key: `Authorization: Bearer KEY`. `galatea keys create` makes one."
+            )
         return LOCAL_CALLER
     with context.database.read() as reading:
         key = repository.of_token(reading, token) if token is not None else key_of_session(reading, session or "")
@@ -74,9 +76,9 @@ def _known(request: Request, context: Context) -> Caller:
             return LOCAL_CALLER  # an old cookie of the page opens nothing, and shuts nothing either
         if token is not None:
             count_wrong_key(context, request)
-        raise not_known("key_unknown", "There is no such key: it was revoked, or it never was.")
+        raise unknown_key_problem("key_unknown", "There is no such key: it was revoked, or it never was.")
     if not repository.usable(key, now()):
-        raise not_known("key_expired", "The key has expired: use another one.")
+        raise unknown_key_problem("key_expired", "The key has expired: use another one.")
     take_one(context.queue, key.id, key.requests_per_minute or context.settings.requests_per_minute)
     _note_use(context, key)
     return Caller(key.id, frozenset(key.scopes))
@@ -85,7 +87,7 @@ def _known(request: Request, context: Context) -> Caller:
 InCaller = Annotated[Caller, Depends(identify)]
 
 
-def may(scope: Scope) -> Callable[[Caller], Awaitable[Caller]]:
+def require_scope(scope: Scope) -> Callable[[Caller], Awaitable[Caller]]:
     """A dependency: the caller, who must be allowed to do this."""
 
     async def allowed(caller: InCaller) -> Caller:
@@ -95,9 +97,9 @@ def may(scope: Scope) -> Callable[[Caller], Awaitable[Caller]]:
     return allowed
 
 
-Reader = Annotated[Caller, Depends(may("read"))]
-Submitter = Annotated[Caller, Depends(may("submit"))]
-Admin = Annotated[Caller, Depends(may("admin"))]
+Reader = Annotated[Caller, Depends(require_scope("read"))]
+Submitter = Annotated[Caller, Depends(require_scope("submit"))]
+Admin = Annotated[Caller, Depends(require_scope("admin"))]
 
 
 def _bearer(request: Request) -> str | None:
@@ -106,11 +108,11 @@ def _bearer(request: Request) -> str | None:
         return None
     scheme, _, token = given.partition(" ")
     if scheme.lower() != "bearer" or not token.strip():
-        raise not_known("key_malformed", "The Authorization header must read `Bearer KEY`.")
+        raise unknown_key_problem("key_malformed", "The Authorization header must read `Bearer KEY`.")
     return token.strip()
 
 
-def not_known(code: str, detail: str) -> Problem:
+def unknown_key_problem(code: str, detail: str) -> Problem:
     """The 401 problem for a caller whose key is none that opens the service."""
     return Problem(401, code, detail, headers={"WWW-Authenticate": 'Bearer realm="galatea"'})
 

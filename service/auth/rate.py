@@ -29,7 +29,7 @@ return '0'
 """
 
 
-def waits(queue: Queue, bucket: str, per_minute: float, burst_seconds: float) -> int:
+def take_from_bucket(queue: Queue, bucket: str, per_minute: float, burst_seconds: float) -> int:
     """Take one from a bucket. Returns 0, or in how many seconds there will be one; 0 while Redis is away."""
     try:
         # A script is sent whole only where Redis does not know it yet.
@@ -46,7 +46,7 @@ def take_one(queue: Queue, key_id: str, per_minute: float) -> None:
 
     While Redis is away nothing is counted: the service goes on without it, and so do its callers.
     """
-    seconds = waits(queue, f"galatea:rate:{key_id}", per_minute, BURST_SECONDS)
+    seconds = take_from_bucket(queue, f"galatea:rate:{key_id}", per_minute, BURST_SECONDS)
     if seconds > 0:
         raise Problem(
             429,

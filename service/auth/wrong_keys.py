@@ -12,7 +12,7 @@ from ipaddress import IPv6Address, IPv6Network, ip_address
 
 from fastapi import Request
 
-from service.auth.rate import waits
+from service.auth.rate import take_from_bucket
 from service.context import Context
 from service.outbound.address import Network
 from service.problems import Problem
@@ -32,8 +32,8 @@ def count_wrong_key(context: Context, request: Request) -> None:
     most = context.settings.wrong_keys_per_minute
     place = zlib.crc32(caller_address(request, context.settings.trusted_proxies).encode()) % ADDRESS_BUCKETS
     seconds = max(
-        waits(context.queue, f"galatea:wrong:{place}", most, BURST_SECONDS),
-        waits(context.queue, "galatea:wrong:all", most * TOTAL_TO_ADDRESS_RATIO, BURST_SECONDS),
+        take_from_bucket(context.queue, f"galatea:wrong:{place}", most, BURST_SECONDS),
+        take_from_bucket(context.queue, "galatea:wrong:all", most * TOTAL_TO_ADDRESS_RATIO, BURST_SECONDS),
     )
     if seconds > 0:
         raise Problem(

@@ -69,7 +69,7 @@ class Protocol(SlicedReading):
         if self._admitted:
             self._look()
         else:
-            self._refuse(crowded())
+            self._refuse(too_many_connections())
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._time("", 0, lambda: None)
@@ -101,9 +101,9 @@ class Protocol(SlicedReading):
     def make_room(self) -> None:
         """End: others have more use for the connection."""
         if self.cycle is None:  # somebody new, who is told
-            self._refuse(crowded())
+            self._refuse(too_many_connections())
         else:
-            self._refuse_or_close(crowded())
+            self._refuse_or_close(too_many_connections())
 
     def shutdown(self) -> None:
         """End with the service, as soon as the request under way is answered."""
@@ -131,7 +131,7 @@ class Protocol(SlicedReading):
         elif self.conn.their_state is h11.IDLE:
             self.config.connection_limit.wait(self)
             if self._heard or self.cycle is None:  # else it is idle, and uvicorn looks after that
-                self._time("head", self.config.head_seconds, lambda: self._refuse_or_close(late()))
+                self._time("head", self.config.head_seconds, lambda: self._refuse_or_close(late_head()))
             else:
                 self._time("", 0, lambda: None)
         else:
@@ -192,7 +192,7 @@ class Protocol(SlicedReading):
     def _answer(self, problem: Problem) -> None:
         problem.headers["Connection"] = "close"
         answer = problem.response()
-        browser.mark(answer.headers)
+        browser.add_security_headers(answer.headers)
         for event in (
             h11.Response(
                 status_code=answer.status_code, headers=answer.raw_headers, reason=phrase(answer.status_code).encode()
@@ -203,12 +203,12 @@ class Protocol(SlicedReading):
             self.transport.write(self.conn.send(event) or b"")
 
 
-def crowded() -> Problem:
+def too_many_connections() -> Problem:
     """There are as many connections as there may be."""
     detail = "The service has as many connections as it can bear: try again in a moment."
     return Problem(503, "too_many_connections", detail, headers={"Retry-After": "5"})
 
 
-def late() -> Problem:
+def late_head() -> Problem:
     """The head of a request does not come."""
     return Problem(408, "head_too_slow", "The request's address and headers did not come in time: send it again.")

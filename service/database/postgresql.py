@@ -52,7 +52,7 @@ LOST_CONNECTION_CODES = ("08", "57P01", "57P02", "57P03", "25P03")
 """The beginnings of error codes after which a connection is of no use: lost, server stopping, transaction ended."""
 
 
-def speaks(url: str) -> bool:
+def is_postgresql_url(url: str) -> bool:
     """Whether an address means a PostgreSQL server."""
     return url.startswith(URL_SCHEMES)
 
@@ -149,7 +149,7 @@ def message(error: BaseException | None) -> str:
     return str(details.get("M", "")) if isinstance(details, dict) else ""
 
 
-def shown(url: str) -> str:
+def redacted_url(url: str) -> str:
     """An address for people to read, without user and password."""
     given = make_url(url)
     host = given.query.get("host") or f"{given.host or 'localhost'}:{given.port or 5432}"

@@ -40,7 +40,7 @@ class DatabaseInUse(Exception):
     """A service or a worker works with these tables: they cannot be changed under it."""
 
 
-class WouldForget(Exception):
+class DowngradeLosesData(Exception):
     """Going down to an older version erases what that has no room for; the message says what."""
 
 
@@ -52,7 +52,7 @@ class Database:
         kept in clear."""
         self._vault = vault or Vault()
         self.url = url
-        self._kind = postgresql if postgresql.speaks(url) else sqlite
+        self._kind = postgresql if postgresql.is_postgresql_url(url) else sqlite
         self._engine = self._kind.engine(url, connections)
         self._engine.dialect.galatea_vault = self._vault
         self._writing = self._engine.execution_options(galatea_writes=True)
@@ -109,7 +109,7 @@ class Database:
         """Bring the tables to a version, up or down, while nobody works with them.
 
         Going down forgets what the older version cannot hold, and is done only where `forget` says so. Raises
-        `DatabaseInUse`, `WouldForget`, and alembic's `CommandError` where there is no such version.
+        `DatabaseInUse`, `DowngradeLosesData`, and alembic's `CommandError` where there is no such version.
         """
         self._engine.dispose()  # our own connections, of which none is at work
         with self._kind.alone(self.url) as connection:
@@ -119,7 +119,7 @@ class Database:
                 return
             down = revision in _below(here)
             if down and not forget:
-                raise WouldForget("; ".join(self._forgotten(connection, revision)) or "nothing")
+                raise DowngradeLosesData("; ".join(self._forgotten(connection, revision)) or "nothing")
             with self._kind.unused(self.url, connection) as free:
                 if not free:
                     raise DatabaseInUse

@@ -11,7 +11,7 @@ from service.context import Context
 from service.drivers.schemas import DriverOut
 from service.job_records import artifacts
 from service.keeping.presentation import Presentation
-from service.keeping.service import file_of, missing
+from service.keeping.service import file_of, not_found_problem
 from service.libraries import repository
 from service.libraries.driver_segments import POSTER_NAME, Segments, missing_segment, of_drivers, segments
 from service.libraries.library import DRIVERS
@@ -35,7 +35,7 @@ def stored(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
         return file.stored, context.storage
     if name in DRIVERS.built_in:
         return _installed(built_in.item(DRIVERS.name, name), "video/mp4")
-    raise missing(DRIVERS)
+    raise not_found_problem(DRIVERS)
 
 
 def poster(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
@@ -61,7 +61,7 @@ def moment_poster(context: Context, owner: str, name: str, moment: str) -> tuple
 
 def _picture(context: Context, driver: Kept | None, artifact: str) -> tuple[Stored, Storage]:
     if driver is None:
-        raise missing(DRIVERS)
+        raise not_found_problem(DRIVERS)
     with context.database.read() as session:
         found = artifacts.get(session, driver.inspection_job, artifact) if driver.inspection_job is not None else None
     if found is None:

@@ -13,7 +13,7 @@ from service.context import InContext
 from service.events import repository
 from service.events.stream import follow
 from service.events.watch import InWatch
-from service.job_records.owned import found
+from service.job_records.owned import own_job
 from service.problems import Problem, responses
 from service.tables.jobs import Status
 
@@ -56,8 +56,8 @@ def follow_job(
         raise Problem(422, "invalid_event_id", "Last-Event-ID must be the id of an event of this job.")
     seen = int(given[0])
     with context.database.read() as session:
-        job = found(session, caller.owner, job_id)
-        events = repository.after(session, job_id, seen)
+        job = own_job(session, caller.owner, job_id)
+        events = repository.events_after(session, job_id, seen)
     if Status(job.status).final and not events:
         # A browser connects again whenever a stream ends; this answer tells it to stop.
         return Response(status_code=204)

@@ -34,12 +34,12 @@ def append(session: Session, job_id: str, type_: str, data: dict[str, Any]) -> N
     outbox.write(session, event)
 
 
-def begin(session: Session, job: Job) -> None:
+def append_first(session: Session, job: Job) -> None:
     """Add the first event of a job that this transaction makes: nobody knows of it yet, nor is told of it."""
     session.add(Event(job_id=job.id, type="status", data={"status": job.status}, created_at=job.created_at))
 
 
-def after(session: Session, job_id: str, event_id: int, limit: int = 200) -> Sequence[Event]:
+def events_after(session: Session, job_id: str, event_id: int, limit: int = 200) -> Sequence[Event]:
     """A job's events that came after one, oldest first."""
     return session.scalars(EVENTS_AFTER, {"job": job_id, "last": event_id, "most": limit}).all()
 

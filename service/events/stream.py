@@ -27,7 +27,7 @@ async def follow(
             for event in events:
                 after = event.id
                 yield {"id": str(event.id), "event": event.type, "data": json.dumps(event.data)}
-                if final(event):
+                if is_final(event):
                     return
             events, there = await run_sync(_look, context, job_id, after)
             if there and not events:
@@ -35,12 +35,12 @@ async def follow(
                 there = not watch.stopping.begun
 
 
-def final(event: Event) -> bool:
+def is_final(event: Event) -> bool:
     """Whether nothing can come after this event."""
     return event.type == "status" and Status(event.data["status"]).final
 
 
 def _look(context: Context, job_id: str, after: int) -> tuple[Sequence[Event], bool]:
     with context.database.read() as session:
-        events = repository.after(session, job_id, after)
+        events = repository.events_after(session, job_id, after)
         return events, bool(events) or jobs.get(session, job_id) is not None

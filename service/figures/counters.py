@@ -45,7 +45,7 @@ def add(session: Session, name: str, *labels: str, amount: float = 1.0) -> None:
         session.execute(ADD_TO_COUNTER, grown, execution_options=BY_THE_DATABASE)
 
 
-def counted(session: Session) -> Iterator[tuple[str, list[str], float]]:
+def all_counters(session: Session) -> Iterator[tuple[str, list[str], float]]:
     """All counters: name, values of the labels, value."""
     for counter in session.scalars(select(Counter).order_by(Counter.name, Counter.labels)):
         if counter.name in COUNTERS:

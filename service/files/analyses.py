@@ -35,7 +35,7 @@ def erase_unneeded(context: Context, contents: Iterable[tuple[str, str]]) -> Non
             shutil.rmtree(folder(context.settings, owner, content), ignore_errors=True)
 
 
-def kept(settings: Settings) -> list[tuple[str, str]]:
+def stored_analyses(settings: Settings) -> list[tuple[str, str]]:
     """The pairs of owner and content whose analyses lie on this machine."""
     return [(one.parent.name, one.name) for one in (settings.data_dir / "cache").glob("*/*")]
 

@@ -19,7 +19,7 @@ from service.disk import require_space
 from service.files.admission import shown_name, too_large
 from service.files.parts import Head, Parts
 from service.files.received import Received
-from service.http.bodies import FIELD_BYTES, announced
+from service.http.bodies import FIELD_BYTES, announced_bytes
 from service.http.documents import require_text
 from service.ids import new_id
 from service.problems import Problem
@@ -68,7 +68,7 @@ class Form:
 
     async def __aenter__(self) -> Form:
         parts = Parts(self._request.headers.get("content-type", ""), self)
-        length = announced(self._request)
+        length = announced_bytes(self._request)
         most = self._settings.video_mb * self._most_files + 2
         if length > most * MEGABYTE:
             raise too_large("The request", most)

@@ -18,7 +18,7 @@ def get(session: Session, owner: str, file_id: str) -> File | None:
     return file if file is not None and file.owner == owner else None
 
 
-def held(session: Session, owner: str, file_id: str) -> File | None:
+def get_locked(session: Session, owner: str, file_id: str) -> File | None:
     """The owner's file, which nobody erases until this transaction ends, which makes use of it."""
     file = session.get(File, file_id, with_for_update={"read": True, "key_share": True})
     return file if file is not None and file.owner == owner else None
@@ -48,6 +48,6 @@ def erase_unused(
     return list(files)
 
 
-def known(session: Session, ids: Sequence[str]) -> set[str]:
+def existing_ids(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids are files."""
     return set(session.scalars(select(File.id).where(File.id.in_(ids))))

@@ -12,7 +12,7 @@ from service.auth.caller import Admin
 from service.context import Context, InContext
 from service.disk import free_mb
 from service.health.metrics import ServiceCollector
-from service.pulse import least_silence
+from service.pulse import least_silent_seconds
 
 router = APIRouter(tags=["health"])
 
@@ -33,7 +33,7 @@ def readyz(context: InContext) -> JSONResponse:
         "disk": free_mb(context.settings) >= context.settings.disk_reserve_mb,
     }
     if context.settings.worker:  # else others have them, and jobs are accepted before one is there
-        checks["worker"] = least_silence(context.settings.data_dir) < context.settings.silent_seconds
+        checks["worker"] = least_silent_seconds(context.settings.data_dir) < context.settings.silent_seconds
     ready = all(checks.values())
     return JSONResponse({"status": "ok" if ready else "unavailable", "checks": checks}, 200 if ready else 503)
 

@@ -14,7 +14,7 @@ from prometheus_client.registry import Collector
 from service.clock import now
 from service.context import Context
 from service.disk import free_mb
-from service.figures.counters import COUNTERS, counted
+from service.figures.counters import COUNTERS, all_counters
 from service.job_records import jobs as repository
 from service.settings import MEGABYTE
 from service.tables.jobs import Status
@@ -33,7 +33,7 @@ class ServiceCollector(Collector):
             counts = repository.count_by_kind_and_status(session)
             waiting = repository.oldest_queued(session)
             backlog = webhooks.backlog(session)
-            figures = {name: list(group) for name, group in groupby(counted(session), key=itemgetter(0))}
+            figures = {name: list(group) for name, group in groupby(all_counters(session), key=itemgetter(0))}
         for kind in self._context.kinds:
             for status in Status:
                 jobs.add_metric([kind, status.value], counts.get((kind, status.value), 0))

@@ -11,7 +11,7 @@ FIELD_BYTES = 1_000_000
 """The most bytes of a JSON body; also of a form's parts that are not files, taken together."""
 
 
-def announced(request: Request) -> int:
+def announced_bytes(request: Request) -> int:
     """How many bytes a request says it brings; 0 where it does not say."""
     length = request.headers.get("content-length", "")
     return int(length) if length.isascii() and length.isdigit() and len(length) < 20 else 0
@@ -20,7 +20,7 @@ def announced(request: Request) -> int:
 async def read(request: Request) -> bytes:
     """The whole body. Raises a 413 problem as soon as it is known to have more than `FIELD_BYTES`."""
     body = bytearray()
-    if announced(request) > FIELD_BYTES:
+    if announced_bytes(request) > FIELD_BYTES:
         raise too_long()
     async for chunk in request.stream():
         body += chunk

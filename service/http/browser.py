@@ -42,7 +42,7 @@ PERMISSIONS_POLICY = (
 )
 
 
-def mark(headers: MutableHeaders) -> None:
+def add_security_headers(headers: MutableHeaders) -> None:
     """Add what holds for every answer, and a policy where it brings none of its own."""
     headers["X-Content-Type-Options"] = "nosniff"
     headers["Referrer-Policy"] = "same-origin"

@@ -51,7 +51,7 @@ class Guard:
 
         async def send_marked(message: Message) -> None:
             if message["type"] == "http.response.start":
-                browser.mark(MutableHeaders(scope=message))
+                browser.add_security_headers(MutableHeaders(scope=message))
             await send(message)
 
         problem: Problem | None

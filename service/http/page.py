@@ -25,7 +25,7 @@ NO_PAGE = f"""<!doctype html><title>Galatea</title><h1>Galatea</h1>
 <p>The service runs. {NOT_BUILT} It is described at <a href="/v1/openapi.json">/v1/openapi.json</a>."""
 
 
-def built(folder: Path) -> bool:
+def is_built(folder: Path) -> bool:
     """Whether there is a page in the folder."""
     return (folder / "index.html").is_file()
 
@@ -52,7 +52,7 @@ class Page(StaticFiles):
     async def get_response(self, path: str, scope: Scope) -> Response:
         if scope["path"].startswith("/v1/"):
             raise HTTPException(404)
-        if not built(self._folder):
+        if not is_built(self._folder):
             if path == ".":
                 return HTMLResponse(NO_PAGE)
             raise HTTPException(404)

@@ -34,6 +34,6 @@ def replace(session: Session, artifact: Artifact) -> str | None:
     return older.key if older is not None else None
 
 
-def known(session: Session, ids: Sequence[str]) -> set[str]:
+def existing_ids(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids are artifacts."""
     return set(session.scalars(select(Artifact.id).where(Artifact.id.in_(ids))))

@@ -19,7 +19,7 @@ def get(session: Session, job_id: str) -> Job | None:
     return session.get(Job, job_id)
 
 
-def held(session: Session, job_id: str) -> Job | None:
+def get_locked(session: Session, job_id: str) -> Job | None:
     """A job that nobody else changes or erases until this transaction ends."""
     return session.get(Job, job_id, with_for_update=True, populate_existing=True)
 
@@ -76,7 +76,7 @@ def tree(session: Session, root: str) -> Sequence[Job]:
     return session.scalars(select(Job).where(Job.tree == root).order_by(Job.id)).all()
 
 
-def hold_tree(session: Session, root: str) -> None:
+def lock_tree(session: Session, root: str) -> None:
     """Let nobody change, erase or revise a job or its revisions until this transaction ends."""
     session.execute(select(Job.id).where(Job.tree == root).order_by(Job.id).with_for_update())
 
@@ -105,7 +105,7 @@ def oldest_queued(session: Session) -> dict[str, datetime]:
     return dict(session.execute(query).tuples().all())
 
 
-def ends(session: Session, ids: Sequence[str]) -> dict[str, tuple[Status, dict[str, Any] | None]]:
+def end_states(session: Session, ids: Sequence[str]) -> dict[str, tuple[Status, dict[str, Any] | None]]:
     """Where those of these jobs stand that there are, and why they failed."""
     query = select(Job.id, Job.status, Job.error).where(Job.id.in_(ids))
     return {one: (Status(status), error) for one, status, error in session.execute(query)}
@@ -124,7 +124,7 @@ def running(session: Session, ids: Sequence[str]) -> set[str]:
     return set(session.scalars(select(Job.id).where(Job.id.in_(ids), Job.status == Status.RUNNING)))
 
 
-def places(session: Session, jobs: Sequence[Job]) -> dict[str, int]:
+def queue_places(session: Session, jobs: Sequence[Job]) -> dict[str, int]:
     """The places of these jobs among those of their kind that are queued, counted from 1.
 
     The order is that of `leases.claim_next`: by priority, then one of each key in turn, then by age. Keys of which fewer
@@ -171,11 +171,11 @@ def mark_enqueued(session: Session, job_id: str) -> None:
     session.execute(update(Job).where(Job.id == job_id).values(enqueued_at=moment_in()))
 
 
-def known(session: Session, ids: Sequence[str]) -> set[str]:
+def existing_ids(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids are jobs."""
     return set(session.scalars(select(Job.id).where(Job.id.in_(ids))))
 
 
 def with_folder(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids still need their folder: they are jobs, or there are revisions of them."""
-    return known(session, ids) | set(session.scalars(select(Job.tree).where(Job.tree.in_(ids))))
+    return existing_ids(session, ids) | set(session.scalars(select(Job.tree).where(Job.tree.in_(ids))))

@@ -15,7 +15,7 @@ from service.problems import Problem
 from service.tables.jobs import Job, Status
 
 
-def found(session: Session, owner: str, job_id: str) -> Job:
+def own_job(session: Session, owner: str, job_id: str) -> Job:
     """The owner's job, or a 404 problem."""
     job = jobs.get(session, job_id)
     if job is None or job.owner != owner:
@@ -23,40 +23,40 @@ def found(session: Session, owner: str, job_id: str) -> Job:
     return job
 
 
-def held(session: Session, owner: str, job_id: str) -> Job:
+def lock_own_job(session: Session, owner: str, job_id: str) -> Job:
     """The owner's job, locked until the transaction ends, or a 404 problem."""
-    job = jobs.held(session, job_id)
+    job = jobs.get_locked(session, job_id)
     if job is None or job.owner != owner:
         raise _missing()
     return job
 
 
-def shown(context: Context, owner: str, job_id: str) -> JobOut:
+def job_view(context: Context, owner: str, job_id: str) -> JobOut:
     """The job as the API shows it, or a 404 problem."""
     with context.database.read() as session:
-        return views(context, session, owner, [found(session, owner, job_id)])[0]
+        return job_views(context, session, owner, [own_job(session, owner, job_id)])[0]
 
 
-def shown_tree(context: Context, owner: str, job_id: str) -> JobTree:
+def tree_view(context: Context, owner: str, job_id: str) -> JobTree:
     """A job with all its relations by revision, or a 404 problem."""
     with context.database.read() as session:
-        tree = jobs.tree(session, found(session, owner, job_id).tree)
-        return JobTree(items=views(context, session, owner, tree))
+        tree = jobs.tree(session, own_job(session, owner, job_id).tree)
+        return JobTree(items=job_views(context, session, owner, tree))
 
 
-def views(context: Context, session: Session, owner: str, some: Sequence[Job]) -> list[JobOut]:
+def job_views(context: Context, session: Session, owner: str, some: Sequence[Job]) -> list[JobOut]:
     """An owner's jobs as the API shows them, with links to what they made."""
     made = artifacts.of_jobs(session, [job.id for job in some])
     key = keys.get(session, owner) if any(made.values()) else None  # which signs the links
     signer = Signer.of(key, context.settings) if key is not None else None
-    places = jobs.places(session, [job for job in some if job.status == Status.QUEUED])
+    places = jobs.queue_places(session, [job for job in some if job.status == Status.QUEUED])
     return [JobOut.of(job, made[job.id], signer, places.get(job.id)) for job in some]
 
 
-def place(context: Context, job: Job) -> int:
+def queue_place(context: Context, job: Job) -> int:
     """The place in the queue of a job that was accepted just now; of one that a worker has by now, it was the first."""
     with context.database.read() as session:
-        return jobs.places(session, [job]).get(job.id, 1)
+        return jobs.queue_places(session, [job]).get(job.id, 1)
 
 
 def _missing() -> Problem:

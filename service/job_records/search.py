@@ -18,14 +18,14 @@ from service.tables.files import File
 from service.tables.jobs import Job
 
 
-def folded(text: str) -> str:
+def fold_text(text: str) -> str:
     """A text in which case and ways of writing the same letter make no difference."""
     return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold())
 
 
-def words(query: str) -> list[str]:
+def search_words(query: str) -> list[str]:
     """What must all be found, in any order and anywhere."""
-    return folded(query).split()
+    return fold_text(query).split()
 
 
 def describe(session: Session, job: Job, kind: Kind) -> None:
@@ -53,4 +53,4 @@ def _text(title: str | None, names: Iterable[str]) -> str:
 
 
 def _line(text: str) -> str:
-    return " ".join(folded(text).split())
+    return " ".join(fold_text(text).split())

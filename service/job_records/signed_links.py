@@ -36,7 +36,7 @@ class Signer:
         return f"/v1/jobs/{job_id}/artifacts/{quote(name)}?expires={expires}&signature={signed}"
 
 
-def good(key: Key, job_id: str, name: str, expires: str, given: str) -> bool:
+def is_valid(key: Key, job_id: str, name: str, expires: str, given: str) -> bool:
     """Whether a link's expiry lies ahead and its signature is that of the key."""
     if not (expires.isascii() and expires.isdigit() and len(expires) < 12) or int(expires) < time.time():
         return False

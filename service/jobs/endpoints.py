@@ -21,7 +21,7 @@ from service.ids import LIKE_AN_ID, is_id
 from service.job_records import jobs as repository
 from service.job_records import owned
 from service.job_records.schemas import JobOut, JobPage, JobTree
-from service.job_records.search import words
+from service.job_records.search import search_words
 from service.jobs import service
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
 from service.jobs.schemas import JobChange
@@ -111,7 +111,7 @@ async def revise_job(
 @router.get("/{job_id}/revisions", operation_id="list_revisions", responses=responses(404))
 def list_revisions(job_id: str, caller: Reader, context: InContext) -> JobTree:
     """The job, what it revises, and all that revises it."""
-    return owned.shown_tree(context, caller.owner, job_id)
+    return owned.tree_view(context, caller.owner, job_id)
 
 
 @router.get("", operation_id="list_jobs", responses=responses(422))
@@ -138,10 +138,19 @@ def list_jobs(
         raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
     with context.database.read() as session:
         jobs = repository.page(
-            session, caller.owner, limit + 1, cursor, status, kind, created_after, created_before, words(q), latest
+            session,
+            caller.owner,
+            limit + 1,
+            cursor,
+            status,
+            kind,
+            created_after,
+            created_before,
+            search_words(q),
+            latest,
         )
         versions = repository.versions(session, caller.owner, {job.tree for job in jobs[:limit]})
-        items = owned.views(context, session, caller.owner, jobs[:limit])
+        items = owned.job_views(context, session, caller.owner, jobs[:limit])
     next_cursor = items[-1].id if len(jobs) > limit else None
     if next_cursor is not None:
         following = request.url.include_query_params(cursor=next_cursor)
@@ -152,21 +161,21 @@ def list_jobs(
 @router.get("/{job_id}", operation_id="get_job", responses=responses(404))
 def get_job(job_id: str, caller: Reader, context: InContext) -> JobOut:
     """A job."""
-    return owned.shown(context, caller.owner, job_id)
+    return owned.job_view(context, caller.owner, job_id)
 
 
 @router.patch("/{job_id}", operation_id="change_job", responses=responses(404, 422))
 def change_job(job_id: str, requested: JobChange, caller: Submitter, context: InContext) -> JobOut:
     """Give the work that a job is a version of a title, or take it away: all versions have the same."""
     service.retitle(context, caller.owner, job_id, requested.title)
-    return owned.shown(context, caller.owner, job_id)
+    return owned.job_view(context, caller.owner, job_id)
 
 
 @router.post("/{job_id}/cancel", operation_id="cancel_job", responses=responses(404, 409))
 def cancel_job(job_id: str, caller: Submitter, context: InContext) -> JobOut:
     """Cancel a job that has not ended."""
     service.cancel(context, caller.owner, job_id)
-    return owned.shown(context, caller.owner, job_id)
+    return owned.job_view(context, caller.owner, job_id)
 
 
 @router.delete("/{job_id}", status_code=204, operation_id="delete_job", responses=responses(404))
@@ -189,10 +198,10 @@ async def _accepted(
         response.headers["Idempotent-Replayed"] = "true"
     wait = re.search(r"(?:^|[\s,;])wait\s*=\s*\"?(\d{1,6})", prefer or "")
     if wait is None and not replayed:
-        place = await run_sync(owned.place, context, job)
+        place = await run_sync(owned.queue_place, context, job)
         return JobOut.of(job, [], queue_position=place)  # it has only just been written
     if wait is None:
-        return await run_sync(owned.shown, context, owner, job.id)
+        return await run_sync(owned.job_view, context, owner, job.id)
     seconds = min(float(wait[1]), context.settings.wait_seconds)
     response.headers["Preference-Applied"] = f"wait={seconds:g}"
     return await _wait(context, stopping, owner, job.id, seconds)
@@ -202,7 +211,7 @@ async def _wait(context: Context, stopping: Stopping, owner: str, job_id: str, s
     """The job once it has ended, or the time is over, or the service stops: it was accepted, whatever becomes of us."""
     deadline = anyio.current_time() + seconds
     while True:
-        job = await run_sync(owned.shown, context, owner, job_id)
+        job = await run_sync(owned.job_view, context, owner, job_id)
         if job.status.final or stopping.begun or anyio.current_time() >= deadline:
             return job
         await stopping.sleep(WAIT_POLL_SECONDS)

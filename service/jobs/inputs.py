@@ -33,14 +33,14 @@ _VALUE_ADAPTER: TypeAdapter[Value] = TypeAdapter(Value)
 
 
 @dataclass
-class Resolved:
+class ResolvedInputs:
     """The inputs of a job: what each name stands for, and the files that the job thereby uses."""
 
     sources: dict[str, Any] = field(default_factory=dict)
     file_ids: set[str] = field(default_factory=set)
 
 
-class Refused(Exception):
+class ValueRefused(Exception):
     """One value cannot be taken."""
 
     def __init__(self, code: str, detail: str):
@@ -68,7 +68,7 @@ def resolve(
     given: Mapping[str, Value],
     allowed: Sequence[Network] = (),
     revised: Mapping[str, Any] | None = None,
-) -> Resolved:
+) -> ResolvedInputs:
     """Look up everything that is given to a job with these options; `allowed` are networks that addresses may lead to
     beside the public ones. Of a revision, `revised` are the parent's sources: what is given is given as corrections,
     and the other sources stay.
@@ -78,7 +78,7 @@ def resolve(
     chosen = kind.options.model_validate(options)
     place = "/inputs" if revised is None else "/corrections"
     stays = {name: source for name, source in (revised or {}).items() if name not in given}
-    resolved = Resolved(stays, _files_in(stays))
+    resolved = ResolvedInputs(stays, _files_in(stays))
     lookup = _Lookup(session, owner, allowed, resolved.file_ids)
     errors = []
     offered = {item.name: item for item in kind.inputs}
@@ -98,14 +98,14 @@ def resolve(
                 by_option = revised is not None and item.name not in given  # the one that makes it needed was changed
                 at = (str(item.spared_by), "/options") if by_option else (item.name, place)
                 errors.append(_error(at[0], "missing_input", detail, at[1]))
-        except Refused as refused:
+        except ValueRefused as refused:
             errors.append(_error(item.name, refused.code, refused.detail, place))
     if errors:
         raise Problem(422, errors[0].code, errors[0].detail, errors)
     return resolved
 
 
-def named(session: Session, owner: str, kind: Kind, given: dict[str, Value]) -> dict[str, str]:
+def named_options(session: Session, owner: str, kind: Kind, given: dict[str, Value]) -> dict[str, str]:
     """Of what is given, the names of something built in (`Input.named_by`): the options that they stand for. They are
     nothing that an input is read from: `given` has null in their place. What the owner keeps under such a name goes
     before it."""
@@ -164,7 +164,7 @@ def _source(lookup: _Lookup, item: Input, value: Value) -> Any:
         return None
     if isinstance(value, list) and not item.many:
         if len(value) != 1:
-            raise Refused("too_many_files", f"The input “{item.name}” takes one file.")
+            raise ValueRefused("too_many_files", f"The input “{item.name}” takes one file.")
         value = value[0]
     if isinstance(value, list):
         return [_one(lookup, item, one) for one in value]
@@ -181,12 +181,12 @@ def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
     file_id = value
     if not is_id(value):
         if library is None:
-            raise Refused("unknown_file", f"“{item.name}” is not the id of a file: upload it first.")
+            raise ValueRefused("unknown_file", f"“{item.name}” is not the id of a file: upload it first.")
         own = kept.get(session, library, owner, value)
         if own is None:
             if value not in library.built_in or item.named_by is not None:
                 detail = f"There is no {library.noun} “{value[:80]}”: GET {library.address} lists them."
-                raise Refused(f"unknown_{library.noun}", detail)
+                raise ValueRefused(f"unknown_{library.noun}", detail)
             return {"library": item.library, "name": value}
         file_id = own.file_id
     file = held_file(session, owner, file_id, item.name)
@@ -196,13 +196,15 @@ def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
 
 
 def held_file(session: Session, owner: str, file_id: str, what: str) -> File:
-    """The owner's file, which nobody erases until this transaction ends. Raises `Refused`."""
-    file = files.held(session, owner, file_id)
+    """The owner's file, which nobody erases until this transaction ends. Raises `ValueRefused`."""
+    file = files.get_locked(session, owner, file_id)
     if file is None:
         if (upload := uploads.get(session, owner, file_id)) is not None:
             come = f"{upload.received} of {upload.length or 'unknown'} bytes have come"
-            raise Refused("upload_unfinished", f"The upload {file_id} for “{what}” is not finished: {come}.")
-        raise Refused("unknown_file", f"There is no file {file_id[:80]} for “{what}”: it was erased, or never was.")
+            raise ValueRefused("upload_unfinished", f"The upload {file_id} for “{what}” is not finished: {come}.")
+        raise ValueRefused(
+            "unknown_file", f"There is no file {file_id[:80]} for “{what}”: it was erased, or never was."
+        )
     return file
 
 
@@ -211,14 +213,14 @@ def _address(item: Input, url: str, allowed: Sequence[Network]) -> dict[str, str
     try:
         require_callable(url, allowed)
     except AddressRefused as refused:
-        raise Refused("input_url_refused", f"“{item.name}”: {refused}") from refused
+        raise ValueRefused("input_url_refused", f"“{item.name}”: {refused}") from refused
     return {"url": url}
 
 
 def require_media(item: Input, content_type: str) -> None:
-    """Raise `Refused` if an input cannot be of this media type."""
+    """Raise `ValueRefused` if an input cannot be of this media type."""
     if item.media in MEDIA_TYPES and content_type not in MEDIA_TYPES[item.media]:
-        raise Refused("input_wrong_media", f"“{item.name}” must be of type {item.media}; this is {content_type}.")
+        raise ValueRefused("input_wrong_media", f"“{item.name}” must be of type {item.media}; this is {content_type}.")
 
 
 def _candidates(lookup: _Lookup, library: Library) -> dict[str, Any]:
@@ -226,7 +228,7 @@ def _candidates(lookup: _Lookup, library: Library) -> dict[str, Any]:
     candidates: dict[str, dict[str, str]] = {one: {"library": library.name, "name": one} for one in library.built_in}
     own = kept.with_files(lookup.session, library, lookup.owner)
     for one, _ in sorted(own, key=lambda pair: pair[0].created_at, reverse=True)[:MAX_OWN_CANDIDATES]:
-        if (file := files.held(lookup.session, lookup.owner, one.file_id)) is not None:
+        if (file := files.get_locked(lookup.session, lookup.owner, one.file_id)) is not None:
             candidates[one.name] = {"file": file.id}
             lookup.used.add(file.id)
     return {"candidates": candidates}

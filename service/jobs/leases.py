@@ -77,13 +77,13 @@ def _in_turn(kind: str) -> Select[str]:
     return select(Job.id).where(Job.id.in_(firsts)).order_by(in_turn, Job.id).limit(1)
 
 
-def holds(session: Session, lease: Lease) -> bool:
+def is_held(session: Session, lease: Lease) -> bool:
     """Whether the lease still stands; reads only."""
     query = select(Job.id).where(Job.id == lease.job_id, Job.lease_token == lease.token, Job.status == Status.RUNNING)
     return session.scalar(query) is not None
 
 
-def change(session: Session, lease: Lease, **values: Any) -> bool:
+def update_job(session: Session, lease: Lease, **values: Any) -> bool:
     """Change columns of the job if the lease still stands, and renew the lease."""
     values.setdefault("lease_expires_at", moment_in(lease.seconds))
     changed = session.execute(
@@ -94,18 +94,18 @@ def change(session: Session, lease: Lease, **values: Any) -> bool:
     return bool(changed.rowcount)  # type: ignore[attr-defined]
 
 
-def report(
+def report_progress(
     session: Session, lease: Lease, progress: dict[str, Any], stages: Sequence[str] = (), begun: bool = False
 ) -> bool:
     """Record progress, and the stages so far in their order; who follows is told of these when one more has `begun`."""
     whole = progress | {"stages": list(stages)}
-    if not change(session, lease, progress=whole, progress_at=moment_in()):
+    if not update_job(session, lease, progress=whole, progress_at=moment_in()):
         return False
     events.append(session, lease.job_id, "progress", whole if begun else progress)
     return True
 
 
-def note(session: Session, job_id: str, progress: dict[str, Any]) -> bool:
+def note_waiting(session: Session, job_id: str, progress: dict[str, Any]) -> bool:
     """Record what a job waits for; a job that waits no more is left alone."""
     noted = session.execute(update(Job).where(Job.id == job_id, Job.status == Status.QUEUED).values(progress=progress))
     if not noted.rowcount:  # type: ignore[attr-defined]
@@ -114,9 +114,9 @@ def note(session: Session, job_id: str, progress: dict[str, Any]) -> bool:
     return True
 
 
-def bear_fruit(session: Session, lease: Lease) -> bool:
+def note_new_stage(session: Session, lease: Lease) -> bool:
     """Record that a new stage was stored: this attempt was not in vain."""
-    return change(session, lease, fruitless_attempts=0)
+    return update_job(session, lease, fruitless_attempts=0)
 
 
 def succeed(session: Session, lease: Lease) -> bool:
@@ -165,7 +165,7 @@ def give_back(
     if counts and fruitless >= MAX_FRUITLESS_ATTEMPTS:
         detail = f"Tried {fruitless} times without getting any further. The last time: {reason}"
         return Status.FAILED if fail(session, lease, "attempts_exhausted", detail) else None
-    requeued = change(
+    requeued = update_job(
         session,
         lease,
         status=Status.QUEUED,
@@ -208,7 +208,7 @@ def cancel(session: Session, job_id: str) -> bool:
 
 def _finish(session: Session, lease: Lease, status: Status, **values: Any) -> bool:
     values |= {"status": status, "finished_at": moment_in(), "lease_owner": None, "lease_expires_at": None}
-    ended = change(session, lease, **values)
+    ended = update_job(session, lease, **values)
     if ended:
         data = {"status": status} | ({"error": values["error"]} if values.get("error") else {})
         events.append(session, lease.job_id, "status", data)

@@ -22,10 +22,10 @@ from service.files.service import forget
 from service.ids import new_id
 from service.job_records import artifacts, search
 from service.job_records import jobs as repository
-from service.job_records.owned import found, held
+from service.job_records.owned import lock_own_job, own_job
 from service.jobs import leases, stages
 from service.jobs.driver_segments import choose_segments
-from service.jobs.inputs import Value, named, resolve, split_corrections
+from service.jobs.inputs import Value, named_options, resolve, split_corrections
 from service.jobs.schemas import JobIn, RevisionIn
 from service.problems import Problem, invalid
 from service.tables.files import File
@@ -47,7 +47,7 @@ def submit(
     _check(context, requested)
     given: dict[str, Value] = dict(requested.inputs)
     with context.database.read() as session:
-        built_in = named(session, owner, kind, given)
+        built_in = named_options(session, owner, kind, given)
     options = _options(kind, {**requested.options, **built_in})
     given |= {name: [file.id for file in came] for name, came in uploaded.items()}
     segments = choose_segments(context, owner, kind, options, given)
@@ -82,12 +82,12 @@ def revise(
     earlier request with the same key had made it. Raises `Problem`.
     """
     with context.database.read() as session:
-        parent = found(session, owner, job_id)
+        parent = own_job(session, owner, job_id)
         kind = _kind(context, parent.kind)
         _check(context, requested)
         came = {name: [file.id for file in files] for name, files in uploaded.items()}
         corrected, given = split_corrections(kind, {**requested.corrections, **came})
-        corrected |= named(session, owner, kind, given)
+        corrected |= named_options(session, owner, kind, given)
     if not Status(parent.status).final:
         raise Problem(409, "job_not_finished", f"The job is {parent.status}: wait for its end, or cancel it first.")
     wanted = {**parent.options, **requested.options, **corrected}
@@ -97,7 +97,7 @@ def revise(
         document["uploaded"] = {name: [file.sha256 for file in files] for name, files in sorted(uploaded.items())}
 
     def make(session: Session) -> Job:
-        parent = held(session, owner, job_id)
+        parent = lock_own_job(session, owner, job_id)
         job = _new_job(owner, kind, options, parent.notes if requested.metadata is None else requested.metadata)
         _be_told(job, requested.webhook_url or parent.webhook_url, requested.webhook_events or parent.webhook_events)
         job.priority = _priority(requested.priority) if requested.priority is not None else parent.priority
@@ -140,8 +140,8 @@ def _accept(
 def retitle(context: Context, owner: str, job_id: str, title: str | None) -> None:
     """Give the work that a job is a version of another title, or none. Raises a 404 problem."""
     with context.database.write() as session:
-        root = found(session, owner, job_id).tree
-        repository.hold_tree(session, root)  # from now on nobody makes a revision, which would take the old title
+        root = own_job(session, owner, job_id).tree
+        repository.lock_tree(session, root)  # from now on nobody makes a revision, which would take the old title
         for job in repository.tree(session, root):
             search.retitle(job, title)
 
@@ -149,7 +149,7 @@ def retitle(context: Context, owner: str, job_id: str, title: str | None) -> Non
 def cancel(context: Context, owner: str, job_id: str) -> None:
     """Cancel a job; its worker stops within two seconds. Raises a 409 problem if it has ended otherwise."""
     with context.database.write() as session:
-        job = held(session, owner, job_id)
+        job = lock_own_job(session, owner, job_id)
         if not leases.cancel(session, job_id) and job.status != Status.CANCELED:
             raise Problem(409, "job_finished", f"The job has {job.status} already: there is nothing to cancel.")
 
@@ -157,7 +157,7 @@ def cancel(context: Context, owner: str, job_id: str) -> None:
 def delete(context: Context, owner: str, job_id: str) -> None:
     """Erase a job and its media; one that runs is stopped. What a revision of it still uses stays."""
     with context.database.write() as session:
-        root = held(session, owner, job_id).tree
+        root = lock_own_job(session, owner, job_id).tree
         file_ids = repository.files_of(session, job_id)
         stored = [artifact.key for artifact in artifacts.of_jobs(session, [job_id])[job_id]]
         repository.erase(session, job_id)
@@ -247,7 +247,7 @@ def _insert(session: Session, job: Job, kind: Kind, file_ids: Iterable[str]) -> 
     session.add(job)
     session.flush()
     session.add_all(JobFile(job_id=job.id, file_id=file_id) for file_id in file_ids)
-    events.begin(session, job)
+    events.append_first(session, job)
 
 
 def _earlier(session: Session, owner: str, key: str, fingerprint: str) -> Job | None:
@@ -260,4 +260,4 @@ def _earlier(session: Session, owner: str, key: str, fingerprint: str) -> Job | 
             "idempotency_key_reused",
             "This Idempotency-Key came with another request before: use a new key for a new job.",
         )
-    return found(session, owner, record.job_id)
+    return own_job(session, owner, record.job_id)

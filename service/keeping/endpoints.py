@@ -15,7 +15,7 @@ from service.context import InContext
 from service.disk import require_space
 from service.http.request_models import RequestModelRoute
 from service.keeping import service
-from service.keeping.presentation import Presentation, everything, one
+from service.keeping.presentation import Presentation, get_item, list_items
 from service.keeping.request import KeptChange, body, keep_body
 from service.problems import responses
 
@@ -56,7 +56,7 @@ def _list_and_keep(router: APIRouter, presented: Presentation[Any, Any], named: 
 
     @router.get("", response_model=named.listed, **_about(f"list_{noun}s", named.list_says))
     def list_all(caller: Reader, context: InContext) -> dict[str, Any]:
-        return {"items": everything(context, presented, caller.owner)}
+        return {"items": list_items(context, presented, caller.owner)}
 
     @router.post(
         "",
@@ -69,7 +69,7 @@ def _list_and_keep(router: APIRouter, presented: Presentation[Any, Any], named: 
     async def keep(request: Request, response: Response, caller: Submitter, context: InContext) -> Any:
         name = await keep_body(request, context, caller, library)
         response.headers["Location"] = f"{library.address}/{name}"
-        return await run_sync(one, context, presented, caller.owner, name)
+        return await run_sync(get_item, context, presented, caller.owner, name)
 
 
 def _show_and_inspect(router: APIRouter, presented: Presentation[Any, Any], named: Endpoints) -> None:
@@ -78,7 +78,7 @@ def _show_and_inspect(router: APIRouter, presented: Presentation[Any, Any], name
 
     @router.get("/{name}", response_model=named.item, responses=responses(404), **_about(f"get_{noun}", says))
     def show(name: str, caller: Reader, context: InContext) -> Any:
-        return one(context, presented, caller.owner, name)
+        return get_item(context, presented, caller.owner, name)
 
     @router.post(
         f"/{{name}}/{named.inspection}",
@@ -90,7 +90,7 @@ def _show_and_inspect(router: APIRouter, presented: Presentation[Any, Any], name
     def inspect(name: str, caller: Submitter, context: InContext) -> Any:
         require_space(context.settings)
         service.inspect_again(context, library, caller.owner, name)
-        return one(context, presented, caller.owner, name)
+        return get_item(context, presented, caller.owner, name)
 
 
 def _rename_and_erase(router: APIRouter, presented: Presentation[Any, Any], named: Endpoints) -> None:
@@ -102,7 +102,7 @@ def _rename_and_erase(router: APIRouter, presented: Presentation[Any, Any], name
     )
     def rename(name: str, requested: KeptChange, caller: Submitter, context: InContext) -> Any:
         service.rename(context, library, caller.owner, name, requested.name)
-        return one(context, presented, caller.owner, requested.name)
+        return get_item(context, presented, caller.owner, requested.name)
 
     says = f"Erase one of the user's own {noun}s. Jobs that use it keep its {named.file_is} until they are deleted."
 

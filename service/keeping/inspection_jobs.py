@@ -43,7 +43,7 @@ def under_way(context: Context, kept: Kept) -> bool:
     if kept.inspection_job is None:
         return False
     with context.database.read() as session:
-        end = jobs.ends(session, [kept.inspection_job]).get(kept.inspection_job)
+        end = jobs.end_states(session, [kept.inspection_job]).get(kept.inspection_job)
     return end is not None and not end[0].final
 
 

@@ -9,7 +9,7 @@ from typing import Generic, Protocol, TypeVar
 from pydantic import BaseModel
 
 from service.context import Context
-from service.keeping.service import missing
+from service.keeping.service import not_found_problem
 from service.libraries import repository
 from service.libraries.inspections import Inspection, inspections_of
 from service.libraries.library import Library
@@ -40,7 +40,7 @@ class Presentation(Generic[Item, D]):
     """How a file of the user's own is shown, with what was found in it."""
 
 
-def everything(context: Context, presented: Presentation[Item, D], owner: str) -> list[Item]:
+def list_items(context: Context, presented: Presentation[Item, D], owner: str) -> list[Item]:
     """What is in a library. What was kept before there was something built in of its name goes before that."""
     library = presented.library
     with context.database.read() as session:
@@ -51,9 +51,9 @@ def everything(context: Context, presented: Presentation[Item, D], owner: str) -
     return [*built_in, *(presented.own(kept, file, found[kept.name]) for kept, file in own)]
 
 
-def one(context: Context, presented: Presentation[Item, D], owner: str, name: str) -> Item:
+def get_item(context: Context, presented: Presentation[Item, D], owner: str, name: str) -> Item:
     """What is in a library under a name. Raises a 404 problem."""
-    for item in everything(context, presented, owner):
+    for item in list_items(context, presented, owner):
         if item.name == name:
             return item
-    raise missing(presented.library)
+    raise not_found_problem(presented.library)

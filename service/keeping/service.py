@@ -12,7 +12,7 @@ from service.context import Context
 from service.files import repository as files
 from service.files.service import erase_unused
 from service.ids import is_id
-from service.jobs.inputs import Refused, held_file
+from service.jobs.inputs import ValueRefused, held_file
 from service.keeping import inspection_jobs
 from service.libraries import repository
 from service.libraries.library import Library
@@ -56,7 +56,7 @@ def keep(context: Context, library: Library, owner: str, name: str, file_id: str
             file = held_file(session, owner, file_id, library.noun)
             require_media(library, file.content_type)
             session.add(library.table(owner=owner, name=name, file_id=file_id, created_at=now()))
-    except Refused as refused:
+    except ValueRefused as refused:
         error = FieldError(pointer="/file", code=refused.code, detail=refused.detail)
         raise Problem(422, refused.code, refused.detail, [error]) from refused
     except IntegrityError as error:
@@ -64,7 +64,7 @@ def keep(context: Context, library: Library, owner: str, name: str, file_id: str
     inspection_jobs.inspect_new(context, library, owner, name, file_id)
 
 
-def kept(context: Context, library: Library, owner: str, name: str) -> Kept:
+def get_kept(context: Context, library: Library, owner: str, name: str) -> Kept:
     """What the owner keeps under a name. Raises a 404 problem, or 409 where it is a built-in thing."""
     with context.database.read() as session:
         found = repository.get(session, library, owner, name)
@@ -82,7 +82,7 @@ def file_of(context: Context, library: Library, owner: str, name: str) -> File |
 
 def inspect_again(context: Context, library: Library, owner: str, name: str) -> None:
     """Inspect a kept file, anew where that was done before; one inspection at a time. Raises `Problem`."""
-    one = kept(context, library, owner, name)
+    one = get_kept(context, library, owner, name)
     if not inspection_jobs.under_way(context, one):
         inspection_jobs.begin(context, library, owner, name, one.file_id)
         inspection_jobs.forget(context, owner, one.inspection_job)
@@ -91,7 +91,7 @@ def inspect_again(context: Context, library: Library, owner: str, name: str) -> 
 def rename(context: Context, library: Library, owner: str, name: str, new: str) -> None:
     """Give what an owner keeps another name. Jobs go by its file, and what was found in it by the job that inspected it:
     none of that changes. Raises `Problem`."""
-    kept(context, library, owner, name)
+    get_kept(context, library, owner, name)
     if new == name:
         return
     require_free_name(context, library, owner, new)
@@ -114,7 +114,7 @@ def delete(context: Context, library: Library, owner: str, name: str) -> None:
     erase_unused(context, [one.file_id])
 
 
-def missing(library: Library) -> Problem:
+def not_found_problem(library: Library) -> Problem:
     return Problem(404, f"{library.noun}_not_found", f"There is no {library.noun} of this name.")
 
 
@@ -122,7 +122,7 @@ def _not_kept(library: Library, name: str) -> Problem:
     if name in library.built_in:
         detail = f"Nothing of what is built in can be renamed, deleted or looked into: “{name}” is."
         return Problem(409, f"{library.noun}_built_in", detail)
-    return missing(library)
+    return not_found_problem(library)
 
 
 def _taken(library: Library, name: str) -> Problem:

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.auth import repository
-from service.auth.caller import Admin, Reader, not_known
+from service.auth.caller import Admin, Reader, unknown_key_problem
 from service.auth.sessions import COOKIE, SESSION_SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
@@ -70,7 +70,7 @@ def open_session(requested: SessionIn, request: Request, response: Response, con
         key = repository.of_token(session, requested.key)
     if key is None or not repository.usable(key, now()):
         count_wrong_key(context, request)
-        raise not_known("key_unknown", "There is no such key: it was revoked, has expired, or never was.")
+        raise unknown_key_problem("key_unknown", "There is no such key: it was revoked, has expired, or never was.")
     response.set_cookie(
         COOKIE,
         new_session(key),

@@ -50,7 +50,7 @@ def inspections_of(
     if not begun:
         return {one.name: Inspection("none") for one in kept}
     with context.database.read() as session:
-        ends = jobs.ends(session, begun)
+        ends = jobs.end_states(session, begun)
         left = artifacts.of_jobs(session, list(ends))
     found: dict[str, Inspection[D]] = {}
     for one in kept:

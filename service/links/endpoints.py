@@ -18,9 +18,9 @@ from service.http.delivery import DELIVERED_IN_PARTS, deliver
 from service.http.request_models import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id, new_id
 from service.job_records import artifacts, jobs
-from service.job_records.owned import found
+from service.job_records.owned import own_job
 from service.links import repository
-from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens
+from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens_artifact
 from service.problems import Problem, responses
 from service.tables.links import PublicLink
 
@@ -54,7 +54,7 @@ def create_link(job_id: str, requested: LinkIn, caller: Submitter, response: Res
         expires_at=None if hours is None else moment + timedelta(hours=hours),
     )
     with context.database.write() as session:
-        found(session, caller.owner, job_id)
+        own_job(session, caller.owner, job_id)
         session.add(link)
     response.headers["Location"] = f"/v1/links/{link.id}"
     response.headers["Cache-Control"] = "no-store"
@@ -65,7 +65,7 @@ def create_link(job_id: str, requested: LinkIn, caller: Submitter, response: Res
 def list_links(job_id: str, caller: Reader, context: InContext) -> LinkList:
     """The public links to a job."""
     with context.database.read() as session:
-        found(session, caller.owner, job_id)
+        own_job(session, caller.owner, job_id)
         return LinkList(items=[LinkOut.of(link) for link in repository.of_job(session, job_id)])
 
 
@@ -122,7 +122,7 @@ def get_shared_artifact(token: str, name: str, request: Request, context: InCont
     """An artifact that a public link opens: whole, or the ranges asked for."""
     with context.database.read() as session:
         link = _good(session, token)
-        artifact = artifacts.get(session, link.job_id, name) if opens(link, name) else None
+        artifact = artifacts.get(session, link.job_id, name) if opens_artifact(link, name) else None
     if artifact is None:
         raise Problem(404, "artifact_not_found", "The link opens no artifact of this name.", headers=FROM_ANYWHERE)
     response = deliver(artifact.stored, context.storage, request.headers, request.method == "HEAD")
@@ -139,7 +139,7 @@ def _whose(caller: Caller, scope: Scope) -> str | None:
 
 
 def _good(session: Session, token: str) -> PublicLink:
-    link = repository.good(session, token)
+    link = repository.valid_link(session, token)
     if link is None:
         raise _gone()
     return link

@@ -28,7 +28,7 @@ def page(session: Session, owner: str | None, limit: int, before_id: str | None)
     return session.scalars(query).all()
 
 
-def good(session: Session, token: str) -> PublicLink | None:
+def valid_link(session: Session, token: str) -> PublicLink | None:
     """The link with this token, if it has not expired and the key that made it was not revoked."""
     ahead = or_(PublicLink.expires_at.is_(None), PublicLink.expires_at > now())
     query = select(PublicLink).join(Key, Key.id == PublicLink.owner)

@@ -105,7 +105,7 @@ class SharedOut(BaseModel):
                 content_type=artifact.content_type,
             )
             for artifact in artifacts
-            if opens(link, artifact.name)
+            if opens_artifact(link, artifact.name)
         }
         return cls(
             kind=job.kind,
@@ -117,7 +117,7 @@ class SharedOut(BaseModel):
         )
 
 
-def opens(link: PublicLink, name: str) -> bool:
+def opens_artifact(link: PublicLink, name: str) -> bool:
     """Whether a link opens the artifact of this name."""
     return link.names is None or name in link.names
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from engine.motion.catalogue import CATALOGUE
 from service.context import Context
 from service.keeping.presentation import Presentation
-from service.keeping.service import file_of, missing
+from service.keeping.service import file_of, not_found_problem
 from service.libraries.library import MOTIONS
 from service.motions.checks import Check
 from service.motions.schemas import MotionOut
@@ -27,4 +27,4 @@ def stored(context: Context, owner: str, name: str) -> Stored:
         return file.stored
     if name in MOTIONS.built_in:
         raise Problem(404, "motion_without_file", "A built-in motion has no file: it is made for each character.")
-    raise missing(MOTIONS)
+    raise not_found_problem(MOTIONS)

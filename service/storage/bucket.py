@@ -10,7 +10,7 @@ import obstore
 from obstore.store import S3Store
 
 from service.settings import Settings
-from service.storage.files import Storage, StorageUnavailable, understood
+from service.storage.files import Storage, StorageUnavailable, translate_errors
 
 RETRY_TIMEOUT = timedelta(seconds=30)
 """How long a request is tried again, at most, before the storage counts as unavailable: tries that are refused at once
@@ -30,7 +30,7 @@ class Bucket(Storage):
     def reachable(self) -> bool:
         """Whether it answers, and there is such a bucket."""
         try:
-            with understood():
+            with translate_errors():
                 next(iter(obstore.list(self._probe, prefix="nothing", chunk_size=1)), None)
         except (StorageUnavailable, OSError):
             return False

@@ -39,7 +39,7 @@ class Storage:
 
     def put(self, key: str, file: BinaryIO) -> None:
         """Store a whole file under `key`. Raises OSError: when the disk is full, or `StorageUnavailable`."""
-        with understood():
+        with translate_errors():
             obstore.put(self._store, key, file, chunk_size=PART_BYTES, max_concurrency=PARTS_AT_ONCE)
 
     def adopt(self, key: str, path: Path) -> None:
@@ -73,7 +73,7 @@ class Storage:
         """The file under `key` as a local path: the file itself, or a copy `to`. Raises FileNotFoundError, OSError."""
         if self.folder is not None:
             return self.local(key)
-        with understood(), to.open("wb") as file:
+        with translate_errors(), to.open("wb") as file:
             for piece in obstore.get(self._store, key).stream(min_chunk_size=CHUNK_BYTES):
                 file.write(piece)
         return to
@@ -82,7 +82,7 @@ class Storage:
         """The bytes from `start` up to `end` (not included), in pieces. Raises FileNotFoundError, OSError."""
         if start >= end:
             return
-        with understood():
+        with translate_errors():
             found = await obstore.get_async(self._store, key, options={"range": (start, end)})
             async for piece in found.stream(min_chunk_size=CHUNK_BYTES):
                 yield bytes(piece)
@@ -94,7 +94,7 @@ class Storage:
         """
         for key in keys:
             try:
-                with understood():
+                with translate_errors():
                     obstore.delete(self._store, key)
             except FileNotFoundError:
                 continue
@@ -111,13 +111,13 @@ class Storage:
 
     def keys(self, prefix: str, before: datetime | None = None) -> Iterator[str]:
         """The keys under a prefix, those that were written before a moment if one is given."""
-        with understood():
+        with translate_errors():
             for page in obstore.list(self._store, prefix=prefix):
                 yield from (entry["path"] for entry in page if before is None or entry["last_modified"] < before)
 
     def sizes(self, prefix: str) -> dict[str, int]:
         """The keys under a prefix with the bytes they hold, newest first."""
-        with understood():
+        with translate_errors():
             entries = [entry for page in obstore.list(self._store, prefix=prefix) for entry in page]
         entries.sort(key=lambda entry: entry["last_modified"], reverse=True)
         return {entry["path"]: entry["size"] for entry in entries}
@@ -128,7 +128,7 @@ class Storage:
 
 
 @contextmanager
-def understood() -> Iterator[None]:
+def translate_errors() -> Iterator[None]:
     """What obstore raises, as OSErrors."""
     try:
         yield

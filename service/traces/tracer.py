@@ -35,7 +35,7 @@ def parent_of(traceparent: str | None) -> Context:
     return TraceContextTextMapPropagator().extract({"traceparent": traceparent or ""}, context=Context())
 
 
-def below(span: Span) -> Context:
+def child_context(span: Span) -> Context:
     """Where a new span belongs that is a part of this one."""
     return set_span_in_context(span, Context())
 
@@ -43,7 +43,7 @@ def below(span: Span) -> Context:
 def traceparent_of(span: Span) -> str | None:
     """The name under which other processes know a span; None if it belongs to no trace."""
     carrier: dict[str, str] = {}
-    TraceContextTextMapPropagator().inject(carrier, context=below(span))
+    TraceContextTextMapPropagator().inject(carrier, context=child_context(span))
     return carrier.get("traceparent")
 
 

@@ -9,7 +9,7 @@ from starlette.responses import JSONResponse, Response
 from service.auth.caller import Caller, Reader, Submitter
 from service.context import Context, InContext
 from service.disk import require_space
-from service.http.bodies import announced
+from service.http.bodies import announced_bytes
 from service.problems import Problem, responses
 from service.tables.uploads import Upload
 from service.uploads import protocol, service
@@ -23,12 +23,12 @@ from service.uploads.protocol import (
     UploadLength,
     UploadMetadata,
     UploadOffset,
-    bare,
-    told,
+    documented_answer,
+    documented_bare_problems,
 )
 from service.uploads.reception import Reception
 from service.uploads.schemas import UploadOut
-from service.uploads.under_way import InUnderWay, UnderWay
+from service.uploads.under_way import ActiveUploads, InUnderWay
 
 tus = APIRouter(prefix="/uploads", tags=["uploads"], route_class=TusRoute)
 of_version = [Depends(protocol.require_version)]
@@ -41,11 +41,13 @@ router = APIRouter()
     "",
     status_code=204,
     operation_id="describe_uploads",
-    responses=told(204, "What is offered", "Tus-Version", "Tus-Extension", "Tus-Max-Size", "Tus-Checksum-Algorithm"),
+    responses=documented_answer(
+        204, "What is offered", "Tus-Version", "Tus-Extension", "Tus-Max-Size", "Tus-Checksum-Algorithm"
+    ),
 )
 def describe_uploads(caller: Reader, context: InContext) -> Response:
     """What of the tus protocol is offered."""
-    return Response(status_code=204, headers=protocol.offer(context.settings))
+    return Response(status_code=204, headers=protocol.offered_headers(context.settings))
 
 
 @tus.post(
@@ -54,8 +56,8 @@ def describe_uploads(caller: Reader, context: InContext) -> Response:
     status_code=201,
     operation_id="create_upload",
     response_model=UploadOut,
-    openapi_extra=protocol.asks(body=False),
-    responses=told(201, "The upload", "Location", "Upload-Offset", "Upload-Expires")
+    openapi_extra=protocol.documented_request(body=False),
+    responses=documented_answer(201, "The upload", "Location", "Upload-Offset", "Upload-Expires")
     | responses(400, 408, 410, 412, 413, 415, 422, 423, 460, 503, 507),
 )
 async def create_upload(
@@ -81,7 +83,7 @@ async def create_upload(
     if piece:
         await _receive(request, caller, context, under_way, upload.id, 0, None, checksum)
     shown, file = await run_sync(service.found, context, caller.owner, upload.id)
-    headers = {"Location": f"/v1/uploads/{upload.id}", **protocol.standing(shown)}
+    headers = {"Location": f"/v1/uploads/{upload.id}", **protocol.state_headers(shown)}
     return JSONResponse(UploadOut.of(shown, file).model_dump(mode="json"), 201, headers=headers)
 
 
@@ -89,21 +91,21 @@ async def create_upload(
     "/{upload_id}",
     dependencies=of_version,
     operation_id="resume_upload",
-    openapi_extra=protocol.asks(),
+    openapi_extra=protocol.documented_request(),
     response_class=Response,
-    responses=told(
+    responses=documented_answer(
         200,
         "Where the upload stands",
         *("Upload-Offset", "Upload-Length", "Upload-Defer-Length", "Upload-Metadata", "Upload-Expires"),
     )
-    | bare(400, 404, 410, 412, 422, 423),
+    | documented_bare_problems(400, 404, 410, 412, 422, 423),
 )
 async def resume_upload(upload_id: str, caller: Submitter, context: InContext, under_way: InUnderWay) -> Response:
     """Where to go on. Whatever request is still at the upload is ended, so that the answer holds."""
     await run_sync(service.found, context, caller.owner, upload_id)
     async with under_way.hold(upload_id):
         upload, _ = await run_sync(service.found, context, caller.owner, upload_id)
-    return Response(status_code=200, headers=protocol.standing(upload) | protocol.description(upload))
+    return Response(status_code=200, headers=protocol.state_headers(upload) | protocol.description_headers(upload))
 
 
 @tus.patch(
@@ -111,8 +113,8 @@ async def resume_upload(upload_id: str, caller: Submitter, context: InContext, u
     dependencies=of_version,
     status_code=204,
     operation_id="add_to_upload",
-    openapi_extra=protocol.asks(body=True),
-    responses=told(204, "The piece is kept", "Upload-Offset", "Upload-Expires")
+    openapi_extra=protocol.documented_request(body=True),
+    responses=documented_answer(204, "The piece is kept", "Upload-Offset", "Upload-Expires")
     | responses(400, 404, 408, 409, 410, 412, 413, 415, 422, 423, 460, 503, 507),
 )
 async def add_to_upload(
@@ -132,7 +134,7 @@ async def add_to_upload(
         raise Problem(415, "body_type_unsupported", f"Send a piece as {PIECE_TYPE}.")
     checksum = Checksum(upload_checksum) if upload_checksum is not None else None
     upload = await _receive(request, caller, context, under_way, upload_id, upload_offset, upload_length, checksum)
-    return Response(status_code=204, headers=protocol.standing(upload))
+    return Response(status_code=204, headers=protocol.state_headers(upload))
 
 
 @tus.delete(
@@ -140,8 +142,8 @@ async def add_to_upload(
     dependencies=of_version,
     status_code=204,
     operation_id="end_upload",
-    openapi_extra=protocol.asks(),
-    responses=told(204, "Erased") | responses(400, 404, 410, 412, 422, 423),
+    openapi_extra=protocol.documented_request(),
+    responses=documented_answer(204, "Erased") | responses(400, 404, 410, 412, 422, 423),
 )
 async def end_upload(upload_id: str, caller: Submitter, context: InContext, under_way: InUnderWay) -> Response:
     """End an upload and erase what came of it. A file that it became goes too, unless a job or a driver uses it."""
@@ -167,7 +169,7 @@ async def _receive(
     request: Request,
     caller: Caller,
     context: Context,
-    under_way: UnderWay,
+    under_way: ActiveUploads,
     upload_id: str,
     offset: int,
     length: int | None,
@@ -186,7 +188,7 @@ async def _receive(
             )
         service.require_length(context, upload, length)
         length = upload.length if length is None else length
-        coming = announced(request)
+        coming = announced_bytes(request)
         if length is not None and offset + coming > length:
             raise Problem(
                 413,

@@ -42,7 +42,7 @@ UploadMetadata = Annotated[
 UploadChecksum = Annotated[
     str | None,
     Header(
-        description=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(ALGORITHMS)}.",
+        description_headers=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(ALGORITHMS)}.",
         json_schema_extra={"pattern": f"^({'|'.join(ALGORITHMS)}) [A-Za-z0-9+/]+=*$"},
     ),
 ]
@@ -93,7 +93,7 @@ async def require_version(
     )
 
 
-def offer(settings: Settings) -> dict[str, str]:
+def offered_headers(settings: Settings) -> dict[str, str]:
     """What the service can do, as OPTIONS tells it."""
     return {
         "Tus-Version": TUS_VERSION,
@@ -103,7 +103,7 @@ def offer(settings: Settings) -> dict[str, str]:
     }
 
 
-def standing(upload: Upload) -> dict[str, str]:
+def state_headers(upload: Upload) -> dict[str, str]:
     """Where an upload stands, as headers."""
     headers = {"Upload-Offset": str(upload.received), "Cache-Control": "no-store"}
     if not upload.finished:
@@ -111,7 +111,7 @@ def standing(upload: Upload) -> dict[str, str]:
     return headers
 
 
-def description(upload: Upload) -> dict[str, str]:
+def description_headers(upload: Upload) -> dict[str, str]:
     """What an upload is, as headers."""
     length = {"Upload-Defer-Length": "1"} if upload.length is None else {"Upload-Length": str(upload.length)}
     return length | ({"Upload-Metadata": upload.notes} if upload.notes else {})
@@ -135,17 +135,17 @@ TUS_HEADERS: dict[str, dict[str, Any]] = {
 }
 
 
-def told(status: int, text: str, *names: str) -> dict[int | str, dict[str, Any]]:
+def documented_answer(status: int, text: str, *names: str) -> dict[int | str, dict[str, Any]]:
     """An answer and its headers, for the OpenAPI document."""
     return {status: {"description": text, "headers": {name: TUS_HEADERS[name] for name in ("Tus-Resumable", *names)}}}
 
 
-def bare(*statuses: int) -> dict[int | str, dict[str, Any]]:
+def documented_bare_problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """Problems that come without a body, for the OpenAPI document: HEAD is answered with headers only."""
     return {status: {"description": phrase(status)} for status in statuses}
 
 
-def asks(body: bool | None = None) -> dict[str, Any]:
+def documented_request(body: bool | None = None) -> dict[str, Any]:
     """What a request must bring, for the OpenAPI document: the version, and a piece (`body`) or perhaps one (False)."""
     version = {"type": "string", "enum": [TUS_VERSION]}
     parameter = {"name": "Tus-Resumable", "in": "header", "required": True, "schema": version}

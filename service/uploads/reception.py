@@ -65,9 +65,9 @@ class Reception:
         try:
             self._spool = self._path.open("rb+")
         except FileNotFoundError:
-            raise spool.gone() from None
+            raise spool.upload_gone() from None
         if self._spool.seek(0, 2) < self.upload.received:
-            raise spool.gone()
+            raise spool.upload_gone()
         self._spool.truncate(self.upload.received)
         self._spool.seek(self.upload.received)
         self._digest.rewind(self.upload.received)
@@ -152,7 +152,7 @@ class Reception:
         values |= {"received": self._written, "expires_at": spool.expiry(self._settings)}
         with self._context.database.write() as session:
             if not repository.advance(session, self.upload, **values):
-                raise spool.gone()
+                raise spool.upload_gone()
             if self.length is None:
                 require_room(session, self._settings, self.upload.owner, 0)
         for name, value in values.items():
@@ -176,7 +176,7 @@ class Reception:
                 record(session, file)
                 values = {"received": file.size, "length": file.size, "file_id": file.id}
                 if not repository.advance(session, self.upload, **values):
-                    raise spool.gone()
+                    raise spool.upload_gone()
                 require_room(session, self._settings, file.owner, 0)
         except BaseException:
             self._context.storage.delete([file.key])

@@ -33,7 +33,7 @@ def erase_expired(session: Session, before: datetime) -> list[str]:
     return _erase(session, Upload.expires_at < before)
 
 
-def known(session: Session, ids: Sequence[str]) -> set[str]:
+def existing_ids(session: Session, ids: Sequence[str]) -> set[str]:
     """Which of these ids are uploads that are not finished."""
     return set(session.scalars(select(Upload.id).where(Upload.id.in_(ids), Upload.file_id.is_(None))))
 

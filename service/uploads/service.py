@@ -21,7 +21,7 @@ from service.tables.files import File
 from service.tables.uploads import Upload
 from service.uploads import metadata, repository, spool
 from service.uploads.reception import Reception
-from service.uploads.under_way import Hold
+from service.uploads.under_way import UploadHold
 
 WRITE_BYTES = 1 << 20
 """How much of a piece that comes in is held in memory."""
@@ -67,7 +67,7 @@ def found(context: Context, owner: str, upload_id: str) -> tuple[Upload, File | 
     if upload is None:
         raise Problem(404, "upload_not_found", "There is no such upload: it has expired, was ended, or never was.")
     if file is None and upload.expires_at < now():
-        raise spool.gone()
+        raise spool.upload_gone()
     return upload, file
 
 
@@ -89,7 +89,7 @@ def require_length(context: Context, upload: Upload, length: int | None) -> None
         )
 
 
-async def receive(request: Request, hold: Hold, reception: Reception) -> None:
+async def receive(request: Request, hold: UploadHold, reception: Reception) -> None:
     """Add the request's body to an upload. What came before the line broke is kept, unless it has a checksum to meet.
 
     Raises `Problem`; `ClientDisconnect` where nobody is there to be told anything.
@@ -106,7 +106,7 @@ async def receive(request: Request, hold: Hold, reception: Reception) -> None:
             await run_sync(reception.close)
 
 
-async def _stream(request: Request, hold: Hold, reception: Reception) -> Exception | None:
+async def _stream(request: Request, hold: UploadHold, reception: Reception) -> Exception | None:
     """Take the body as it comes. Returns why it ended early, if it did."""
     try:
         with hold.interruptible as scope:

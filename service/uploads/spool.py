@@ -53,6 +53,6 @@ def expiry(settings: Settings) -> datetime:
     return now() + timedelta(hours=settings.upload_hours)
 
 
-def gone() -> Problem:
+def upload_gone() -> Problem:
     """The upload was there and is no more."""
     return Problem(410, "upload_expired", "The upload has expired and was erased: begin again.")

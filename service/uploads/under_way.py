@@ -23,7 +23,7 @@ HOLD_TIMEOUT_SECONDS = 10.0
 MAX_DIGESTS = 1000
 
 
-class Hold:
+class UploadHold:
     """That one request is at an upload."""
 
     def __init__(self) -> None:
@@ -36,15 +36,15 @@ class Hold:
         self.interruptible.cancel()
 
 
-class UnderWay:
+class ActiveUploads:
     """The uploads under way in this process."""
 
     def __init__(self) -> None:
-        self._holds: dict[str, Hold] = {}
+        self._holds: dict[str, UploadHold] = {}
         self._digests: OrderedDict[str, RunningDigest] = OrderedDict()
 
     @asynccontextmanager
-    async def hold(self, upload_id: str) -> AsyncIterator[Hold]:
+    async def hold(self, upload_id: str) -> AsyncIterator[UploadHold]:
         """Be the only request at an upload; an earlier one is asked to let go. Raises a 423 problem if it does not."""
         with anyio.move_on_after(HOLD_TIMEOUT_SECONDS):
             while (earlier := self._holds.get(upload_id)) is not None:
@@ -57,7 +57,7 @@ class UnderWay:
                 "The upload is being stored by another request: ask again in a moment.",
                 headers={"Retry-After": "5"},
             )
-        hold = self._holds[upload_id] = Hold()
+        hold = self._holds[upload_id] = UploadHold()
         try:
             yield hold
         finally:
@@ -76,9 +76,9 @@ class UnderWay:
         self._digests.pop(upload_id, None)
 
 
-async def _under_way(request: Request) -> UnderWay:
-    under_way: UnderWay = request.app.state.uploads
+async def _under_way(request: Request) -> ActiveUploads:
+    under_way: ActiveUploads = request.app.state.uploads
     return under_way
 
 
-InUnderWay = Annotated[UnderWay, Depends(_under_way)]
+InUnderWay = Annotated[ActiveUploads, Depends(_under_way)]

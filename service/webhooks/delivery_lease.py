@@ -3,7 +3,7 @@
 A worker that dies in between leaves a lease that expires: the delivery is tried again. So each is delivered at least
 once, and two attempts at one never run at the same time.
 
-The moment is always given. Workers give the database's (`present`), for their own clocks may differ.
+The moment is always given. Workers give the database's (`database_now`), for their own clocks may differ.
 """
 
 from __future__ import annotations
@@ -74,12 +74,12 @@ class Outcome:
         return self.status == 410
 
 
-def present(session: Session) -> datetime:
+def database_now(session: Session) -> datetime:
     """Now, by the database's clock."""
     return session.scalars(select(moment_in())).one()
 
 
-def due(session: Session, settings: Settings, moment: datetime) -> bool:
+def any_due(session: Session, settings: Settings, moment: datetime) -> bool:
     """Whether there is anything to claim; reads only."""
     return session.scalar(_next(settings, moment)) is not None
 
@@ -221,7 +221,7 @@ def _fail(session: Session, delivery: Delivery, outcome: Outcome, moment: dateti
     delivery.tries += 1
     if delivery.status != DeliveryStatus.PENDING:
         return  # given up while this attempt went on
-    pause = None if outcome.gone else schedule.pause(delivery.event, delivery.tries, outcome.retry_after, chance)
+    pause = None if outcome.gone else schedule.retry_delay(delivery.event, delivery.tries, outcome.retry_after, chance)
     delivery.next_attempt_at = None if pause is None else moment + pause
     if pause is None:
         delivery.status = DeliveryStatus.FAILED

@@ -16,7 +16,7 @@ from service.ids import LIKE_AN_ID, is_id
 from service.problems import Problem, responses
 from service.tables.webhooks import Delivery, DeliveryStatus
 from service.webhooks import repository, service
-from service.webhooks.repository import Wanted
+from service.webhooks.repository import DeliveryFilter
 from service.webhooks.schemas import (
     DeliveryDetail,
     DeliveryOut,
@@ -69,7 +69,7 @@ def list_deliveries(
         raise Problem(422, "invalid_cursor", "The cursor is not one that a list gave: begin again without it.")
     if any(one is not None and not is_id(one) for one in (job, webhook)):
         return DeliveryPage(items=[], next_cursor=None)
-    wanted = Wanted(status, event, job, webhook)
+    wanted = DeliveryFilter(status, event, job, webhook)
     with context.database.read() as session:
         found = repository.deliveries(session, caller.owner, wanted, limit + 1, cursor)
         shown = found[:limit]

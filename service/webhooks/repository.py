@@ -14,7 +14,7 @@ from service.tables.webhooks import Delivery, DeliveryAttempt, DeliveryStatus, W
 
 
 @dataclass(frozen=True)
-class Wanted:
+class DeliveryFilter:
     """Which deliveries a list shows."""
 
     statuses: Sequence[DeliveryStatus] = ()
@@ -69,7 +69,9 @@ def delivery(session: Session, owner: str, delivery_id: str) -> Delivery | None:
     return session.scalar(select(Delivery).where(Delivery.id == delivery_id, Delivery.owner == owner))
 
 
-def deliveries(session: Session, owner: str, wanted: Wanted, limit: int, before_id: str | None) -> Sequence[Delivery]:
+def deliveries(
+    session: Session, owner: str, wanted: DeliveryFilter, limit: int, before_id: str | None
+) -> Sequence[Delivery]:
     """An owner's deliveries, newest first. Ids grow with time, so that one of them marks a place in the list."""
     query = select(Delivery).where(Delivery.owner == owner).order_by(Delivery.id.desc()).limit(limit)
     if before_id is not None:

@@ -31,7 +31,7 @@ PROGRESS_RETRIES = 2
 FAILING_DAYS, FAILING_DELIVERIES = 5, 3
 
 
-def pause(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:
+def retry_delay(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:
     """How long to wait after an attempt that was the `tries`-th to fail (from 1); None if it was the last.
 
     `asked` is what the receiver asked for by `Retry-After`: it may make the pause longer, up to a day.

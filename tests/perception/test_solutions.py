@@ -7,8 +7,8 @@ import sys
 
 STEPS = """
 import sys
-from engine.perception.solutions import solution
-solution("face_mesh")
+from engine.perception.solutions import load_solution
+load_solution("face_mesh")
 assert "matplotlib" not in sys.modules and "matplotlib.pyplot" not in sys.modules
 from mediapipe.python.solutions import drawing_utils
 figure = drawing_utils.plt.figure()
@@ -17,8 +17,8 @@ assert isinstance(figure, matplotlib.figure.Figure)
 """
 OTHERS = """
 import sys
-from engine.perception.solutions import UNNEEDED_MODULES, solution
-solution("face_mesh")
+from engine.perception.solutions import UNNEEDED_MODULES, load_solution
+load_solution("face_mesh")
 assert not set(UNNEEDED_MODULES) & set(sys.modules)
 import mediapipe
 assert mediapipe.tasks.vision.FaceLandmarker.__module__.startswith("mediapipe.tasks.python.vision.")
@@ -48,9 +48,9 @@ def test_nothing_is_said_of_old_ways() -> None:
 
 TOGETHER = """
 from concurrent.futures import ThreadPoolExecutor
-from engine.perception.solutions import solution
+from engine.perception.solutions import load_solution
 with ThreadPoolExecutor(3) as pool:
-    for found in pool.map(solution, ("face_mesh", "pose", "selfie_segmentation")):
+    for found in pool.map(load_solution, ("face_mesh", "pose", "selfie_segmentation")):
         assert found.__name__.startswith("mediapipe.python.solutions.")
 """
 

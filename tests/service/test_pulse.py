@@ -5,12 +5,12 @@ from __future__ import annotations
 import threading
 from pathlib import Path
 
-from service.pulse import Pulse, least_silence, silence
+from service.pulse import Pulse, least_silent_seconds, silent_seconds
 
 
 def test_a_worker_that_beats_is_silent_at_no_moment(tmp_path: Path) -> None:
     pulse = Pulse(tmp_path, "here:1")
-    assert least_silence(tmp_path) == float("inf"), "nobody was heard yet"
+    assert least_silent_seconds(tmp_path) == float("inf"), "nobody was heard yet"
     pulse.beat()
     over = threading.Event()
 
@@ -20,12 +20,12 @@ def test_a_worker_that_beats_is_silent_at_no_moment(tmp_path: Path) -> None:
 
     beating = threading.Thread(target=go_on)
     beating.start()
-    heard = [least_silence(tmp_path) for _ in range(5000)]
+    heard = [least_silent_seconds(tmp_path) for _ in range(5000)]
     over.set()
     beating.join()
     assert float("inf") not in heard
     pulse.end()
-    assert silence(tmp_path, "here:1") == float("inf")
+    assert silent_seconds(tmp_path, "here:1") == float("inf")
 
 
 def test_a_worker_whose_file_was_erased_is_heard_again(tmp_path: Path) -> None:
@@ -33,4 +33,4 @@ def test_a_worker_whose_file_was_erased_is_heard_again(tmp_path: Path) -> None:
     pulse.beat()
     pulse.end()
     pulse.beat()
-    assert silence(tmp_path, "here:1") < 60
+    assert silent_seconds(tmp_path, "here:1") < 60

@@ -48,7 +48,7 @@ def opened(tmp_path: Path, database_url: str) -> Callable[..., object]:
 
 def stored(url: str) -> list[str]:
     """All secrets as they stand in the tables."""
-    place, arguments = postgresql.address(url) if postgresql.speaks(url) else (url, {})
+    place, arguments = postgresql.address(url) if postgresql.is_postgresql_url(url) else (url, {})
     with create_engine(place, connect_args=arguments).begin() as connection:
         rows = [connection.scalars(text(f"SELECT {column} FROM {table}")).all() for table, column in COLUMNS]
     return [secret for row in rows for secret in row if secret is not None]

@@ -26,16 +26,16 @@ from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
 from service.traces.tracer import fail
-from worker.attempts.conclusion import DISK_FULL, conclude, erase_unneeded, unwritten
+from worker.attempts.conclusion import DISK_FULL, conclude, erase_unneeded, unwritten_verdict
 from worker.attempts.eta import Eta
-from worker.attempts.heartbeat import beating
+from worker.attempts.heartbeat import renewing_lease
 from worker.attempts.preparation import Folders, prepare
 from worker.attempts.spans import AttemptSpans
 from worker.attempts.stage_order import Stages
 from worker.job_files import inputs
 from worker.job_files.fetch import FetchFailed
 from worker.job_files.mirror import Mirror
-from worker.job_files.plain_files import Refused
+from worker.job_files.plain_files import FileRefused
 from worker.job_files.publish import publish
 from worker.job_process.children import Child, ChildLost
 
@@ -110,7 +110,7 @@ class Attempt:
         log.info("attempt_started")
         try:
             self._fetch_inputs()
-            with beating(self._context, self._lease):
+            with renewing_lease(self._context, self._lease):
                 told = prepare(self._context, self._job, self._folders, self._mirror, self._allowance, self._user)
             self._working = time.monotonic()
             self._child.send(told)
@@ -120,7 +120,7 @@ class Attempt:
         except ChildLost as lost:
             verdict = {"outcome": "crashed", "reason": str(lost)}
         except OSError as error:
-            verdict = unwritten(error)
+            verdict = unwritten_verdict(error)
         except Exception:
             log.exception("attempt_unwatched")
             verdict = {"outcome": "crashed", "reason": "the worker met a fault of the program"}
@@ -153,7 +153,7 @@ class Attempt:
 
     def _fetch(self, url: str, folder: Path, number: int, count: int, span: Span) -> None:
         """Fetch one of `count` inputs and keep it as a file of the job. Raises `Stop`."""
-        fetching, told, ended = inputs.Fetching(self._context, url, folder), "", False
+        fetching, told, ended = inputs.RunningFetch(self._context, url, folder), "", False
         try:
             while not ended:
                 ended = fetching.ended(TICK_SECONDS)
@@ -161,7 +161,7 @@ class Attempt:
                     told = fetching.message
                     self._tell("fetch", FETCHING_SHARE * (number + fetching.fraction) / count, told)
                 self._tend()
-            with beating(self._context, self._lease):
+            with renewing_lease(self._context, self._lease):
                 sources = inputs.keep(self._context, self._job, self._lease, url, fetching.result())
         except FetchFailed as failed:
             fail(span, failed.code)
@@ -195,7 +195,7 @@ class Attempt:
         if self._progress is not None and moment - self._reported > REPORT_SECONDS:
             self._report()
         elif moment - self._renewed > self._lease.seconds / 4:
-            self._write(lambda session: leases.change(session, self._lease))
+            self._write(lambda session: leases.update_job(session, self._lease))
 
     def _note(self, event: dict[str, Any]) -> None:
         match event["event"]:
@@ -207,7 +207,7 @@ class Attempt:
                 self._spans.stage(event)
             case "stored":
                 self._mirror.keep(str(event.get("key")))
-                self._write(lambda session: leases.bear_fruit(session, self._lease))
+                self._write(lambda session: leases.note_new_stage(session, self._lease))
             case "artifact":
                 self._publish(self._folders.out / Path(str(event["name"])).name)
 
@@ -225,13 +225,15 @@ class Attempt:
         self._reported = time.monotonic()
         if progress is not None:
             begun = self._stages.news()
-            self._write(lambda session: leases.report(session, self._lease, progress, self._stages.names, begun))
+            self._write(
+                lambda session: leases.report_progress(session, self._lease, progress, self._stages.names, begun)
+            )
 
     def _publish(self, path: Path) -> None:
         try:
-            with beating(self._context, self._lease):
+            with renewing_lease(self._context, self._lease):
                 published = publish(self._context, self._lease, path)
-        except Refused as refused:
+        except FileRefused as refused:
             structlog.get_logger().warning("artifact_refused", reason=str(refused))
             return
         except SQLAlchemyError:
@@ -281,7 +283,7 @@ class Attempt:
             raise Stop({"outcome": "stopped", "reason": "the worker was told to stop"})
         try:
             with self._context.database.read() as session:
-                held = leases.holds(session, self._lease)
+                held = leases.is_held(session, self._lease)
         except SQLAlchemyError:
             return  # the heartbeat decides how long that may last
         if not held:

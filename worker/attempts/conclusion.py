@@ -26,9 +26,9 @@ from service.jobs.leases import Lease
 from service.jobs.stages import erase
 from service.storage.files import StorageUnavailable
 from service.tables.jobs import Job, Status
-from worker.attempts.heartbeat import beating
+from worker.attempts.heartbeat import renewing_lease
 from worker.attempts.preparation import Folders
-from worker.job_files.plain_files import Refused
+from worker.job_files.plain_files import FileRefused
 from worker.job_files.publish import publish_all
 from worker.retry_db import retry_db
 
@@ -50,13 +50,13 @@ def conclude(
     true: success may turn into failure where files are refused or cannot be stored, and anything into `lost`."""
     if verdict["outcome"] == "succeeded":
         try:
-            with beating(context, lease):
+            with renewing_lease(context, lease):
                 whole = publish_all(context, lease, folders.out, published)
             return verdict if whole else {"outcome": "lost"}
-        except Refused as refused:
+        except FileRefused as refused:
             verdict = {"outcome": "failed", "code": "internal_error", "detail": str(refused)}
         except OSError as error:
-            verdict = unwritten(error)
+            verdict = unwritten_verdict(error)
         except SQLAlchemyError:
             verdict = {"outcome": "lost"}
     shutil.rmtree(folders.attempt, ignore_errors=True)  # first, so that a full disk has room for the record
@@ -71,7 +71,7 @@ def conclude(
     return verdict
 
 
-def unwritten(error: OSError) -> dict[str, Any]:
+def unwritten_verdict(error: OSError) -> dict[str, Any]:
     """The verdict on a job whose files could not be written."""
     if isinstance(error, StorageUnavailable):
         return {"outcome": "stopped", "reason": "the storage did not answer"}

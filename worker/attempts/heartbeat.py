@@ -19,7 +19,7 @@ BEATS_PER_LEASE = 4
 
 
 @contextmanager
-def beating(context: Context, lease: Lease) -> Iterator[None]:
+def renewing_lease(context: Context, lease: Lease) -> Iterator[None]:
     """Renew the lease from another thread as long as the block lasts, unless it is lost."""
     over = threading.Event()
 
@@ -27,7 +27,7 @@ def beating(context: Context, lease: Lease) -> Iterator[None]:
         while not over.wait(lease.seconds / BEATS_PER_LEASE):
             try:
                 with context.database.write() as session:
-                    if not leases.change(session, lease):
+                    if not leases.update_job(session, lease):
                         return
             except SQLAlchemyError as error:
                 structlog.get_logger().warning("lease_not_renewed", reason=str(error).splitlines()[0])

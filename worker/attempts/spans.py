@@ -16,7 +16,7 @@ from opentelemetry.trace import Span, SpanKind, Tracer
 
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
-from service.traces.tracer import below, fail, parent_of, trace_id
+from service.traces.tracer import child_context, fail, parent_of, trace_id
 
 MAX_STAGES = 200
 """The most stages of one attempt; what more it tells of is left out."""
@@ -57,14 +57,14 @@ class AttemptSpans:
         if event.get("turn") == "began" and self._told < MAX_STAGES:
             self._told += 1
             self._stages[name] = self._tracer.start_span(
-                f"stage {name}", below(self._whole), attributes={"galatea.stage": name}, start_time=at
+                f"stage {name}", child_context(self._whole), attributes={"galatea.stage": name}, start_time=at
             )
 
     @contextmanager
     def fetching(self, url: str) -> Iterator[Span]:
         """The fetch of one input. Of its address, which may hold secrets, only the host is told."""
         attributes: dict[str, str | int] = {"server.address": urlsplit(url).hostname or ""}
-        span = self._tracer.start_span("fetch", below(self._whole), SpanKind.CLIENT, attributes)
+        span = self._tracer.start_span("fetch", child_context(self._whole), SpanKind.CLIENT, attributes)
         try:
             yield span
         finally:

@@ -24,7 +24,7 @@ LOOK_SECONDS = 1.0
 
 
 @contextmanager
-def announced(context: Context, kinds: Sequence[str]) -> Iterator[None]:
+def announcing(context: Context, kinds: Sequence[str]) -> Iterator[None]:
     """Tell the jobs of these kinds that wait, from another thread, as long as the block lasts."""
     over = threading.Event()
 
@@ -74,4 +74,4 @@ def _note(context: Context, jobs: Sequence[Job], stage: str | None, message: str
     for job in jobs:
         progress = job.progress | {"stage": stage, "fraction": job.progress.get("fraction", 0.0), "message": message}
         with context.database.write() as session:
-            leases.note(session, job.id, progress | {"eta_seconds": None})
+            leases.note_waiting(session, job.id, progress | {"eta_seconds": None})

@@ -31,14 +31,14 @@ import engine
 from service.catalogue.registry import load_kinds
 from service.settings import Settings
 from worker.programs.interpreter import module_command, module_environment
-from worker.programs.parent_death import tied_to_parent
+from worker.programs.parent_death import tied_command
 
 NAME = "rehearsed"
 FORGOTTEN_SECONDS = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
-def rehearsed(settings: Settings) -> bool:
+def is_rehearsed(settings: Settings) -> bool:
     """Whether it was done already."""
     return _mark(settings.kinds).exists()
 
@@ -49,7 +49,7 @@ def rehearse(settings: Settings) -> None:
     log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
     command = module_command("worker.compilation.rehearsal", *settings.kinds)
     done = subprocess.run(  # noqa: S603  (our own program)
-        tied_to_parent(command),
+        tied_command(command),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
@@ -115,7 +115,7 @@ def main() -> None:
             other.unlink(missing_ok=True)
 
 
-def kept_in() -> set[Path]:
+def compiled_folders() -> set[Path]:
     """The folders under which lies what was compiled of the engine's loaded modules: jobs read it when they use it."""
     return {Path(function._cache.cache_path).parent for _, _, function in _functions()}
 

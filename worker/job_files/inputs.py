@@ -14,7 +14,7 @@ from service.context import Context
 from service.files.service import record
 from service.ids import new_id
 from service.jobs import leases
-from service.jobs.inputs import Refused, require_media
+from service.jobs.inputs import ValueRefused, require_media
 from service.jobs.leases import Lease
 from service.problems import Problem
 from service.settings import MEGABYTE
@@ -29,7 +29,7 @@ def addresses(sources: dict[str, Any]) -> list[str]:
     return list(dict.fromkeys(one["url"] for one in each if "url" in one))
 
 
-class Fetching:
+class RunningFetch:
     """A fetch under way."""
 
     def __init__(self, context: Context, url: str, folder: Path):
@@ -89,7 +89,7 @@ def keep(context: Context, job: Job, lease: Lease, url: str, fetched: Fetched) -
         if {"url": url} in (source if isinstance(source, list) else [source]):
             try:
                 require_media(item, fetched.content_type)
-            except Refused as refused:
+            except ValueRefused as refused:
                 raise FetchFailed(refused.code, refused.detail) from refused
     file = File(
         id=new_id(),
@@ -104,7 +104,7 @@ def keep(context: Context, job: Job, lease: Lease, url: str, fetched: Fetched) -
     context.storage.adopt(file.key, fetched.path)
     try:
         with context.database.write() as session:
-            held = leases.change(session, lease, sources=sources, fruitless_attempts=0)
+            held = leases.update_job(session, lease, sources=sources, fruitless_attempts=0)
             if held:
                 require_room(session, context.settings, job.owner, file.size)
                 record(session, file)

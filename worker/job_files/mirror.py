@@ -20,7 +20,7 @@ import structlog
 
 from service.jobs.stages import stages_prefix
 from service.storage.files import Storage
-from worker.job_files.plain_files import FILE_NAME_PATTERN, Refused, opened
+from worker.job_files.plain_files import FILE_NAME_PATTERN, FileRefused, open_plain
 
 KEY_PATTERN = re.compile(r"[0-9a-f]{40}")
 MAX_MIRROR_BYTES = 1_000_000_000
@@ -73,18 +73,18 @@ class Mirror:
                 if key not in self._sent and not self._abandoned:
                     self._send(key)
                     self._sent.add(key)
-            except (Refused, OSError) as error:
+            except (FileRefused, OSError) as error:
                 structlog.get_logger().warning("stage_not_mirrored", stage=key, reason=str(error))
 
     def _send(self, key: str) -> None:
         with tempfile.TemporaryFile(dir=self._temporary) as packed:
             with tarfile.open(fileobj=packed, mode="w") as tar:
                 for path in sorted((self._folder / key).iterdir()):
-                    with opened(path) as file:
+                    with open_plain(path) as file:
                         entry = tarfile.TarInfo(path.name)
                         entry.size = path.lstat().st_size
                         if packed.tell() + entry.size > MAX_MIRROR_BYTES:
-                            raise Refused("it is too large")
+                            raise FileRefused("it is too large")
                         tar.addfile(entry, file)
             packed.seek(0)
             self._storage.put(f"{self._prefix}/{key}", packed)

@@ -21,7 +21,7 @@ from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.artifacts import Artifact
 from worker.job_files.content_types import content_type
-from worker.job_files.plain_files import Refused, opened
+from worker.job_files.plain_files import FileRefused, open_plain
 from worker.retry_db import retry_db
 
 REPORT_BYTES, MAX_STAGES = 1_000_000, 40
@@ -32,13 +32,13 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
     """Publish one artifact of a job that goes on.
 
     Returns its size and time of change, by which `publish_all` sees whether it is still the same; None if the
-    lease is lost. Raises `Refused`, OSError.
+    lease is lost. Raises `FileRefused`, OSError.
     """
     artifact, mark = _store(context, lease, path)
 
     def record() -> tuple[bool, str | None]:
         with context.database.write() as session:
-            if not leases.change(session, lease):
+            if not leases.update_job(session, lease):
                 return False, None
             return True, _record(session, _copy(artifact))
 
@@ -53,13 +53,13 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
 def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[str, tuple[int, int]]) -> bool:
     """Publish everything in `out` that is not published yet and end the job as succeeded, all by one change.
 
-    Returns False if the lease was lost: then nothing is published. Raises `Refused`, OSError.
+    Returns False if the lease was lost: then nothing is published. Raises `FileRefused`, OSError.
     """
     artifacts: list[Artifact] = []
 
     def record() -> list[str | None] | None:
         with context.database.write() as session:
-            if not leases.change(session, lease):
+            if not leases.update_job(session, lease):
                 return None
             freed = [_record(session, _copy(artifact)) for artifact in artifacts]
             leases.succeed(session, lease)
@@ -86,7 +86,7 @@ def _erase_unrecorded(context: Context, artifacts: Sequence[Artifact]) -> bool:
     although it has done what it was asked. While it cannot be asked, everything stays, and housekeeping sees to it."""
     try:
         with context.database.read() as session:
-            recorded = repository.known(session, [artifact.id for artifact in artifacts])
+            recorded = repository.existing_ids(session, [artifact.id for artifact in artifacts])
     except SQLAlchemyError:
         return False
     context.storage.delete(artifact.key for artifact in artifacts if artifact.id not in recorded)
@@ -96,15 +96,15 @@ def _erase_unrecorded(context: Context, artifacts: Sequence[Artifact]) -> bool:
 def _stage_seconds(out: Path) -> dict[str, float]:
     """How long the stages took, as the report says; nothing where it says nothing that can be believed."""
     try:
-        with opened(out / "report.json") as file:
+        with open_plain(out / "report.json") as file:
             stages = json.loads(file.read(REPORT_BYTES))["stages"].items()
         return {str(name): float(spent) for name, spent in list(stages)[:MAX_STAGES] if 0 <= float(spent) < 1e6}
-    except (Refused, OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
+    except (FileRefused, OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return {}
 
 
 def _store(context: Context, lease: Lease, path: Path) -> tuple[Artifact, tuple[int, int]]:
-    with opened(path) as file:
+    with open_plain(path) as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
         status = os.fstat(file.fileno())
         artifact = Artifact(

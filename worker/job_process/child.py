@@ -22,11 +22,11 @@ from typing import Any, NoReturn
 from engine.kind import Kind
 from engine.perception.models import MATTING_SETTING
 from service.catalogue.registry import load_kinds
-from worker.compilation.rehearsal import kept_in, load_compiled
+from worker.compilation.rehearsal import compiled_folders, load_compiled
 from worker.job_process import exit_reason
-from worker.job_process.work import Wire, failed, files_of, local, perform
+from worker.job_process.work import EventChannel, failed, files_of, local, perform
 from worker.programs.parent_death import die_with_parent
-from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, of_the_program
+from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, program_paths
 
 MAX_LINE_BYTES = 1_000_000
 READ_BYTES = 1 << 16
@@ -104,14 +104,14 @@ class JobProcess:
         computed_too_long = usage.ru_utime + usage.ru_stime > cpu_seconds
         if os.WIFSIGNALED(status) and (os.WTERMSIG(status) == signal.SIGXCPU or computed_too_long):
             return TIME_LIMIT
-        return exit_reason.name(status)
+        return exit_reason.death_name(status)
 
 
 def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: int) -> NoReturn:
     """The life of a job's process."""
     code = 1
     try:
-        wire = Wire(os.fdopen(told, "wb"))
+        wire = EventChannel(os.fdopen(told, "wb"))
         readable = [path for source in job["inputs"].values() for path in files_of(local(source))]
         changeable = [Path(job[name]) for name in ("out", "temporary", "stages", "shared")]
         keep_to_cores(job["cores"])
@@ -125,7 +125,7 @@ def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: 
         os._exit(code)
 
 
-def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int) -> dict[str, Any]:
+def follow(process: JobProcess, commands: Commands, wire: EventChannel, cpu_seconds: int) -> dict[str, Any]:
     """Pass on what the job's process says and what it is told, until it ends. Returns how it ended."""
     verdict: dict[str, Any] | None = None
     killed = False
@@ -156,7 +156,7 @@ def follow(process: JobProcess, commands: Commands, wire: Wire, cpu_seconds: int
         most = f"more than {cpu_seconds} seconds, all cores together, the most that a job may (GALATEA_JOB_CPU_SECONDS)"
         return failed("time_limit", f"The job computed for {most}: send a shorter input.")
     if verdict is None or "outcome" not in verdict:
-        return {"outcome": "crashed", "reason": exit_reason.in_words(why), "death": exit_reason.of_its_own(why)}
+        return {"outcome": "crashed", "reason": exit_reason.death_in_words(why), "death": exit_reason.own_death(why)}
     return verdict
 
 
@@ -178,7 +178,7 @@ def main() -> None:
     limit(limits)
     commands = Commands(os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-    wire = Wire(os.fdopen(wire_fd, "wb"))
+    wire = EventChannel(os.fdopen(wire_fd, "wb"))
     served = sys.argv[4].split(",") if sys.argv[4] else []
     kinds = {name: kind for name, kind in load_kinds(sys.argv[5:]).items() if name in served or not served}
     for kind in kinds.values():
@@ -187,7 +187,7 @@ def main() -> None:
     load_compiled(sys.argv[5:])
     _compile_without_keeping()
     models = [Path(os.environ[MATTING_SETTING])] if MATTING_SETTING in os.environ else []
-    ready = Ready(kinds, limits, [*of_the_program(), *kept_in(), *models])
+    ready = Ready(kinds, limits, [*program_paths(), *compiled_folders(), *models])
     wire.send("ready")
     while True:
         for job in commands.read():

@@ -21,7 +21,7 @@ import structlog
 from engine.perception.models import MATTING_SETTING
 from service.settings import MEGABYTE, Settings
 from worker.programs.interpreter import module_command, module_environment
-from worker.programs.niceness import give_way
+from worker.programs.niceness import lower_priority
 from worker.sandbox.confinement import Limits
 
 MAX_LINE_BYTES = 1_000_000
@@ -61,7 +61,7 @@ class Child:
                 env=_environment(settings),
                 start_new_session=True,
             )
-            give_way(self._process.pid, settings.job_niceness)  # from its first import on
+            lower_priority(self._process.pid, settings.job_niceness)  # from its first import on
             if settings.job_cores:
                 os.sched_setaffinity(self._process.pid, _cores(settings, turn))
         except BaseException:

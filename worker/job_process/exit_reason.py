@@ -18,7 +18,7 @@ SIGNAL_REASONS = {
 }
 
 
-def name(status: int) -> str | None:
+def death_name(status: int) -> str | None:
     """The name of the death that `os.wait` tells of; None for an orderly end."""
     if os.WIFSIGNALED(status):
         number = os.WTERMSIG(status)
@@ -30,7 +30,7 @@ def name(status: int) -> str | None:
     return f"exit {code}" if code else None
 
 
-def in_words(death: str | None) -> str:
+def death_in_words(death: str | None) -> str:
     """What happened, as the rest of a sentence that may begin with "The last time: "."""
     if death is None:
         return "the job's process ended unexpectedly"
@@ -39,6 +39,6 @@ def in_words(death: str | None) -> str:
     return SIGNAL_REASONS.get(death, f"the job's process was ended by {death}")
 
 
-def of_its_own(death: str | None) -> str | None:
+def own_death(death: str | None) -> str | None:
     """The death if the process brought it about itself, None if it may have come from outside."""
     return None if death in FROM_OUTSIDE else death

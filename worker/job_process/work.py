@@ -24,7 +24,7 @@ from engine.store import StageStore
 from service.catalogue import built_in
 
 
-class Wire:
+class EventChannel:
     """A way to tell what happens: JSON, one object a line."""
 
     def __init__(self, file: BinaryIO):
@@ -43,7 +43,7 @@ class Wire:
 class ReportingStore(StageStore):
     """A store that tells the worker of each new stage: an attempt that stored one was not in vain."""
 
-    def __init__(self, folder: Path, wire: Wire):
+    def __init__(self, folder: Path, wire: EventChannel):
         super().__init__(folder)
         self._wire = wire
 
@@ -53,7 +53,7 @@ class ReportingStore(StageStore):
         return stored
 
 
-def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: Wire, orders: int) -> dict[str, Any]:
+def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: EventChannel, orders: int) -> dict[str, Any]:
     """Run one job; it is canceled once something can be read from `orders`. Returns how it ended:
     `{"outcome": "succeeded" | "canceled"}`, or `failed` with code and detail."""
     out, temporary = Path(job["out"]), Path(job["temporary"])

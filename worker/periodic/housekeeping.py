@@ -43,7 +43,7 @@ def keep_house(context: Context) -> None:
     erase_old_jobs(context)
     erase_old_files(context)
     forget_old_deliveries(context)
-    analyses.erase_unneeded(context, analyses.kept(context.settings))
+    analyses.erase_unneeded(context, analyses.stored_analyses(context.settings))
     erase_expired_uploads(context)
     erase_orphans(context)
     trim((context.settings.data_dir / "cache").glob("*/*"), context.settings.cache_mb * MEGABYTE)
@@ -89,7 +89,11 @@ def erase_orphans(context: Context) -> None:
     """Erase what lies on disk without a record: a process was killed between storing and recording, or between
     erasing the one and the other."""
     before = now() - MIN_ORPHAN_AGE
-    for prefix, known in (("files", files.known), ("artifacts", artifacts.known), (STAGES_PREFIX, jobs.with_folder)):
+    for prefix, known in (
+        ("files", files.existing_ids),
+        ("artifacts", artifacts.existing_ids),
+        (STAGES_PREFIX, jobs.with_folder),
+    ):
         keys = context.storage.keys(prefix, before)
         while batch := list(islice(keys, BATCH_JOBS)):
             ids = {key: key.split("/")[1] for key in batch}  # of a stage, the id is its tree's
@@ -106,7 +110,7 @@ def erase_orphans(context: Context) -> None:
         for folder in _older(data / "jobs", before - longest):
             shutil.rmtree(folder, ignore_errors=True)
     spooled = {path.name: path for path in _older(spool.folder(context.settings), before)}
-    for upload_id in _without_record(context, list(spooled), uploads.known):
+    for upload_id in _without_record(context, list(spooled), uploads.existing_ids):
         spooled[upload_id].unlink(missing_ok=True)
     for path in _older(data / "incoming", before):
         path.unlink(missing_ok=True)

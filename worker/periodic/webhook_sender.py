@@ -48,11 +48,13 @@ class WebhookSender:
         then."""
         self._going_on = {attempt for attempt in self._going_on if not attempt.done()}
         with self._context.database.read() as session:
-            if not delivery_lease.due(session, self._context.settings, moment or delivery_lease.present(session)):
+            if not delivery_lease.any_due(
+                session, self._context.settings, moment or delivery_lease.database_now(session)
+            ):
                 return self._going_on
         while len(self._going_on) < self._context.settings.webhook_concurrency:
             with self._context.database.write() as session:
-                began = moment or delivery_lease.present(
+                began = moment or delivery_lease.database_now(
                     session
                 )  # each time anew: a lease begins now, however late we are
                 claim = delivery_lease.claim(session, self._context.settings, began)

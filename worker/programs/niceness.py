@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 
-def give_way(process: int, niceness: int) -> None:
+def lower_priority(process: int, niceness: int) -> None:
     """Rank a process that leads a session of its own below those that are less nice (0 is what most are).
 
     Where Linux groups processes by session (`kernel.sched_autogroup_enabled`, on by default), a process's own niceness

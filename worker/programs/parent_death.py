@@ -23,7 +23,7 @@ def die_with_parent(parent: int, with_signal: int = signal.SIGKILL) -> None:
         os._exit(1)
 
 
-def tied_to_parent(command: list[str], with_signal: int = signal.SIGKILL) -> list[str]:
+def tied_command(command: list[str], with_signal: int = signal.SIGKILL) -> list[str]:
     """The command that runs `command` tied to this process."""
     return [sys.executable, "-I", "-S", __file__, str(os.getpid()), str(int(with_signal)), *command]
 

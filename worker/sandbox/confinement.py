@@ -68,7 +68,7 @@ def confine(parent: int, limits: Limits, readable: Iterable[Path], changeable: I
         _step_down(limits.user if files_kept else None)
     die_with_parent(parent)  # a change of user would undo it
     if seccomp.available():
-        seccomp.refuse()
+        seccomp.install_filter()
 
 
 def keep_to_cores(cores: int) -> None:
@@ -81,14 +81,14 @@ def keep_to_cores(cores: int) -> None:
 def _step_down(user: int | None) -> None:
     try:
         if user is not None:
-            privileges.become(user, may_read_all=True)
+            privileges.become_user(user, may_read_all=True)
         else:
             privileges.keep_capabilities(0)
     except PermissionError:
         privileges.keep_capabilities(0)  # root of a container that may not change who it is
 
 
-def of_the_program() -> list[Path]:
+def program_paths() -> list[Path]:
     """The folders and files that the program itself is read from: the interpreter, its packages, and the packages of
     every module that is loaded. Never a whole folder of the module path: the data may lie in it."""
     paths = sysconfig.get_paths()
@@ -112,7 +112,7 @@ def _probe(user: int | None) -> dict[str, bool]:
         parent = os.getpid()
         if (child := os.fork()) == 0:
             limit(limits)
-            confine(parent, limits, of_the_program(), [Path(folder)])
+            confine(parent, limits, program_paths(), [Path(folder)])
             found = {
                 "network": _refused(lambda: socket.create_server(("127.0.0.1", 0)).close()),
                 "files": _refused(lambda: Path("/etc/passwd").read_bytes()),

@@ -14,13 +14,13 @@ CAPABILITY_VERSION_3 = 0x20080522
 CAP_DAC_READ_SEARCH = 2
 
 
-class Unknown(Exception):
+class UnknownUser(Exception):
     """There is no user of that name."""
 
 
 def user_id(user: str) -> int | None:
     """The number of the user that jobs work as; None where they stay who the worker is: it is not root, or `user` is
-    empty. Raises `Unknown`."""
+    empty. Raises `UnknownUser`."""
     if os.geteuid() != 0 or not user:
         return None
     if user.isdecimal():
@@ -28,7 +28,7 @@ def user_id(user: str) -> int | None:
     try:
         return pwd.getpwnam(user).pw_uid
     except KeyError:
-        raise Unknown(f"there is no user “{user}”") from None
+        raise UnknownUser(f"there is no user “{user}”") from None
 
 
 def no_new_privileges() -> None:
@@ -36,7 +36,7 @@ def no_new_privileges() -> None:
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
 
 
-def become(user: int, may_read_all: bool) -> None:
+def become_user(user: int, may_read_all: bool) -> None:
     """Become another user, for good, without groups and capabilities. Raises OSError where root may not even do that.
 
     With `may_read_all` one capability is kept: to read and search whatever lies there. It is for processes whose

@@ -50,7 +50,7 @@ def available() -> bool:
     return platform.machine() == "x86_64" and ctypes.CDLL(None).prctl(21, 0, 0, 0, 0) >= 0  # PR_GET_SECCOMP
 
 
-def refuse() -> None:
+def install_filter() -> None:
     """Refuse these calls to this thread, and to those that it starts, for good. Needs `no_new_privs`. Raises
     OSError."""
     program = b"".join(_program(os.getpid()))

@@ -37,7 +37,7 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     that lasts through half of a clip is not taken for rest, where the other half is quiet.
 
     It is a habit: a segment ends where the face has come back to what it comes back to, be that a little amused. A calm face
-    that is seen in fewer than `NEIGHBOUR_SHARE` of the frames is an exception. `neutral.probable_rest` looks for that one, however
+    that is seen in fewer than `NEIGHBOUR_SHARE` of the frames is an exception. `neutral.estimate_rest` looks for that one, however
     rare: in this place it finds two more of 80 joined performances, one wrongly, and misses a smile in the real clips
     (`benchmarks/moments`).
     """

@@ -51,7 +51,7 @@ def test_a_follower_misses_no_event_however_many_write(database: Database, job: 
         while not last:
             last = over.is_set()
             with database.read() as session:
-                seen.extend(event.id for event in events.after(session, job.id, seen[-1] if seen else 0))
+                seen.extend(event.id for event in events.events_after(session, job.id, seen[-1] if seen else 0))
 
     def write(number: int) -> None:
         for step in range(15):
@@ -67,7 +67,7 @@ def test_a_follower_misses_no_event_however_many_write(database: Database, job: 
     over.set()
     follower.join()
     with database.read() as session:
-        assert seen == [event.id for event in events.after(session, job.id, 0)]
+        assert seen == [event.id for event in events.events_after(session, job.id, 0)]
     assert len(seen) == writers * 15
 
 
@@ -85,7 +85,7 @@ def test_without_the_job_s_row_as_a_lock_events_would_come_out_of_order(database
         with database.write() as quick:
             quick.add(event("second"))
         with database.read() as session:
-            assert [one.data["name"] for one in events.after(session, job.id, 0)] == ["second"]
+            assert [one.data["name"] for one in events.events_after(session, job.id, 0)] == ["second"]
 
 
 def test_a_file_that_a_job_takes_in_this_moment_is_not_erased(database: Database, job: Job) -> None:
@@ -98,7 +98,7 @@ def test_a_file_that_a_job_takes_in_this_moment_is_not_erased(database: Database
     with database.write() as session:
         session.add(file)
     with database.write() as submitting:
-        assert files.held(submitting, "local", file.id) is not None
+        assert files.get_locked(submitting, "local", file.id) is not None
         with database.write() as erasing:
             assert files.erase_unused(erasing, before=now()) == [], "it is held"
         submitting.add(JobFile(job_id=job.id, file_id=file.id))
@@ -120,7 +120,7 @@ def test_of_a_job_and_an_eraser_that_want_a_file_one_gives_way(database: Databas
         def take(file: File = file, barrier: threading.Barrier = barrier) -> bool:
             barrier.wait()
             with database.write() as session:
-                if files.held(session, "local", file.id) is None:
+                if files.get_locked(session, "local", file.id) is None:
                     return False
                 session.add(JobFile(job_id=job.id, file_id=file.id))
                 return True

@@ -27,7 +27,7 @@ def test_many_count_at_once(database: Database) -> None:
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(count, range(40)))
     with database.read() as session:
-        assert list(counters.counted(session)) == [("galatea_uploaded_bytes", ["image"], 200.0)]
+        assert list(counters.all_counters(session)) == [("galatea_uploaded_bytes", ["image"], 200.0)]
 
 
 def test_what_fails_is_not_counted(database: Database) -> None:
@@ -35,7 +35,7 @@ def test_what_fails_is_not_counted(database: Database) -> None:
         counters.add(session, "galatea_uploaded_bytes", "image")
         _ = 1 / 0
     with database.read() as session:
-        assert list(counters.counted(session)) == []
+        assert list(counters.all_counters(session)) == []
 
 
 def test_labels_of_any_text_fit(database: Database) -> None:
@@ -43,4 +43,4 @@ def test_labels_of_any_text_fit(database: Database) -> None:
         counters.add(session, "galatea_stage_runs", "tiny", "x" * 500)
         counters.add(session, "galatea_stage_runs", "tiny", 'a "b", \\c')
     with database.read() as session:
-        assert {labels[1] for _, labels, _ in counters.counted(session)} == {"x" * 50, 'a "b", \\c'}
+        assert {labels[1] for _, labels, _ in counters.all_counters(session)} == {"x" * 50, 'a "b", \\c'}

@@ -83,13 +83,13 @@ def test_a_worker_that_was_replaced_can_change_nothing(context: Context, job_id:
     new = claim(context, job_id)
     assert new is not None and new.token > old.token
     with context.database.write() as session:
-        assert not leases.holds(session, old)
-        assert not leases.report(session, old, {"stage": "x", "fraction": 0.5})
-        assert not leases.bear_fruit(session, old)
+        assert not leases.is_held(session, old)
+        assert not leases.report_progress(session, old, {"stage": "x", "fraction": 0.5})
+        assert not leases.note_new_stage(session, old)
         assert not leases.succeed(session, old)
         assert not leases.fail(session, old, "code", "detail")
         assert leases.give_back(session, old, "late") is None
-        assert leases.holds(session, new)
+        assert leases.is_held(session, new)
     assert status(context, job_id) == ("running", 2)
 
 
@@ -107,7 +107,9 @@ def test_three_fruitless_attempts_in_a_row_fail_the_job(context: Context, job_id
 
 def places(context: Context, *jobs: str) -> list[int | None]:
     with context.database.read() as session:
-        found = repository.places(session, [job for one in jobs if (job := repository.get(session, one)) is not None])
+        found = repository.queue_places(
+            session, [job for one in jobs if (job := repository.get(session, one)) is not None]
+        )
     return [found.get(one) for one in jobs]
 
 
@@ -133,13 +135,15 @@ def test_progress_keeps_the_stages_and_tells_who_follows_of_each_once(context: C
     lease = claim(context, job_id)
     assert lease is not None
     with context.database.write() as session:
-        leases.report(session, lease, {"stage": "a", "fraction": 0.1}, ["a"], begun=True)
-        leases.report(session, lease, {"stage": "a", "fraction": 0.2}, ["a"])
-        leases.report(session, lease, {"stage": "b", "fraction": 0.3}, ["a", "b"], begun=True)
+        leases.report_progress(session, lease, {"stage": "a", "fraction": 0.1}, ["a"], begun=True)
+        leases.report_progress(session, lease, {"stage": "a", "fraction": 0.2}, ["a"])
+        leases.report_progress(session, lease, {"stage": "b", "fraction": 0.3}, ["a", "b"], begun=True)
         assert leases.succeed(session, lease)
     with context.database.read() as session:
         job = repository.get(session, job_id)
-        told = [event.data.get("stages") for event in events.after(session, job_id, 0) if event.type == "progress"]
+        told = [
+            event.data.get("stages") for event in events.events_after(session, job_id, 0) if event.type == "progress"
+        ]
     assert job is not None and job.progress["stages"] == ["a", "b"]
     assert told == [["a"], None, ["a", "b"]]
 
@@ -152,7 +156,7 @@ def test_a_process_that_dies_twice_alike_without_getting_further_is_not_tried_ag
         assert lease is not None
         with context.database.write() as session:
             if fruit:
-                leases.bear_fruit(session, lease)
+                leases.note_new_stage(session, lease)
             return leases.give_back(session, lease, "a library gave up", counts, death=death)
 
     assert ends("SIGABRT") == Status.QUEUED
@@ -171,7 +175,7 @@ def test_a_stored_stage_begins_the_count_anew(context: Context, job_id: str) -> 
         lease = claim(context, job_id)
         assert lease is not None
         with context.database.write() as session:
-            assert leases.bear_fruit(session, lease)
+            assert leases.note_new_stage(session, lease)
             assert leases.give_back(session, lease, "it died") == Status.QUEUED
 
 

@@ -176,10 +176,10 @@ def test_both_databases_find_the_same(database: Database) -> None:
         "run": False,
     }.items():
         with database.read() as session:
-            jobs = repository.page(session, LOCAL_KEY_ID, 10, words=search.words(query))
+            jobs = repository.page(session, LOCAL_KEY_ID, 10, words=search.search_words(query))
         assert bool(jobs) is there, query
     with database.write() as session:
-        search.retitle(repository.held(session, job.id), "Penelope")  # type: ignore[arg-type]
+        search.retitle(repository.get_locked(session, job.id), "Penelope")  # type: ignore[arg-type]
     with database.read() as session:
-        assert repository.page(session, LOCAL_KEY_ID, 10, words=search.words("penelope été walk"))
-        assert not repository.page(session, LOCAL_KEY_ID, 10, words=search.words("ὀδυσσεύσ"))
+        assert repository.page(session, LOCAL_KEY_ID, 10, words=search.search_words("penelope été walk"))
+        assert not repository.page(session, LOCAL_KEY_ID, 10, words=search.search_words("ὀδυσσεύσ"))

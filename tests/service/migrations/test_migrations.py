@@ -14,8 +14,8 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import MetaData, Table, create_engine, insert, select, text
 
 from service.auth.tokens import digest
-from service.database.sessions import Database, DatabaseInUse, WouldForget, alembic_config, postgresql
-from service.links.repository import good, page
+from service.database.sessions import Database, DatabaseInUse, DowngradeLosesData, alembic_config, postgresql
+from service.links.repository import page, valid_link
 from service.tables import Base
 
 SCRIPTS = ScriptDirectory.from_config(alembic_config())
@@ -50,7 +50,7 @@ def database(database_url: str) -> Iterator[Database]:
 
 def connect(database: Database) -> Any:
     url = database.url
-    place, arguments = postgresql.address(url) if postgresql.speaks(url) else (url, {})
+    place, arguments = postgresql.address(url) if postgresql.is_postgresql_url(url) else (url, {})
     return create_engine(place, connect_args=arguments).begin()
 
 
@@ -123,7 +123,7 @@ def test_tables_that_somebody_uses_are_left_as_they_are(database: Database) -> N
 
 def test_what_would_be_lost_is_said_before(database: Database) -> None:
     database.upgrade()
-    with pytest.raises(WouldForget, match="the table motions"):
+    with pytest.raises(DowngradeLosesData, match="the table motions"):
         database.migrate("0010")
     assert database.revision() == REVISIONS[-1]
     lost = database.forgets("0005")
@@ -153,10 +153,10 @@ def test_links_of_before_go_on_working(database: Database) -> None:
             connection.execute(insert(links).values(row | {"created_at": moment}))
     database.upgrade()
     with database.read() as session:
-        link = good(session, "token-0")
+        link = valid_link(session, "token-0")
         assert link is not None and (link.id, link.hint) == ("0" * 36, "token-")
         assert link.token_hash == digest("token-0")
-        assert good(session, "token-1") is None and good(session, link.token_hash) is None
+        assert valid_link(session, "token-1") is None and valid_link(session, link.token_hash) is None
     with database.read() as session:
         assert [one.id for one in page(session, None, 10, None)] == ["0" * 36]
 

@@ -45,7 +45,7 @@ def progress(context: Context, job_id: str) -> dict[str, Any]:
 def told(context: Context, job_id: str) -> int:
     """How often its followers heard of it."""
     with context.database.read() as session:
-        return len(events.after(session, job_id, 0))
+        return len(events.events_after(session, job_id, 0))
 
 
 def test_they_are_told_once_and_it_is_taken_back_once(context: Context) -> None:
@@ -76,8 +76,8 @@ def test_what_others_serve_and_what_runs_is_left_alone(context: Context) -> None
     announce(context, ["tiny"])
     with context.database.write() as session:
         lease = leases.claim(session, taken, "somebody", 30)
-        assert lease is not None and leases.report(session, lease, {"stage": "rest", "fraction": 0.5})
-        assert not leases.note(session, taken, {})
+        assert lease is not None and leases.report_progress(session, lease, {"stage": "rest", "fraction": 0.5})
+        assert not leases.note_waiting(session, taken, {})
     take_back(context, ["tiny"])
     assert progress(context, taken) == {"stage": "rest", "fraction": 0.5, "stages": []}
     assert progress(context, others) == {}

@@ -19,12 +19,12 @@ def heap():
 
 CONFINED = """
 import os
-from worker.sandbox.confinement import Limits, confine, limit, of_the_program
-from worker.compilation.rehearsal import kept_in
+from worker.sandbox.confinement import Limits, confine, limit, program_paths
+from worker.compilation.rehearsal import compiled_folders
 
 limits = Limits(memory_bytes=4 << 30, file_bytes=1 << 30, cpu_seconds=60, user=None)
 limit(limits)
-confine(os.getppid(), limits, [*of_the_program(), *kept_in()], [])
+confine(os.getppid(), limits, [*program_paths(), *compiled_folders()], [])
 print(heap(), sum(sift_up.stats.cache_hits.values()))
 """
 

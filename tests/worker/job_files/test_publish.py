@@ -15,7 +15,7 @@ from service.job_records import artifacts
 from service.jobs import leases
 from service.jobs.leases import Lease
 from service.tables.jobs import Job
-from worker.job_files.plain_files import Refused
+from worker.job_files.plain_files import FileRefused
 from worker.job_files.publish import publish, publish_all
 
 
@@ -98,7 +98,7 @@ def test_what_is_no_plain_file_under_a_plain_name_is_refused(
             os.mkfifo(path)
         case "name":
             path.write_bytes(b"{}")
-    with pytest.raises(Refused):
+    with pytest.raises(FileRefused):
         publish_all(context, lease, out, {})
     assert shown(context, lease) == {}
     assert stored(context) == 0

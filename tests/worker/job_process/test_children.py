@@ -14,7 +14,7 @@ import pytest
 
 from service.settings import Settings
 from worker.job_process.children import Child, ChildLost, WarmChildren
-from worker.programs.parent_death import tied_to_parent
+from worker.programs.parent_death import tied_command
 
 ROOT = Path(__file__).parents[3]
 
@@ -79,9 +79,9 @@ def test_one_is_used_again_unless_something_is_wrong_with_it(settings: Settings)
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_tethered_process_ends_with_its_parent(number: signal.Signals) -> None:
-    command = tied_to_parent(["/bin/sleep", "60"])
+    command = tied_command(["/bin/sleep", "60"])
     script = f"import os, subprocess; p = subprocess.Popen({command!r}); print(p.pid, flush=True); p.wait()"
-    # `tied_to_parent` names the process that calls it as the parent; here that is the script.
+    # `tied_command` names the process that calls it as the parent; here that is the script.
     script = script.replace(repr(str(os.getpid())), "str(os.getpid())")
     parent = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
     assert parent.stdout is not None

@@ -35,7 +35,7 @@ from service.tables.keys import LOCAL_KEY_ID, Key
 from service.tables.webhooks import Delivery, DeliveryAttempt, EventType, Webhook
 from service.webhooks import delivery_lease, outbox, service
 from service.webhooks import repository as webhooks
-from service.webhooks.schedule import RETRY_DELAYS, pause
+from service.webhooks.schedule import RETRY_DELAYS, retry_delay
 from service.webhooks.schemas import WebhookIn
 from worker.periodic.housekeeping import forget_old_deliveries
 from worker.periodic.webhook_sender import WebhookSender
@@ -156,7 +156,7 @@ def test_a_job_s_end_is_told_signed(context: Context, sender: WebhookSender, rec
     assert (data["id"], data["status"], data["metadata"]) == (job_id, "succeeded", {"order": 7})
     with context.database.read() as session:
         assert told["timestamp"][:19] == repository.get(session, job_id).finished_at.isoformat()[:19]
-        last = events.after(session, job_id, 0)[-1]
+        last = events.events_after(session, job_id, 0)[-1]
     assert told["sequence"] == last.id
     poster = data["artifacts"]["poster.jpg"]
     assert poster["url"] == f"https://galatea.example/v1/jobs/{job_id}/artifacts/poster.jpg"
@@ -175,7 +175,7 @@ def test_every_way_to_end_is_told_and_no_other_event(context: Context, sender: W
     succeeded(context)
     failed, canceled, exhausted = begun(context), begun(context), begun(context, fruitless_attempts=2)
     with context.database.write() as session:
-        leases.report(session, failed, {"stage": "x", "fraction": 0.5})
+        leases.report_progress(session, failed, {"stage": "x", "fraction": 0.5})
         leases.fail(session, failed, "no_face", "No face.")
         leases.cancel(session, canceled.job_id)
         leases.give_back(session, exhausted, "it died")
@@ -288,7 +288,7 @@ def test_410_ends_all_for_an_address_of_a_job(context: Context, sender: WebhookS
     receiver = receive(answer=status(410))
     lease = begun(context, webhook_url=receiver.url, webhook_events=["job.progress", "job.succeeded"])
     with context.database.write() as session:
-        leases.report(session, lease, {"stage": "x", "fraction": 0.5})
+        leases.report_progress(session, lease, {"stage": "x", "fraction": 0.5})
         leases.succeed(session, lease)
     first = sender.look(now())
     wait(first)
@@ -415,11 +415,11 @@ def test_what_the_receiver_asks_for_makes_the_pause_longer(
 
 def test_pauses_grow_and_end() -> None:
     chance = Random(1)
-    pauses = [pause("job.failed", tries, None, chance) for tries in range(1, 11)]
+    pauses = [retry_delay("job.failed", tries, None, chance) for tries in range(1, 11)]
     assert pauses[-1] is None
     for found, planned in zip(pauses, RETRY_DELAYS, strict=False):
         assert found is not None and planned <= found <= planned * 1.1
-    assert [pause("job.progress", tries, None, chance) is None for tries in (1, 2, 3)] == [False, False, True]
+    assert [retry_delay("job.progress", tries, None, chance) is None for tries in (1, 2, 3)] == [False, False, True]
 
 
 def test_a_private_address_is_not_called(tmp_path: Path, receive: Receive, names: dict[str, list[list[str]]]) -> None:
@@ -535,7 +535,7 @@ def test_progress_is_told_on_request_and_not_too_often(
     def report(fraction: float, moment: datetime) -> None:
         with context.database.write() as session:
             progress = {"stage": "render", "fraction": fraction, "message": "", "eta_seconds": None}
-            assert leases.change(session, lease, progress=progress)
+            assert leases.update_job(session, lease, progress=progress)
             event = events.Event(job_id=lease.job_id, type="progress", data=progress, created_at=moment)
             session.add(event)
             session.flush()
