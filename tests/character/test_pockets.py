@@ -19,7 +19,7 @@ from benchmarks.known_person import PICTURE_SIZE, draw_into
 from benchmarks.known_places import places
 from engine.body.shape import Phenotype
 from engine.character.figure import Figure
-from engine.character.labels import ARMS, PARTS
+from engine.character.labels import ARMS, BODY_PARTS
 from engine.character.measures import pose
 from engine.character.options import CharacterOptions
 from engine.character.pipeline import cut_all_out, find_figures, reconstruct
@@ -32,7 +32,7 @@ from engine.perception.body import BODY_LANDMARKS
 from engine.run import Run
 
 SHAPE = (160, 120)
-LEFT, TORSO, LEG = (PARTS.index(name) for name in ("left_arm", "torso", "left_leg"))
+LEFT, TORSO, LEG = (BODY_PARTS.index(name) for name in ("left_arm", "torso", "left_leg"))
 SKIN, SLEEVE, CLOTH = (205, 150, 130), (60, 70, 160), (60, 120, 60)
 
 STANDING = {
