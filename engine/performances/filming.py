@@ -12,6 +12,7 @@ reprojected, not pixels.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numba import prange
@@ -105,27 +106,40 @@ def _look_up(
 ) -> None:  # fmt: skip
     """Add to `light` (H, W, 3) and `weight` (H, W) what a key frame shows of each visible point, times `factor`."""
     place = np.array([*camera.eye, camera.focal, *camera.centre], np.float32)
-    _reproject(
-        raster.triangle, raster.barycentrics, scene.triangles, scene.part, key.scene.vertices, key.radiance,
-        key.raster.depth, key.parts, place, np.array([factor, SAME_SURFACE], np.float32), light, weight,
-    )  # fmt: skip
+    points = _ScenePoints(raster.triangle, raster.barycentrics, scene.triangles, scene.part)
+    shown = _KeyFrame(key.scene.vertices, key.radiance, key.raster.depth, key.parts)
+    _reproject(points, shown, place, np.array([factor, SAME_SURFACE], np.float32), light, weight)
+
+
+class _ScenePoints(NamedTuple):
+    """The visible point of each pixel (H, W): its triangle and barycentric coordinates; the scene's triangles and their parts."""
+
+    ids: np.ndarray
+    shares: np.ndarray
+    triangles: np.ndarray
+    part: np.ndarray
+
+
+class _KeyFrame(NamedTuple):
+    """A key frame: where the scene's vertices are in it, and each pixel's radiance, depth and part."""
+
+    vertices: np.ndarray
+    radiance: np.ndarray
+    depth: np.ndarray
+    parts: np.ndarray
 
 
 @njit(parallel=True, error_model="numpy")
 def _reproject(
-    ids: np.ndarray,
-    shares: np.ndarray,
-    triangles: np.ndarray,
-    part: np.ndarray,
-    vertices: np.ndarray,
-    radiance: np.ndarray,
-    depth: np.ndarray,
-    parts: np.ndarray,
+    points: _ScenePoints,
+    key: _KeyFrame,
     place: np.ndarray,
     terms: np.ndarray,
     light: np.ndarray,
     weight: np.ndarray,
 ) -> None:
+    ids, shares, triangles, part = points
+    vertices, radiance, depth, parts = key
     height, width = ids.shape
     ex, ey, ez, focal, cx, cy = place
     factor, tolerance = terms

@@ -30,7 +30,7 @@ from engine.render.multisampling import draw_samples, sample_offsets, select_pix
 from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into
 from engine.render.scratch import Scratch
-from engine.render.texturing import colour_inside, colour_samples, corner_table
+from engine.render.texturing import PictureWindow, TexturedSurface, colour_inside, colour_samples, corner_table
 
 SAMPLES_PER_AXIS = 3
 """Samples to a pixel, along each axis: ten steps from outside to inside along an edge."""
@@ -139,12 +139,13 @@ def _draw_over(
     marks, facing = scratch.filled("marks", size, False, np.bool_), facings(points, faces)
     mark_outline(points, subject.edges, facing, depths, marks)
     corners = corner_table(points, subject.mesh.uv, _shade(subject, posed, shading) if shading else None)
-    surface = corners, faces, subject.spread, *subject.mipmap
-    colour_inside(*surface, ids, marks, rgb, alpha, left, top)
+    surface = TexturedSurface(corners, faces, subject.spread, *subject.mipmap)
+    window = PictureWindow(rgb, alpha, left, top)
+    colour_inside(surface, ids, marks, window)
     chosen, offsets = select_pixels(marks), sample_offsets(samples)
     seen = draw_samples(points, faces, facing, subject.closed, *chosen, offsets)
     share = (offsets / SUBPIXEL_STEPS).astype(np.float32)
-    colour_samples(*surface, seen, chosen.places, share, alone, rgb, alpha, left, top)
+    colour_samples(surface, seen, chosen.places, share, alone, window)
     return alpha
 
 

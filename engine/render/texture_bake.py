@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -113,15 +114,14 @@ def bake(
             fronting &= view.paints
         own = np.flatnonzero(fronting[shown])
         trust = np.ones(view.camera.size, np.float32) if view.trust is None else view.trust
+        pixels_seen = _ViewPixels(view.picture, np.asarray(trust, np.float32), depth, edge)
+        weighing = _Weighing(view.gain, np.cos(np.radians(steepest)), power, slack)
         for start in range(0, len(own), STRIP_TEXELS):
             here = own[start : start + STRIP_TEXELS]
             corners, share = faces[shown[here]], places[here]
             where = view.camera.project(np.einsum("nk,nkd->nd", share, points[corners]))
             facing = (share * cosine[corners]).sum(1)
-            _gather(
-                *(view.picture, np.asarray(trust, np.float32), depth, edge, where, facing),
-                *(covered[here], view.gain, np.cos(np.radians(steepest)), power, slack, sums, weights),
-            )
+            _gather(pixels_seen, weighing, where, facing, covered[here], sums, weights)
     np.divide(sums, weights[:, None], out=sums, where=weights[:, None] > 0)
     charts = np.where(texels.triangle >= 0, atlas.charts[texels.triangle], -1).astype(np.int32)
     return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts)
@@ -202,23 +202,37 @@ def _beside_edges(depth: NDArray[np.float32], jump: float) -> NDArray[np.bool_]:
     return np.asarray(cv2.dilate(jumps, np.ones((JUMP_MARGIN_PIXELS, JUMP_MARGIN_PIXELS), np.uint8)) > 0)
 
 
+class _ViewPixels(NamedTuple):
+    """What a view has of each pixel (H, W): its colour, how far it is trusted, its depth, and whether that jumps beside it."""
+
+    picture: np.ndarray
+    trust: np.ndarray
+    depth: np.ndarray
+    edge: np.ndarray
+
+
+class _Weighing(NamedTuple):
+    """How much a view counts: its gain, the least cosine to the normal and its power, and how far behind is still seen."""
+
+    gain: float
+    min_cosine: float
+    power: float
+    slack: float
+
+
 @njit(nogil=True, boundscheck=False, error_model="numpy")
 def _gather(
-    picture: np.ndarray,
-    trust: np.ndarray,
-    depth: np.ndarray,
-    edge: np.ndarray,
+    view: _ViewPixels,
+    weighing: _Weighing,
     where: np.ndarray,
     facing: np.ndarray,
     texels: np.ndarray,
-    gain: float,
-    least: float,
-    power: float,
-    slack: float,
     sums: np.ndarray,
     weights: np.ndarray,
 ) -> None:
-    """Add what a picture shows at `where` (N, 3) to the texels that are there."""
+    """Add what a view shows at `where` (N, 3), at cosines `facing` (N,) to the normal, to the `texels` (N,) that are there."""
+    picture, trust, depth, edge = view
+    gain, least, power, slack = weighing
     height, width = depth.shape
     for i in range(len(texels)):
         x, y = where[i, 0], where[i, 1]

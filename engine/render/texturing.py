@@ -3,6 +3,8 @@ outline runs, or where two surfaces meet."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,32 @@ from engine.render.mipmap import look_up
 MAX_FOOTPRINT_RATIO, TOLERANCE_TEXELS = 4.0, 2.0
 """Two pixels side by side show one surface where they are apart on the texture by no more than `MAX_FOOTPRINT_RATIO` times what a pixel
 covers of it, and `TOLERANCE_TEXELS` texels."""
+
+
+class TexturedSurface(NamedTuple):
+    """A posed surface with its texture, as compiled code takes it."""
+
+    corners: np.ndarray
+    """(V, 5 or 6) of `corner_table`."""
+    faces: np.ndarray
+    """(T, 3) int32."""
+    spread: np.ndarray
+    """(T,) the area of each triangle on the texture, texels."""
+    texels: np.ndarray
+    """The three arrays of the texture's `engine.render.mipmap.Mipmap`."""
+    starts: np.ndarray
+    sizes: np.ndarray
+
+
+class PictureWindow(NamedTuple):
+    """A part of a picture, which begins at column `left` and row `top` of the whole."""
+
+    rgb: np.ndarray
+    """(H, W, 3) uint8, of the whole picture."""
+    alpha: np.ndarray
+    """(H, W) float32, of the whole picture."""
+    left: int
+    top: int
 
 
 def corner_table(
@@ -30,26 +58,13 @@ def corner_table(
 
 
 @njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
-def colour_inside(
-    corners: np.ndarray,
-    faces: np.ndarray,
-    spread: np.ndarray,
-    texels: np.ndarray,
-    starts: np.ndarray,
-    sizes: np.ndarray,
-    ids: np.ndarray,
-    marks: np.ndarray,
-    rgb: np.ndarray,
-    alpha: np.ndarray,
-    left: int,
-    top: int,
-) -> None:
-    """Colour `rgb` (H, W, 3) and set `alpha` (H, W) where the centre of a pixel shows a triangle and is not marked; `ids`
-    and `marks` (h, w) are of a part of the picture that begins at column `left` and row `top`. Pixels are then marked where the texture jumps to the next one: another piece of surface
+def colour_inside(surface: TexturedSurface, ids: np.ndarray, marks: np.ndarray, window: PictureWindow) -> None:
+    """Colour the picture and set its alpha where the centre of a pixel of the window shows a triangle (`ids` (h, w)) and is
+    not marked (`marks` (h, w)). Pixels are then marked where the texture jumps to the next one: another piece of surface
     begins there.
-
-    `corners` from `corner_table`, the other arrays as in `engine.render.character.PreparedCharacter`.
     """
+    corners, faces, spread, texels, starts, sizes = surface
+    rgb, alpha, left, top = window
     height, width = ids.shape
     high, wide = np.float32(sizes[0, 0]), np.float32(sizes[0, 1])
     half, one = np.float32(0.5), np.float32(1)
@@ -113,18 +128,9 @@ def colour_inside(
 
 
 @njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
-def _colour(
-    corners: np.ndarray,
-    faces: np.ndarray,
-    t: int,
-    spread: np.ndarray,
-    texels: np.ndarray,
-    starts: np.ndarray,
-    sizes: np.ndarray,
-    x: np.float32,
-    y: np.float32,
-) -> tuple:
-    """The texture where a triangle covers (x, y), as sharp as a pixel can show it."""
+def _colour(surface: TexturedSurface, t: int, x: np.float32, y: np.float32) -> tuple:
+    """The texture where triangle `t` covers (x, y), as sharp as a pixel can show it."""
+    corners, faces, spread, texels, starts, sizes = surface
     a, b, c = faces[t, 0], faces[t, 1], faces[t, 2]
     ax, ay = corners[a, 0] - x, corners[a, 1] - y
     bx, by = corners[b, 0] - x, corners[b, 1] - y
@@ -144,23 +150,17 @@ def _colour(
 
 @njit(nogil=True, fastmath=True, boundscheck=False, error_model="numpy")
 def colour_samples(
-    corners: np.ndarray,
-    faces: np.ndarray,
-    spread: np.ndarray,
-    texels: np.ndarray,
-    starts: np.ndarray,
-    sizes: np.ndarray,
+    surface: TexturedSurface,
     ids: np.ndarray,
     places: np.ndarray,
     offsets: np.ndarray,
     alone: bool,
-    rgb: np.ndarray,
-    alpha: np.ndarray,
-    left: int,
-    top: int,
+    window: PictureWindow,
 ) -> None:
     """Each of the pixels that were chosen (`places` (N, 2) of `multisampling.PixelSelection`) gets the mean of its samples,
-    `ids` (N, S) and `offsets` (S, 2) in pixels, over what `rgb` holds (or `alone`). The samples of a pixel that one triangle covers are coloured together, in their middle."""
+    `ids` (N, S) and `offsets` (S, 2) in pixels, over what the picture holds (or `alone`). The samples of a pixel that one
+    triangle covers are coloured together, in their middle."""
+    rgb, alpha, left, top = window
     samples = len(offsets)
     full, half = np.float32(samples), np.float32(0.5)
     found = np.empty((samples, 2), np.int32)  # the triangles in a pixel: which, how often
@@ -191,7 +191,7 @@ def colour_samples(
         for k in range(kinds):
             count = np.float32(found[k, 1])
             px, py = np.float32(x) + middle[k, 0] / count, np.float32(y) + middle[k, 1] / count
-            r, g, b = _colour(corners, faces, found[k, 0], spread, texels, starts, sizes, px, py)
+            r, g, b = _colour(surface, found[k, 0], px, py)
             red, green, blue = red + count * r, green + count * g, blue + count * b
         if alone:
             rgb[row, column, 0] = int(red / covered + half)
