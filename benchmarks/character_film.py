@@ -28,6 +28,7 @@ from engine.character.film import film, film_size
 from engine.character.measures import picture_camera
 from engine.character.motions import choose_motion
 from engine.character.stages import fill_background
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.render import character as renderer
 
@@ -73,7 +74,7 @@ def encode(frames: list[NDArray[np.uint8]], folder: Path) -> tuple[float, float,
     """(processor seconds, seconds, bytes) of writing a video."""
     height, width = frames[0].shape[:2]
     path, worked, started = folder / "film.mp4", time.process_time(), time.perf_counter()
-    with VideoWriter(path, (width, height), FPS) as writer:
+    with VideoWriter(VideoTarget(path, (width, height), FPS)) as writer:
         for frame in frames:
             writer.write(frame)
     return time.process_time() - worked, time.perf_counter() - started, path.stat().st_size
@@ -100,7 +101,7 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
         frames = list(drawn())
     worked, alone, size_bytes = encode(frames, folder)
     whole = time.process_time(), time.perf_counter()
-    with VideoWriter(folder / "whole.mp4", size, FPS) as writer:
+    with VideoWriter(VideoTarget(folder / "whole.mp4", size, FPS)) as writer:
         for frame in drawn():
             writer.write(frame)
     cost, took = time.process_time() - whole[0], time.perf_counter() - whole[1]

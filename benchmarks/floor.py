@@ -14,6 +14,7 @@ from pathlib import Path
 gc.set_threshold(20_000, 20, 20)
 atexit.register(gc.freeze)
 
+from engine.export.encoders import VideoTarget  # noqa: E402
 from engine.export.video import VideoWriter  # noqa: E402 - rubbish is looked for less often while these are loaded
 from engine.media.video import probe_video, read_video  # noqa: E402
 from engine.perception.faces import FaceTracker  # noqa: E402
@@ -22,7 +23,7 @@ from engine.perception.faces import FaceTracker  # noqa: E402
 def floor(clip: Path, out: Path) -> None:
     """Read a clip frame by frame, look for its face, and write it again."""
     info = probe_video(clip)
-    with FaceTracker() as tracker, VideoWriter(out, (info.width, info.height), info.fps) as writer:
+    with FaceTracker() as tracker, VideoWriter(VideoTarget(out, (info.width, info.height), info.fps)) as writer:
         for frame in read_video(clip):
             tracker(frame.rgb)
             writer.write(frame.rgb)

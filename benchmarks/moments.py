@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from benchmarks.shared_media import media, write_clip
 from benchmarks.tables import machine, table
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import read_video
 from engine.performances import STATES, names, performance, video
@@ -51,7 +52,7 @@ class Stretch:
 def join(performances: Sequence[str], path: Path, mirrored: bool = False) -> list[Stretch]:
     """Write the built-in performances one after another as one clip; what it holds then."""
     truth, time, fps = [], 0.0, 30.0
-    with VideoWriter(path, (512, 512), fps) as writer:
+    with VideoWriter(VideoTarget(path, (512, 512), fps)) as writer:
         for name in performances:
             frames = 0
             for frame in read_video(video(name)):

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from benchmarks.portrait_speed import PICTURE_SIZE, SMALL_CLIP, portrait
 from benchmarks.shared_media import ROOT, media
 from benchmarks.tables import table
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video, read_video
 
@@ -53,7 +54,7 @@ def looped(source: Path, seconds: float, path: Path) -> tuple[Path, int]:
     """Write a clip of this length in which another one plays there and back again; how many frames it has."""
     info = probe_video(source)
     count = round(seconds * info.fps)
-    with VideoWriter(path, (info.width, info.height), info.fps) as writer:
+    with VideoWriter(VideoTarget(path, (info.width, info.height), info.fps)) as writer:
         for rgb in islice(_there_and_back([frame.rgb for frame in read_video(source)]), count):
             writer.write(rgb)
     return path, count

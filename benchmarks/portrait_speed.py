@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from benchmarks.shared_media import ROOT, media
 from benchmarks.tables import table
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
@@ -62,7 +63,7 @@ def _clip(folder: Path, frames: int, name: str = SMALL_CLIP) -> Path:
     info = probe_video(source)
     upright = info.height > info.width
     path = folder / "driver.mp4"
-    with VideoWriter(path, PICTURE_SIZE if upright else (info.width, info.height), info.fps) as writer:
+    with VideoWriter(VideoTarget(path, PICTURE_SIZE if upright else (info.width, info.height), info.fps)) as writer:
         for frame, _ in zip(read_video(source), range(frames), strict=False):
             writer.write(_cut(frame.rgb) if upright else frame.rgb)
     return path

@@ -12,6 +12,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 
 ROOT = Path(__file__).parent.parent
@@ -51,7 +52,7 @@ def write_clip(path: Path, frames: Iterable[NDArray[np.uint8]], fps: float = 25.
         for frame in frames:
             height, width = (side - side % 2 for side in frame.shape[:2])
             if writer is None:
-                writer = VideoWriter(path, (width, height), fps, crf=4)
+                writer = VideoWriter(VideoTarget(path, (width, height), fps, crf=4))
                 writer.__enter__()
             writer.write(np.ascontiguousarray(frame[:height, :width]))
     finally:

@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import probe_video, read_video
@@ -122,7 +123,7 @@ def walk(name: str, motion: str) -> None:
 def shrink(video: Path, out: Path) -> None:
     """The video again with fewer bytes: it is there to be looked at on the page alone."""
     found = probe_video(video)
-    with VideoWriter(out, (found.width, found.height), found.fps, crf=CLIP_CRF) as writer:
+    with VideoWriter(VideoTarget(out, (found.width, found.height), found.fps, crf=CLIP_CRF)) as writer:
         for frame in read_video(video):
             writer.write(frame.rgb)
 

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.perception.faces import find_faces
 
@@ -20,7 +21,7 @@ OPENS = (1.9, 2.7)
 def write_frames(path: Path, frames: list[NDArray[np.uint8]], fps: float = 25, crf: int = 8) -> Path:
     """A clip of these frames, hardly compressed."""
     height, width = frames[0].shape[:2]
-    with VideoWriter(path, (width, height), fps, crf=crf) as writer:
+    with VideoWriter(VideoTarget(path, (width, height), fps, crf=crf)) as writer:
         for frame in frames:
             writer.write(frame)
     return path

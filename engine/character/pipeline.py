@@ -31,6 +31,7 @@ from engine.character.stages import (
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
+from engine.export.encoders import VideoTarget
 from engine.export.glb import JPEG_QUALITY, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
@@ -261,7 +262,7 @@ def write_film(
     alone = background.empty and options.format != "mp4"
     with (
         run.timed("animate"),
-        VideoWriter(out / name, size, options.fps, options.format, synthetic=run.mark_synthetic) as writer,
+        VideoWriter(VideoTarget(out / name, size, options.fps, options.format, synthetic=run.mark_synthetic)) as writer,
     ):
         for index, frame in enumerate(film(acting, people[0].fitted, plate, shadow, options.camera, size, alone)):
             alpha = frame[..., 3] / np.float32(255) if alone else None

@@ -22,7 +22,7 @@ from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
 
 from engine.export import synthetic
-from engine.export.encoders import Target
+from engine.export.encoders import VideoTarget
 
 MAX_GIF_SIDE = 640
 """Pixels of the longer side where no size is asked for: files grow with the area, and hold no video's compression."""
@@ -40,7 +40,7 @@ _DITHER = "dither=bayer:bayer_scale=3:diff_mode=rectangle:alpha_threshold=128"
 class GifEncoder:
     """Frames into an animated GIF, which repeats for ever; `transparent` ones keep what is more than half opaque."""
 
-    def __init__(self, target: Target, transparent: bool):
+    def __init__(self, target: VideoTarget, transparent: bool):
         self._target, self._transparent = target, transparent
         self._waiting: list[VideoFrame] = []
         self._graph: Graph | None = None

@@ -31,7 +31,7 @@ import numpy as np
 from PIL import Image
 
 from engine.export import synthetic
-from engine.export.encoders import Target
+from engine.export.encoders import VideoTarget
 
 WEBP_QUALITY, WEBP_METHOD = 85, 2
 """Of libwebp: how fine, and how long it may look for what is small."""
@@ -47,7 +47,7 @@ _MAX_RIFF_BYTES = 2**32 - 2
 class WebpEncoder:
     """Frames into an animated WebP; `transparent` ones keep their alpha."""
 
-    def __init__(self, target: Target, transparent: bool):
+    def __init__(self, target: VideoTarget, transparent: bool):
         self._target = target
         self._size, self._transparent, self._synthetic = target.size, transparent, target.synthetic
         self._count = 0

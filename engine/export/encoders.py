@@ -9,6 +9,7 @@ used, takes 6 ms and 520 kB (46.1): nothing is to be seen in the picture, and th
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -33,27 +34,48 @@ Format = Literal["mp4", "webm", "webp", "gif", "png"]
 
 
 @dataclass(frozen=True)
-class Target:
-    """What is to be written: see `engine.export.video.VideoWriter`."""
+class VideoTarget:
+    """A video that is to be written. Raises `ValueError` where its fields do not fit each other."""
 
     path: Path
+    """Where it is to be."""
     size: tuple[int, int]
+    """(width, height) in pixels of every frame; even for "mp4" and "webm"."""
     fps: float
-    format: Format
-    crf: int | None
-    sound: Path | None
-    sound_trim: tuple[float, float] | None
-    loop: bool
-    frames: int | None
-    times: tuple[float, ...] | None
-    entries: frozenset[int] | None
-    synthetic: bool
+    """Frames a second."""
+    format: Format = "mp4"
+    """`mp4` (H.264, 4:2:0, faststart), `webm` (VP9), `webp` (animated), `gif` (which repeats) or `png` (a zip archive of
+    PNGs). All but `mp4` keep alpha where the first frame has it; the first two are BT.709, limited range, and tagged so."""
+    crf: int | None = None
+    """Constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none."""
+    sound: Path | None = None
+    """A video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew."""
+    sound_trim: tuple[float, float] | None = None
+    """(start, end) seconds of that file's video that the frames stand for."""
+    loop: bool = False
+    """Whether the video is to be played again and again: the end is coded for leading into the beginning, and an animated
+    WebP repeats for ever (of the others, the player decides)."""
+    frames: int | None = None
+    """How many there will be, where that is known; an "mp4" that loops needs it."""
+    times: Sequence[float] | None = None
+    """Seconds at which each frame comes on show, and the last one ends; by default evenly, by `fps`."""
+    entries: Collection[int] | None = None
+    """MP4 alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from other
+    videos of the same picture without a jump in its grain; between the entries it is slow to search."""
+    synthetic: bool = True
+    """Whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes."""
+
+    def __post_init__(self) -> None:
+        if self.format in ("mp4", "webm") and (self.size[0] % 2 or self.size[1] % 2):
+            raise ValueError(f"the size of a video must be even, not {self.size}")
+        if self.entries is not None and self.format != "mp4":
+            raise ValueError("only an MP4 has entries")
 
     def begins(self, frame: int) -> float:
         """Seconds at which a frame comes on show, or the one before the first that there is not ends."""
         if self.times is None:
             return float(frame / exact_rate(self.fps))
-        return self.times[min(frame, len(self.times) - 1)]
+        return float(self.times[min(frame, len(self.times) - 1)])
 
 
 class Encoder(Protocol):
@@ -136,7 +158,7 @@ libvpx takes no quantiser for single frames.
 """
 
 
-def _looped(target: Target, usual: dict[str, str]) -> dict[str, str]:
+def _looped(target: VideoTarget, usual: dict[str, str]) -> dict[str, str]:
     """Options of a video that loops, in place of the `usual` ones."""
     if target.format == "webm":
         return _LOOPED_WEBM
@@ -152,7 +174,7 @@ def _looped(target: Target, usual: dict[str, str]) -> dict[str, str]:
 class StreamEncoder:
     """MP4 (H.264) and WebM (VP9), by FFmpeg."""
 
-    def __init__(self, target: Target, transparent: bool):
+    def __init__(self, target: VideoTarget, transparent: bool):
         coding = _CODINGS[target.format]
         self._target = target
         self._transparent = transparent
@@ -230,7 +252,7 @@ class PngEncoder:
     """Numbered PNGs (`000000.png`, ...) in a zip archive, whose comment tells the rate; where they are not shown equally
     long, `timecodes.txt` tells of each when it comes on show, in milliseconds (the format v2 that MKVToolNix reads)."""
 
-    def __init__(self, target: Target):
+    def __init__(self, target: VideoTarget):
         self._synthetic, self._target = target.synthetic, target
         self._archive = zipfile.ZipFile(target.path, "w", zipfile.ZIP_STORED)
         self._archive.comment = f"{float(Fraction(exact_rate(target.fps))):g} frames per second".encode()

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
@@ -14,7 +13,7 @@ import numpy as np
 
 from engine.export.animated_gif import GifEncoder
 from engine.export.animated_webp import WebpEncoder
-from engine.export.encoders import Encoder, Format, PngEncoder, StreamEncoder, Target
+from engine.export.encoders import Encoder, PngEncoder, StreamEncoder, VideoTarget
 
 Warn = Callable[[str, str], None]
 
@@ -31,52 +30,16 @@ class VideoWriter:
 
     Parameters
     ----------
-    path : where the video is to be.
-    size : (width, height) in pixels of every frame; even for "mp4" and "webm".
-    fps : frames a second.
-    format : "mp4" (H.264, 4:2:0, faststart), "webm" (VP9), "webp" (animated), "gif" (which repeats) or "png" (a zip
-        archive of PNGs). All but "mp4" keep alpha where the first frame has it; the first two are BT.709, limited range,
-        and tagged so.
-    crf : constant rate factor of H.264 and VP9: lower is better and larger; the other formats have none.
-    sound : a video file whose sound is carried over ("mp4", "webm"): copied where it fits, else coded anew.
-    sound_trim : (start, end) seconds of that file's video that the frames stand for.
-    loop : whether the video is to be played again and again: the end is coded for leading into the beginning, and an
-        animated WebP repeats for ever (of the others, the player decides).
-    frames : how many there will be, where that is known; an "mp4" that loops needs it.
-    times : seconds at which each frame comes on show, and the last one ends; by default evenly, by `fps`.
-    entries : "mp4" alone: the frames, counted from 0, at which a player can begin. It is coded for going over to it from
-        other videos of the same picture without a jump in its grain; between the entries it is slow to search.
-    synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`); no pixel changes.
+    target : the video that is to be written.
     warn : called with (code, message): `no_sound` where there is none to carry, or the format holds none; `sound_damaged`
         where parts of it cannot be read.
 
     Raises `ValueError` for frames that do not fit and for a video of none, `OSError` where the disk is full.
     """
 
-    def __init__(
-        self,
-        path: Path,
-        size: tuple[int, int],
-        fps: float,
-        format: Format = "mp4",
-        crf: int | None = None,
-        sound: Path | None = None,
-        sound_trim: tuple[float, float] | None = None,
-        loop: bool = False,
-        frames: int | None = None,
-        times: Iterable[float] | None = None,
-        entries: Iterable[int] | None = None,
-        synthetic: bool = True,
-        warn: Warn | None = None,
-    ):
-        if format in ("mp4", "webm") and (size[0] % 2 or size[1] % 2):
-            raise ValueError(f"the size of a video must be even, not {size}")
-        if entries is not None and format != "mp4":
-            raise ValueError("only an MP4 has entries")
-        whole = None if entries is None else frozenset(entries)
-        at = None if times is None else tuple(float(time) for time in times)
-        self._target = Target(path, size, fps, format, crf, sound, sound_trim, loop, frames, at, whole, synthetic)
-        self._draft = path.with_name(f".{path.name}.draft")
+    def __init__(self, target: VideoTarget, warn: Warn | None = None):
+        self._target = target
+        self._draft = target.path.with_name(f".{target.path.name}.draft")
         self._warn = warn or (lambda code, message: None)
         self._encoder: Encoder | None = None
         self._waiting: queue.Queue[Any] = queue.Queue(_MAX_WAITING_FRAMES)

@@ -13,6 +13,7 @@ import click
 import cv2
 import numpy as np
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import read_video
@@ -43,7 +44,7 @@ def render(chosen: tuple[str, ...], folder: Path, proof: bool) -> None:
     for name in chosen or [one.name for one in scored()]:
         poses = [SCORES[name](index / FPS) for index in range(round(performance(name).seconds * FPS))]
         frames = film(actor, poses, 1, 0.35) if proof else film(actor, poses)
-        with VideoWriter(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=CRF) as writer:
+        with VideoWriter(VideoTarget(folder / f"{name}.mp4", (PICTURE_SIZE, PICTURE_SIZE), FPS, crf=CRF)) as writer:
             for index, frame in enumerate(frames):
                 writer.write(frame)
                 click.echo(f"\r{name}: {index + 1} of {len(poses)}", nl=index + 1 == len(poses))

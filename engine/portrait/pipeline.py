@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation
@@ -111,17 +112,19 @@ def _write_animation(
     if options.sound and sound is None:
         run.warn("driver_has_no_sound", "The driver has no sound to keep.")
     with VideoWriter(
-        out / options.animation,
-        target.size,
-        track.fps,
-        options.format,
-        sound=sound,
-        sound_trim=options.trim,
-        loop=options.loop,
-        frames=len(track),
-        times=None if track.even else track.times,
-        synthetic=run.mark_synthetic,
-        warn=run.warn,
+        VideoTarget(
+            out / options.animation,
+            target.size,
+            track.fps,
+            options.format,
+            sound=sound,
+            sound_trim=options.trim,
+            loop=options.loop,
+            frames=len(track),
+            times=None if track.even else track.times.tolist(),
+            synthetic=run.mark_synthetic,
+        ),
+        run.warn,
     ) as writer:
         for index, frame in enumerate(frames):
             writer.write(frame[..., :3], frame[..., 3] / np.float32(255) if frame.shape[2] == 4 else None)

@@ -9,6 +9,7 @@ import av
 import numpy as np
 import pytest
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video
 
@@ -78,7 +79,7 @@ def test_sound_stays_in_step(
 ) -> None:
     driver = write_driver(tmp_path / name, codec, rate, late)
     start, end = trim or (0.0, 3.0)
-    with VideoWriter(tmp_path / "out", (64, 48), 25, format, sound=driver, sound_trim=trim) as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out", (64, 48), 25, format, sound=driver, sound_trim=trim)) as writer:
         for _ in range(round((end - start) * 25)):
             writer.write(np.full((48, 64, 3), 90, np.uint8))
     heard, last, coded = clicks_in(tmp_path / "out")
@@ -89,7 +90,7 @@ def test_sound_stays_in_step(
 
 def test_fitting_sound_is_copied_bit_by_bit(tmp_path: Path) -> None:
     driver = write_driver(tmp_path / "in.mp4", "aac")
-    with VideoWriter(tmp_path / "out.mp4", (64, 48), 25, sound=driver) as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out.mp4", (64, 48), 25, sound=driver)) as writer:
         for _ in range(75):
             writer.write(np.full((48, 64, 3), 90, np.uint8))
 
@@ -104,7 +105,7 @@ def test_fitting_sound_is_copied_bit_by_bit(tmp_path: Path) -> None:
 def test_sound_longer_or_shorter_than_the_picture(tmp_path: Path) -> None:
     driver = write_driver(tmp_path / "in.mp4", "aac")
     for frames, expected in ((25, 1.0), (150, 3.0)):
-        with VideoWriter(tmp_path / "out.mp4", (64, 48), 25, sound=driver) as writer:
+        with VideoWriter(VideoTarget(tmp_path / "out.mp4", (64, 48), 25, sound=driver)) as writer:
             for _ in range(frames):
                 writer.write(np.full((48, 64, 3), 90, np.uint8))
         assert clicks_in(tmp_path / "out.mp4")[1] == pytest.approx(expected, abs=0.06)
@@ -114,11 +115,11 @@ def test_sound_longer_or_shorter_than_the_picture(tmp_path: Path) -> None:
 def test_without_sound_there_is_a_warning(tmp_path: Path, format: str) -> None:
     silent = tmp_path / "silent.mp4"
     warnings: list[str] = []
-    with VideoWriter(silent, (64, 48), 25) as writer:
+    with VideoWriter(VideoTarget(silent, (64, 48), 25)) as writer:
         for _ in range(5):
             writer.write(np.full((48, 64, 3), 90, np.uint8))
     with VideoWriter(
-        tmp_path / "out", (64, 48), 25, format, sound=silent, warn=lambda code, message: warnings.append(code)
+        VideoTarget(tmp_path / "out", (64, 48), 25, format, sound=silent), lambda code, message: warnings.append(code)
     ) as writer:
         writer.write(np.full((48, 64, 3), 90, np.uint8))
     assert warnings == ["no_sound"] and (tmp_path / "out").exists()
@@ -128,7 +129,7 @@ def test_broken_sound_does_not_break_the_picture(tmp_path: Path) -> None:
     driver = write_driver(tmp_path / "in.mkv", "flac")
     content = driver.read_bytes()
     driver.write_bytes(content[: len(content) * 2 // 3])
-    with VideoWriter(tmp_path / "out.mp4", (64, 48), 25, sound=driver) as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out.mp4", (64, 48), 25, sound=driver)) as writer:
         for _ in range(75):
             writer.write(np.full((48, 64, 3), 90, np.uint8))
     with av.open(str(tmp_path / "out.mp4")) as container:
@@ -174,7 +175,7 @@ def carried(driver: Path, out: Path, format: str, seconds: float = 3.0) -> list[
     """The codes of the warnings of a result with a driver's sound."""
     warnings: list[str] = []
     warn = lambda code, message: warnings.append(code)  # noqa: E731
-    with VideoWriter(out, (64, 48), 25, format, sound=driver, warn=warn) as writer:  # type: ignore[arg-type]
+    with VideoWriter(VideoTarget(out, (64, 48), 25, format, sound=driver), warn) as writer:  # type: ignore[arg-type]
         for _ in range(round(seconds * 25)):
             writer.write(np.full((48, 64, 3), 90, np.uint8))
     with av.open(str(out)) as container:
@@ -261,7 +262,7 @@ def test_a_flash_and_a_click_come_together_at_any_rate(tmp_path: Path, format: s
     """Pictures that are not shown equally long: the one on show when a click is heard is white."""
     driver = write_driver(tmp_path / "in.mp4", "aac")
     flashes = [int(np.searchsorted(UNEVEN, click, "right")) - 1 for click in CLICKS]
-    with VideoWriter(tmp_path / "out", (64, 48), 25, format, sound=driver, times=UNEVEN) as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out", (64, 48), 25, format, sound=driver, times=UNEVEN)) as writer:
         for k in range(len(UNEVEN) - 1):
             writer.write(np.full((48, 64, 3), 255 if k in flashes else 30, np.uint8))
     with av.open(str(tmp_path / "out")) as container:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.export.encoders import VideoTarget
 from engine.export.synthetic import append_to_mp4, mark_image
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
@@ -24,7 +25,7 @@ PIXELS = np.random.default_rng(3).integers(0, 256, (48, 64, 3), np.uint8)
 
 
 def write(path: Path, format: str, synthetic: bool = True) -> Path:
-    with VideoWriter(path, (64, 48), 25, format, synthetic=synthetic) as writer:  # type: ignore[arg-type]
+    with VideoWriter(VideoTarget(path, (64, 48), 25, format, synthetic=synthetic)) as writer:  # type: ignore[arg-type]
         for k in range(12):
             writer.write(np.roll(PIXELS, 4 * k, axis=1))
     return path
@@ -141,7 +142,7 @@ def test_a_webp_that_never_moves(tmp_path: Path) -> None:
     shown = []
     for synthetic in (True, False):
         path = tmp_path / f"{synthetic}.webp"
-        with VideoWriter(path, (64, 48), 25, "webp", synthetic=synthetic) as writer:
+        with VideoWriter(VideoTarget(path, (64, 48), 25, "webp", synthetic=synthetic)) as writer:
             for _ in range(3):
                 writer.write(PIXELS)
         with Image.open(path) as image:

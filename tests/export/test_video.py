@@ -16,7 +16,7 @@ import pytest
 from PIL import Image
 
 from engine.export import animated_gif
-from engine.export.encoders import Target
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import probe_video, read_video
 
@@ -34,7 +34,7 @@ def bars_of(rgb: np.ndarray) -> np.ndarray:
 
 
 def write(path: Path, count: int = 20, fps: float = 25, **options: object) -> Path:
-    with VideoWriter(path, (224, 64), fps, **options) as writer:
+    with VideoWriter(VideoTarget(path, (224, 64), fps, **options)) as writer:
         for k in range(count):
             writer.write(chart(k))
     return path
@@ -89,7 +89,7 @@ def ramp() -> np.ndarray:
 
 def test_webp_keeps_alpha_and_loops(tmp_path: Path) -> None:
     for loop in (False, True):
-        with VideoWriter(tmp_path / "out.webp", (224, 64), 20, "webp", loop=loop) as writer:
+        with VideoWriter(VideoTarget(tmp_path / "out.webp", (224, 64), 20, "webp", loop=loop)) as writer:
             for k in range(5):
                 writer.write(chart(k), ramp())
         with Image.open(tmp_path / "out.webp") as image:
@@ -138,7 +138,9 @@ def test_a_loop_s_end_leads_into_its_beginning(tmp_path: Path, format: str, high
     """From the last frame to the first hardly anything is seen, decoded as well: the pictures are the same."""
     seams, frames = [], swaying()
     for loop in (False, True):
-        with VideoWriter(tmp_path / f"out.{format}", (200, 200), 30, format, loop=loop, frames=60) as writer:
+        with VideoWriter(
+            VideoTarget(tmp_path / f"out.{format}", (200, 200), 30, format, loop=loop, frames=60)
+        ) as writer:
             for frame in frames:
                 writer.write(frame)
         shown = np.array([frame.rgb.copy() for frame in read_video(tmp_path / f"out.{format}")], np.int16)
@@ -150,7 +152,7 @@ def test_a_loop_s_end_leads_into_its_beginning(tmp_path: Path, format: str, high
 
 def test_a_short_loop_is_written(tmp_path: Path) -> None:
     for count in (1, 2, 5):
-        with VideoWriter(tmp_path / "out.mp4", (224, 64), 25, loop=True, frames=count) as writer:
+        with VideoWriter(VideoTarget(tmp_path / "out.mp4", (224, 64), 25, loop=True, frames=count)) as writer:
             for k in range(count):
                 writer.write(chart(k))
         with av.open(str(tmp_path / "out.mp4")) as container:
@@ -159,7 +161,7 @@ def test_a_short_loop_is_written(tmp_path: Path) -> None:
 
 def test_webm_keeps_alpha(tmp_path: Path) -> None:
     path = tmp_path / "out.webm"
-    with VideoWriter(path, (224, 64), 20, "webm") as writer:
+    with VideoWriter(VideoTarget(path, (224, 64), 20, "webm")) as writer:
         for k in range(5):
             writer.write(chart(k), ramp())
     with av.open(str(path)) as container:
@@ -174,7 +176,7 @@ def test_webm_keeps_alpha(tmp_path: Path) -> None:
 @pytest.mark.parametrize("with_alpha", [False, True])
 def test_png_sequence_is_exact(tmp_path: Path, with_alpha: bool) -> None:
     alpha = np.round(ramp() * 255) / np.float32(255)
-    with VideoWriter(tmp_path / "out.zip", (224, 64), 20, "png") as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out.zip", (224, 64), 20, "png")) as writer:
         for k in range(3):
             writer.write(chart(k), alpha if with_alpha else None)
     with zipfile.ZipFile(tmp_path / "out.zip") as archive:
@@ -190,7 +192,7 @@ def test_png_sequence_is_exact(tmp_path: Path, with_alpha: bool) -> None:
 def test_a_frame_may_be_changed_after_it_was_written(tmp_path: Path) -> None:
     for format in ("mp4", "png"):
         frame = chart()
-        with VideoWriter(tmp_path / f"out.{format}", (224, 64), 25, format) as writer:
+        with VideoWriter(VideoTarget(tmp_path / f"out.{format}", (224, 64), 25, format)) as writer:
             for k in range(30):
                 frame[:] = chart(k)
                 writer.write(frame)
@@ -203,7 +205,7 @@ def test_a_frame_may_be_changed_after_it_was_written(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("format", ["mp4", "webm", "webp", "gif", "png"])
 def test_an_error_in_the_block_leaves_nothing(tmp_path: Path, format: str) -> None:
-    with pytest.raises(KeyError), VideoWriter(tmp_path / "out", (224, 64), 25, format) as writer:
+    with pytest.raises(KeyError), VideoWriter(VideoTarget(tmp_path / "out", (224, 64), 25, format)) as writer:
         writer.write(chart())
         raise KeyError
     assert not list(tmp_path.iterdir())
@@ -212,7 +214,7 @@ def test_an_error_in_the_block_leaves_nothing(tmp_path: Path, format: str) -> No
 def test_an_earlier_file_stays_until_the_new_one_is_whole(tmp_path: Path) -> None:
     path = write(tmp_path / "out.mp4", 5)
     before = path.read_bytes()
-    with pytest.raises(KeyError), VideoWriter(path, (224, 64), 25) as writer:
+    with pytest.raises(KeyError), VideoWriter(VideoTarget(path, (224, 64), 25)) as writer:
         writer.write(chart())
         raise KeyError
     assert path.read_bytes() == before
@@ -222,12 +224,18 @@ def test_an_earlier_file_stays_until_the_new_one_is_whole(tmp_path: Path) -> Non
 
 def test_what_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="even"):
-        VideoWriter(tmp_path / "out.mp4", (225, 64), 25)
-    with pytest.raises(ValueError, match="shape"), VideoWriter(tmp_path / "out.mp4", (224, 66), 25) as writer:
+        VideoWriter(VideoTarget(tmp_path / "out.mp4", (225, 64), 25))
+    with (
+        pytest.raises(ValueError, match="shape"),
+        VideoWriter(VideoTarget(tmp_path / "out.mp4", (224, 66), 25)) as writer,
+    ):
         writer.write(chart())
-    with pytest.raises(ValueError, match="alpha"), VideoWriter(tmp_path / "out.mp4", (224, 64), 25) as writer:
+    with (
+        pytest.raises(ValueError, match="alpha"),
+        VideoWriter(VideoTarget(tmp_path / "out.mp4", (224, 64), 25)) as writer,
+    ):
         writer.write(chart(), ramp())
-    with pytest.raises(ValueError, match="no frames"), VideoWriter(tmp_path / "out.mp4", (224, 64), 25):
+    with pytest.raises(ValueError, match="no frames"), VideoWriter(VideoTarget(tmp_path / "out.mp4", (224, 64), 25)):
         pass
     assert not list(tmp_path.iterdir())
 
@@ -236,11 +244,12 @@ FULL_DISK = """
 import resource, signal, sys
 from pathlib import Path
 import numpy as np
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 folder, format = Path(sys.argv[1]), sys.argv[2]
 rng = np.random.default_rng(0)
 def write(name):
-    with VideoWriter(folder / name, (224, 64), 25, format) as writer:
+    with VideoWriter(VideoTarget(folder / name, (224, 64), 25, format)) as writer:
         for k in range(60):
             writer.write(rng.integers(0, 255, (64, 224, 3), dtype=np.uint8))
 write("whole")
@@ -267,11 +276,12 @@ WRITING = """
 import re, sys
 from pathlib import Path
 import numpy as np
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 rng = np.random.default_rng(0)
 def peak():
     return int(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
-with VideoWriter(Path(sys.argv[1]), (320, 240), 30, sys.argv[2]) as writer:
+with VideoWriter(VideoTarget(Path(sys.argv[1]), (320, 240), 30, sys.argv[2])) as writer:
     for k in range(600):
         writer.write(rng.integers(0, 255, (240, 320, 3), dtype=np.uint8))
         if k == 60:
@@ -294,11 +304,12 @@ MEMORY = """
 import re, sys
 from pathlib import Path
 import numpy as np
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import read_video
 format, path, frames, fps, width, height = sys.argv[1], Path(sys.argv[2]), *map(int, sys.argv[3:])
 noise = np.random.default_rng(0).integers(0, 40, (height, width + 100, 3), dtype=np.uint8)
-with VideoWriter(path, (width, height), fps, format) as writer:
+with VideoWriter(VideoTarget(path, (width, height), fps, format)) as writer:
     for k in range(frames):
         writer.write(noise[:, k % 100 : k % 100 + width] + np.uint8(k % 200))
 count = sum(1 for _ in read_video(path)) if format != "png" else frames
@@ -359,7 +370,7 @@ def test_a_gif_has_the_colours_the_times_and_the_alpha(tmp_path: Path) -> None:
         assert image.info["loop"] == 0, "it repeats for ever"
     alpha = np.ones((64, 224), np.float32)
     alpha[:, 32:64] = 0
-    with VideoWriter(tmp_path / "clear.gif", (224, 64), 25, "gif") as writer:
+    with VideoWriter(VideoTarget(tmp_path / "clear.gif", (224, 64), 25, "gif")) as writer:
         for _ in range(3):
             writer.write(chart(), alpha)
     with Image.open(tmp_path / "clear.gif") as image:
@@ -372,7 +383,7 @@ def test_the_dither_of_a_gif_stays_where_it_is(tmp_path: Path) -> None:
     """More colours than 256, before which something moves: what stands still is the same in all frames."""
     across, down = np.meshgrid(np.linspace(0, 255, 160), np.linspace(0, 255, 120))
     still = np.stack([across, down, 255 - across], -1).astype(np.uint8)
-    with VideoWriter(tmp_path / "out.gif", (160, 120), 20, "gif") as writer:
+    with VideoWriter(VideoTarget(tmp_path / "out.gif", (160, 120), 20, "gif")) as writer:
         for k in range(40):
             frame = still.copy()
             frame[50:60, 3 * k : 3 * k + 10] = (250, 240, 20)
@@ -387,7 +398,7 @@ def test_the_dither_of_a_gif_stays_where_it_is(tmp_path: Path) -> None:
 def test_few_large_frames_of_a_gif_are_held(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A quarter of a hundred of 4096 x 4096 pixels would be 1.7 GB."""
     monkeypatch.setattr(animated_gif, "MAX_HELD_BYTES", 3 * 4 * 224 * 64)
-    target = Target(tmp_path / "out.gif", (224, 64), 10, "gif", *[None] * 3, False, None, None, None, True)
+    target = VideoTarget(tmp_path / "out.gif", (224, 64), 10, "gif")
     encoder = animated_gif.GifEncoder(target, False)
     held = []
     for k in range(6):

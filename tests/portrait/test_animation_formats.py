@@ -13,6 +13,7 @@ import pytest
 from made_clip import OPENS, read_frames, unpacked
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
@@ -122,7 +123,9 @@ def test_a_driver_that_stalls_gives_one_frame_for_each_of_its_own(animation, wom
     """Five frames at 30 a second, then a sixth of a second without any: each is shown when the driver shows it."""
     source = [frame.rgb for frame in read_video(driver, trim=OPENS)]
     times = [k / 30 for k in range(len(source)) if k % 10 < 5]
-    with VideoWriter(tmp_path / "bursts.mp4", source[0].shape[1::-1], 30, times=[*times, times[-1] + 1 / 30]) as writer:
+    with VideoWriter(
+        VideoTarget(tmp_path / "bursts.mp4", source[0].shape[1::-1], 30, times=[*times, times[-1] + 1 / 30])
+    ) as writer:
         for k, frame in enumerate(source):
             if k % 10 < 5:
                 writer.write(frame)

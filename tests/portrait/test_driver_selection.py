@@ -13,6 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates
@@ -138,7 +139,7 @@ def test_the_report_says_what_was_chosen_and_why(tmp_path: Path) -> None:
 def test_a_driver_that_cannot_be_used_is_passed_over(tmp_path: Path) -> None:
     broken, blank = tmp_path / "broken.mp4", tmp_path / "blank.mp4"
     broken.write_bytes(video("idle").read_bytes()[:5000])
-    with VideoWriter(blank, (64, 64), 10) as writer:
+    with VideoWriter(VideoTarget(blank, (64, 64), 10)) as writer:
         for _ in range(5):
             writer.write(np.full((64, 64, 3), 90, np.uint8))
     rgb = moment("idle", 0)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation, draw_in_order
@@ -174,13 +175,13 @@ def _draw(
     """All clips, their bridges, all of it in one animation, and the poster."""
     size = target.size
     mark = run.mark_synthetic
-    with VideoWriter(out / options.animation, size, fps, synthetic=mark) as whole:
+    with VideoWriter(VideoTarget(out / options.animation, size, fps, synthetic=mark)) as whole:
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
                 track, neutral, ratios = act.performance.track, act.performance.neutral, act.performance.ratios
                 animation = FaceAnimation(target, layers, rig, track, neutral, options.acting())
                 name = out / clip_name(act.state)
-                clip = files.enter_context(VideoWriter(name, size, fps, entries=(0,), synthetic=mark))
+                clip = files.enter_context(VideoWriter(VideoTarget(name, size, fps, entries=(0,), synthetic=mark)))
                 segments = act.exits.segments()
                 total = len(act.poses) + sum(one.opens + one.length + HOLD_FRAMES for one in segments)
                 done = 0
@@ -195,7 +196,9 @@ def _draw(
                     continue
                 entries = [one.start - 1 for one in segments if one.opens]
                 name = out / bridges_name(act.state)
-                bridges = files.enter_context(VideoWriter(name, size, fps, entries=entries, synthetic=mark))
+                bridges = files.enter_context(
+                    VideoWriter(VideoTarget(name, size, fps, entries=entries, synthetic=mark))
+                )
                 for frame in draw_in_order(animation, _with_ratios(act.bridges(), ratios)):
                     bridges.write(frame)
                     done += 1
