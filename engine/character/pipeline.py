@@ -32,7 +32,7 @@ from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
 from engine.export.encoders import VideoTarget
-from engine.export.glb import JPEG_QUALITY, write_glb
+from engine.export.glb import JPEG_QUALITY, CharacterModel, write_glb
 from engine.export.still import write_first_impression, write_still
 from engine.export.usdz import write_usdz
 from engine.export.video import VideoWriter
@@ -220,7 +220,12 @@ def write_character(out: Path, name: str, person: Person, options: CharacterOpti
         write_small_glb(out / f"{name}-lod{level}.glb", coarser, person.played.all, run)
     write_usdz(out / f"{name}.usdz", mesh, person.played.film, synthetic=marked)
     if options.vrm:
-        write_vrm(out / f"{name}.vrm", mesh, VrmMeta(name=name, authors=(options.vrm_author,)), synthetic=marked)
+        write_vrm(
+            out / f"{name}.vrm",
+            CharacterModel(mesh),
+            VrmMeta(name=name, authors=(options.vrm_author,)),
+            synthetic=marked,
+        )
 
 
 def write_stills(
@@ -275,7 +280,9 @@ def write_film(
 
 def write_small_glb(path: Path, mesh: SkinnedMesh, clips: Sequence[Clip], run: Run) -> None:
     """A GLB of at most `MOST_BYTES`; the report says what that took, or that it was not to be had."""
-    written = write_glb(path, mesh, clips, synthetic=run.mark_synthetic, most=MOST_BYTES, check=run.check)
+    written = write_glb(
+        path, CharacterModel(mesh, clips), synthetic=run.mark_synthetic, most=MOST_BYTES, check=run.check
+    )
     if written.size > MOST_BYTES:
         run.warn(
             "glb_too_large",

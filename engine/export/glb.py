@@ -50,18 +50,39 @@ class WrittenGlb:
     quality: int
 
 
+@dataclass(frozen=True)
+class CharacterModel:
+    """A character as its file shows it.
+
+    Parts that do not fit each other raise ValueError where they are written: clips or levels another skeleton than the
+    mesh, morph targets or materials another mesh, or two of one kind with one name.
+    """
+
+    mesh: SkinnedMesh
+    clips: Sequence[Clip] = ()
+    """Become animations of the same names. Joints that never leave the T-pose are left out of an animation; one that loops
+    says so in its `extras` (`{"loops": true}`) and ends on its first frame again (moved on, where it travels); a clip of
+    one frame is held for a second."""
+    unlit: bool = True
+    """The texture shows the light of its picture: ask viewers to add none (`KHR_materials_unlit`, not required)."""
+    levels: Sequence[SkinnedMesh] = ()
+    """Coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail show `mesh`.
+    Their textures are not used, and they have no morph targets."""
+    morphs: Sequence[MorphTarget] = ()
+    """Shapes of `mesh`; their names stand in the mesh's `extras.targetNames`, where viewers look for them. With normals of
+    their own unless the character is `unlit`."""
+    materials: Sequence[Material] = SKIN_MATERIALS
+    """What the mesh is made of."""
+    material_of: NDArray[np.integer] | None = None
+    """(T,) which of the materials each triangle has, where there are several."""
+
+
 def write_glb(
     path: Path,
-    mesh: SkinnedMesh,
-    clips: Sequence[Clip] = (),
+    model: CharacterModel,
     *,
     name: str = "character",
     quality: int = JPEG_QUALITY,
-    unlit: bool = True,
-    levels: Sequence[SkinnedMesh] = (),
-    morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN_MATERIALS,
-    material_of: NDArray[np.integer] | None = None,
     synthetic: bool = True,
     most: int | None = None,
     check: Callable[[], None] = lambda: None,
@@ -70,38 +91,18 @@ def write_glb(
 
     Parameters
     ----------
-    clips : become animations of the same names. Joints that never leave the T-pose are left out of an animation; one
-        that loops says so in its `extras` (`{"loops": true}`) and ends on its first frame again (moved on, where it
-        travels); a clip of one frame is held for a second.
     quality : of the texture, a JPEG (1 to 100).
-    unlit : the texture shows the light of its picture: ask viewers to add none (`KHR_materials_unlit`, not required).
-    levels : coarser meshes for the same skeleton, finest first (`MSFT_lod`): viewers that know no levels of detail
-        show `mesh`. Their textures are not used, and they have no morph targets.
-    morphs : shapes of `mesh`; their names stand in the mesh's `extras.targetNames`, where viewers look for them. With
-        normals of their own unless the character is `unlit`.
-    materials, material_of : what the mesh is made of, and (T,) which of them each triangle has, where there are several.
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
-    most : bytes that the file should have at most, levels included: its texture is written as mildly `TEXTURE_REDUCTIONS` as that
-        takes. Where no texture is small enough it stays as it is, and the file is larger.
+    most : bytes that the file should have at most, levels included: its texture is written as mildly `TEXTURE_REDUCTIONS`
+        as that takes. Where no texture is small enough it stays as it is, and the file is larger.
     check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
-    Raises ValueError where clips or levels do not fit the skeleton, morph targets or materials the mesh, or two of one
-    kind have one name.
+    Raises ValueError where the parts of the model do not fit each other.
     """
+    mesh = model.mesh
 
     def with_texture(texture: bytes) -> bytes:
-        gltf = build_glb(
-            mesh,
-            texture,
-            clips,
-            name=name,
-            unlit=unlit,
-            levels=levels,
-            morphs=morphs,
-            materials=materials,
-            material_of=material_of,
-            synthetic=synthetic,
-        )
+        gltf = build_glb(model, texture, name=name, synthetic=synthetic)
         return b"".join(gltf.save_to_bytes())
 
     how, texture = (1, quality), jpeg(mesh.texture, quality, synthetic)
@@ -136,43 +137,33 @@ def _reduced(texture: NDArray[np.uint8], smaller: int) -> NDArray[np.uint8]:
     return np.asarray(cv2.resize(texture, size, interpolation=cv2.INTER_AREA), np.uint8)
 
 
-def build_glb(
-    mesh: SkinnedMesh,
-    texture: bytes,
-    clips: Sequence[Clip] = (),
-    *,
-    name: str = "character",
-    unlit: bool = True,
-    levels: Sequence[SkinnedMesh] = (),
-    morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN_MATERIALS,
-    material_of: NDArray[np.integer] | None = None,
-    synthetic: bool = True,
-) -> gl.GLTF2:
+def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character", synthetic: bool = True) -> gl.GLTF2:
     """The same as an object, for formats that are GLB with additions (`engine.export.vrm`). `texture`: as `jpeg`.
 
     Node `j` is joint `j` of the skeleton; then come the root of all joints and the meshes.
     """
-    if len({clip.name for clip in clips}) < len(clips):
+    if len({clip.name for clip in model.clips}) < len(model.clips):
         raise ValueError("two clips have the same name")
-    skeleton = mesh.skeleton
+    mesh, skeleton = model.mesh, model.mesh.skeleton
     gltf = gl.GLTF2(asset=gl.Asset(version="2.0", generator="Galatea"))
     if synthetic:
         gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
     _add_skeleton(gltf, buffer, skeleton)
-    add_materials(gltf, buffer, texture, unlit, materials, lambda other: jpeg(other, JPEG_QUALITY, synthetic))
-    parts = _parts(mesh, len(materials), material_of)
-    if levels and len(materials) > 1:
+    add_materials(
+        gltf, buffer, texture, model.unlit, model.materials, lambda other: jpeg(other, JPEG_QUALITY, synthetic)
+    )
+    parts = _parts(mesh, len(model.materials), model.material_of)
+    if model.levels and len(model.materials) > 1:
         raise ValueError("levels of detail have one material")
-    shown = [_add_mesh(gltf, buffer, mesh, name, parts, morphs, not unlit)]
+    shown = [_add_mesh(gltf, buffer, mesh, name, parts, model.morphs, not model.unlit)]
     shown += [
         _add_mesh(gltf, buffer, each, f"{name}_lod{level}", [np.arange(len(each.triangles))])
-        for level, each in enumerate(levels, 1)
+        for level, each in enumerate(model.levels, 1)
     ]
-    if levels:
+    if model.levels:
         _add_levels(gltf, shown)
-    for clip in clips:
+    for clip in model.clips:
         _add_animation(gltf, buffer, clip, skeleton)
     # a skinned mesh is a root: its node's place does not count (3.7.3.3), and some engines warn about parents
     gltf.scenes = [gl.Scene(name=name, nodes=[len(skeleton.names), shown[0]])]

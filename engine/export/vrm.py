@@ -11,14 +11,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from engine.export.glb import JPEG_QUALITY, SKIN_MATERIALS, build_glb, joint_names, jpeg, save_glb
-from engine.export.gltf_materials import Material
+from engine.export.glb import JPEG_QUALITY, CharacterModel, build_glb, joint_names, jpeg, save_glb
 from engine.export.vrm_expressions import LOOK_EXPRESSIONS, Expression, expressions_document
-from engine.geometry.morph_target import MorphTarget
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.motion.clip import Clip
 
 LICENCE_URL = "https://vrm.dev/licenses/1.0/"
 
@@ -81,15 +77,10 @@ class VrmMeta:
 
 def write_vrm(
     path: Path,
-    mesh: SkinnedMesh,
+    model: CharacterModel,
     meta: VrmMeta,
-    clips: Sequence[Clip] = (),
     *,
     quality: int = JPEG_QUALITY,
-    unlit: bool = True,
-    morphs: Sequence[MorphTarget] = (),
-    materials: Sequence[Material] = SKIN_MATERIALS,
-    material_of: NDArray[np.integer] | None = None,
     expressions: Mapping[str, Expression] | None = None,
     look_at: Literal["bone", "expression"] = "bone",
     synthetic: bool = True,
@@ -98,33 +89,26 @@ def write_vrm(
 
     Parameters
     ----------
-    clips : become animations of the GLB, which viewers of VRM may pass over.
-    expressions : by name, VRM's own (`engine.export.vrm_expressions.PRESET_NAMES`) or others, mixed of `morphs`.
+    model : without levels of detail, of which VRM knows nothing; its clips become animations of the GLB, which viewers of
+        VRM may pass over.
+    expressions : by name, VRM's own (`engine.export.vrm_expressions.PRESET_NAMES`) or others, mixed of the model's morph targets.
     look_at : whether the eyes look about by their joints or by the expressions `lookUp`, `lookDown`, `lookLeft` and
         `lookRight`.
 
-    The other parameters are those of `engine.export.glb.write_glb`.
+    `quality` and `synthetic` are as of `engine.export.glb.write_glb`.
 
     Raises ValueError where the skeleton lacks one of `REQUIRED_BONES`, `meta` names no author, or expressions do not fit the
-    morph targets, or lack those by which the eyes should look about.
+    morph targets, or lack those by which the eyes should look about; also where the model has levels of detail.
     """
     if not meta.name or not meta.authors:
         raise ValueError("a VRM needs a name and an author")
-    texture = jpeg(mesh.texture, quality, synthetic)
+    if model.levels:
+        raise ValueError("a VRM has no levels of detail")
+    texture = jpeg(model.mesh.texture, quality, synthetic)
     said = expressions or {}
     if look_at == "expression" and not set(LOOK_EXPRESSIONS) <= set(said):
         raise ValueError(f"to look about by expressions takes {', '.join(LOOK_EXPRESSIONS)}")
-    gltf = build_glb(
-        mesh,
-        texture,
-        clips,
-        name=meta.name,
-        unlit=unlit,
-        morphs=morphs,
-        materials=materials,
-        material_of=material_of,
-        synthetic=synthetic,
-    )
+    gltf = build_glb(model, texture, name=meta.name, synthetic=synthetic)
     shown = next(index for index, node in enumerate(gltf.nodes) if node.mesh is not None)
     gltf.extensions = {
         "VRMC_vrm": {
@@ -132,11 +116,13 @@ def write_vrm(
             "meta": _meta(meta),
             "humanoid": {"humanBones": human_bones(joint_names(gltf))},
             "firstPerson": {"meshAnnotations": [{"node": shown, "type": "auto"}]},
-            "lookAt": _look_at(mesh, look_at),
+            "lookAt": _look_at(model.mesh, look_at),
         }
     }
     if said:
-        gltf.extensions["VRMC_vrm"]["expressions"] = expressions_document(said, [morph.name for morph in morphs], shown)
+        gltf.extensions["VRMC_vrm"]["expressions"] = expressions_document(
+            said, [morph.name for morph in model.morphs], shown
+        )
     gltf.extensionsUsed = [*gltf.extensionsUsed, "VRMC_vrm"]
     save_glb(path, b"".join(gltf.save_to_bytes()))
 

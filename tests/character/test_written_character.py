@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from template_character import template_character
 
 from benchmarks.written_character import outline, read_written
-from engine.export.glb import write_glb
+from engine.export.glb import CharacterModel, write_glb
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
 
@@ -23,7 +23,7 @@ def test_a_written_character_is_read_back_and_posed(tmp_path: Path) -> None:
     for name, turn in (("LeftArm", [0.2, 0.1, -1.0]), ("Spine1", [0.1, 0.6, 0.0]), ("RightLeg", [0.7, 0.0, 0.0])):
         turns[0, mesh.skeleton.index(name)] = Rotation.from_rotvec(turn).as_quat()
     pictured = Clip("pictured", 30.0, turns, mesh.skeleton.heads[:1] + np.float32(0.3))
-    write_glb(tmp_path / "character.glb", mesh, [pictured])
+    write_glb(tmp_path / "character.glb", CharacterModel(mesh, [pictured]))
     written = read_written(tmp_path / "character.glb")
     np.testing.assert_array_equal(written.mesh.vertices, mesh.vertices)
     np.testing.assert_array_equal(written.mesh.triangles, mesh.triangles)

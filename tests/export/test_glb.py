@@ -11,7 +11,7 @@ from glb_reader import Glb, validate
 from PIL import Image
 from template_character import still, template_character, walk
 
-from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, WrittenGlb, jpeg, write_glb
+from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.edit import loop_travel
@@ -27,7 +27,7 @@ def mesh() -> SkinnedMesh:
 def path(mesh: SkinnedMesh, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("glb") / "character.glb"
     skeleton = mesh.skeleton
-    write_glb(path, mesh, [walk(skeleton), walk(skeleton, travels=False), still(skeleton)])
+    write_glb(path, CharacterModel(mesh, [walk(skeleton), walk(skeleton, travels=False), still(skeleton)]))
     return path
 
 
@@ -37,7 +37,7 @@ def test_the_validator_finds_nothing(path: Path) -> None:
 
 def test_levels_of_detail_are_valid_and_share_the_skin(mesh: SkinnedMesh, tmp_path: Path) -> None:
     coarse = SkinnedMesh(**{**vars(mesh), "triangles": mesh.triangles[::2]})
-    write_glb(tmp_path / "lod.glb", mesh, [still(mesh.skeleton)], levels=[coarse], unlit=False)
+    write_glb(tmp_path / "lod.glb", CharacterModel(mesh, [still(mesh.skeleton)], levels=[coarse], unlit=False))
     issues = validate(tmp_path / "lod.glb")
     assert issues["numErrors"] == issues["numWarnings"] == 0
     glb = Glb(tmp_path / "lod.glb")
@@ -141,7 +141,7 @@ def test_many_vertices_get_wide_indices(mesh: SkinnedMesh, tmp_path: Path) -> No
         *(np.tile(column, (times, 1)) for column in (mesh.uv, mesh.bones, mesh.weights)),
         texture=mesh.texture[:64, :64],
     )
-    write_glb(tmp_path / "many.glb", many)
+    write_glb(tmp_path / "many.glb", CharacterModel(many))
     assert validate(tmp_path / "many.glb")["messages"] == []
     np.testing.assert_array_equal(Glb(tmp_path / "many.glb").triangles(), many.triangles)
 
@@ -158,11 +158,15 @@ def test_noise_is_a_texture_like_any_other() -> None:
 def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: SkinnedMesh, tmp_path: Path) -> None:
     noise = np.random.default_rng(5).integers(0, 256, (512, 1024, 3), np.uint8)
     noisy, file = replace(mesh, texture=noise), tmp_path / "a.glb"
-    free = write_glb(file, noisy)
-    assert free == write_glb(file, noisy, most=free.size) == WrittenGlb(file.stat().st_size, 1, JPEG_QUALITY)
+    free = write_glb(file, CharacterModel(noisy))
+    assert (
+        free
+        == write_glb(file, CharacterModel(noisy), most=free.size)
+        == WrittenGlb(file.stat().st_size, 1, JPEG_QUALITY)
+    )
     before = free
     for smaller, quality in TEXTURE_REDUCTIONS:
-        written = write_glb(file, noisy, most=before.size - 1)
+        written = write_glb(file, CharacterModel(noisy), most=before.size - 1)
         assert written == WrittenGlb(file.stat().st_size, smaller, quality)
         assert written.size < before.size
         assert validate(file)["messages"] == []
@@ -170,21 +174,21 @@ def test_a_file_that_would_be_too_large_has_the_mildest_texture_that_fits(mesh: 
         with Image.open(io.BytesIO(glb.view(glb.json["images"][0]["bufferView"]))) as texture:
             assert texture.size == (1024 // smaller, 512 // smaller)
         before = written
-    assert write_glb(file, noisy, most=before.size - 1) == free, "not by the texture: it stays as it is"
+    assert write_glb(file, CharacterModel(noisy), most=before.size - 1) == free, "not by the texture: it stays as it is"
 
 
 def test_what_does_not_fit_is_refused_and_leaves_no_file(mesh: SkinnedMesh, tmp_path: Path) -> None:
     clip = still(mesh.skeleton)
     with pytest.raises(ValueError, match="same name"):
-        write_glb(tmp_path / "a.glb", mesh, [clip, clip])
+        write_glb(tmp_path / "a.glb", CharacterModel(mesh, [clip, clip]))
     with pytest.raises(ValueError, match="does not fit"):
-        write_glb(tmp_path / "a.glb", mesh, [type(clip)("other", 30, clip.rotations[:, :5], clip.root)])
+        write_glb(tmp_path / "a.glb", CharacterModel(mesh, [type(clip)("other", 30, clip.rotations[:, :5], clip.root)]))
     assert list(tmp_path.iterdir()) == []
 
 
 def test_every_built_in_clip_is_valid_and_loops_close(mesh: SkinnedMesh, tmp_path: Path) -> None:
     clips = [built_in(name, mesh.skeleton) for name in CLIPS]
-    write_glb(tmp_path / "clips.glb", mesh, clips)
+    write_glb(tmp_path / "clips.glb", CharacterModel(mesh, clips))
     assert validate(tmp_path / "clips.glb")["messages"] == []
     glb = Glb(tmp_path / "clips.glb")
     assert [each["name"] for each in glb.json["animations"]] == list(CLIPS)

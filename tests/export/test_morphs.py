@@ -14,7 +14,7 @@ from template_character import still, template_character
 
 from engine.body import load_template
 from engine.body.template import FACE_UNITS
-from engine.export.glb import write_glb
+from engine.export.glb import CharacterModel, write_glb
 from engine.export.gltf_materials import Material, TextureTransform
 from engine.export.vrm import VrmMeta, write_vrm
 from engine.export.vrm_expressions import ARKIT_MIXTURES, PRESET_NAMES, Expression, arkit_expressions
@@ -44,7 +44,7 @@ def face_units(mesh: SkinnedMesh) -> list[MorphTarget]:
 @pytest.fixture(scope="module")
 def path(mesh: SkinnedMesh, face_units: list[MorphTarget], tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("morphs") / "character.glb"
-    write_glb(path, mesh, [still(mesh.skeleton)], morphs=face_units)
+    write_glb(path, CharacterModel(mesh, [still(mesh.skeleton)], morphs=face_units))
     return path
 
 
@@ -78,13 +78,13 @@ def test_targets_are_sparse_where_that_is_smaller(
     assert sparse == [len(unit.moved) > 0 for unit in face_units] and sum(sparse) == 51  # the skin has no tongue
     everywhere = morph_target("all", np.full((len(mesh.vertices), 3), 0.01))
     few = MorphTarget("few", np.array([5, 700]), np.full((2, 3), 0.02, np.float32))
-    write_glb(tmp_path / "a.glb", mesh, morphs=[everywhere, few])
+    write_glb(tmp_path / "a.glb", CharacterModel(mesh, morphs=[everywhere, few]))
     assert validate(tmp_path / "a.glb")["messages"] == []
     glb = Glb(tmp_path / "a.glb")
     kinds = ["sparse" in glb.json["accessors"][target["POSITION"]] for target in targets(glb)]
     assert kinds == [False, True]
     np.testing.assert_array_equal(glb.array(targets(glb)[0]["POSITION"]), everywhere.dense(len(mesh.vertices)))
-    write_glb(tmp_path / "b.glb", mesh)
+    write_glb(tmp_path / "b.glb", CharacterModel(mesh))
     more = (tmp_path / "a.glb").stat().st_size - (tmp_path / "b.glb").stat().st_size
     assert more < 12 * len(mesh.vertices) + 3000
 
@@ -98,7 +98,7 @@ def test_a_lit_character_has_the_normals_of_its_shapes(
     mesh: SkinnedMesh, face_units: list[MorphTarget], tmp_path: Path
 ) -> None:
     opened = next(unit for unit in face_units if unit.name == "jawOpen")
-    write_glb(tmp_path / "lit.glb", mesh, morphs=[opened], unlit=False)
+    write_glb(tmp_path / "lit.glb", CharacterModel(mesh, morphs=[opened], unlit=False))
     assert validate(tmp_path / "lit.glb")["messages"] == []
     glb = Glb(tmp_path / "lit.glb")
     normals = glb.attribute("NORMAL") + glb.array(targets(glb)[0]["NORMAL"])
@@ -118,7 +118,7 @@ def test_a_lit_character_has_the_normals_of_its_shapes(
 
 def test_a_shape_that_moves_nothing_is_valid(mesh: SkinnedMesh, tmp_path: Path) -> None:
     nothing = MorphTarget("nothing", np.zeros(0, int), np.zeros((0, 3), np.float32))
-    write_glb(tmp_path / "a.glb", mesh, morphs=[nothing], unlit=False)
+    write_glb(tmp_path / "a.glb", CharacterModel(mesh, morphs=[nothing], unlit=False))
     issues = validate(tmp_path / "a.glb")
     assert issues["numErrors"] == issues["numWarnings"] == 0
     assert not Glb(tmp_path / "a.glb").array(targets(Glb(tmp_path / "a.glb"))[0]["POSITION"]).any()
@@ -135,7 +135,7 @@ def test_wrong_shapes_are_refused_and_leave_no_file(mesh: SkinnedMesh, tmp_path:
         ([MorphTarget("a", np.array([1]), one * np.nan)], "finite"),
     ):
         with pytest.raises(ValueError, match=reason):
-            write_glb(tmp_path / "a.glb", mesh, morphs=wrong)
+            write_glb(tmp_path / "a.glb", CharacterModel(mesh, morphs=wrong))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -152,7 +152,7 @@ def test_several_materials_share_vertices_and_shapes(
         Material("unused"),
     ]
     which = np.arange(len(mesh.triangles)) * 3 // len(mesh.triangles)
-    write_glb(tmp_path / "a.glb", mesh, morphs=face_units[:3], materials=kinds, material_of=which)
+    write_glb(tmp_path / "a.glb", CharacterModel(mesh, morphs=face_units[:3], materials=kinds, material_of=which))
     issues = validate(tmp_path / "a.glb")
     assert issues["numErrors"] == issues["numWarnings"] == 0
     glb = Glb(tmp_path / "a.glb")
@@ -186,7 +186,7 @@ def test_materials_that_do_not_fit_are_refused(mesh: SkinnedMesh, tmp_path: Path
         ({"materials": two, "material_of": which, "levels": [mesh]}, "one material"),
     ):
         with pytest.raises(ValueError, match=reason):
-            write_glb(tmp_path / "a.glb", mesh, **given)
+            write_glb(tmp_path / "a.glb", CharacterModel(mesh, **given))
 
 
 def test_a_vrm_has_expressions_of_its_own_names_and_the_characters(
@@ -195,10 +195,8 @@ def test_a_vrm_has_expressions_of_its_own_names_and_the_characters(
     said = arkit_expressions([unit.name for unit in face_units])
     write_vrm(
         tmp_path / "a.vrm",
-        mesh,
+        CharacterModel(mesh, [still(mesh.skeleton)], morphs=face_units),
         META,
-        [still(mesh.skeleton)],
-        morphs=face_units,
         expressions=said,
         look_at="expression",
     )
@@ -219,7 +217,7 @@ def test_a_vrm_has_expressions_of_its_own_names_and_the_characters(
 
 
 def test_without_expressions_a_vrm_says_nothing_of_them(mesh: SkinnedMesh, tmp_path: Path) -> None:
-    write_vrm(tmp_path / "a.vrm", mesh, META)
+    write_vrm(tmp_path / "a.vrm", CharacterModel(mesh), META)
     vrm = Glb(tmp_path / "a.vrm").json["extensions"]["VRMC_vrm"]
     assert "expressions" not in vrm and vrm["lookAt"]["type"] == "bone"
 
@@ -255,5 +253,5 @@ def test_expressions_that_do_not_fit_are_refused(
         ({"look_at": "expression"}, "lookUp"),
     ):
         with pytest.raises(ValueError, match=reason):
-            write_vrm(tmp_path / "a.vrm", mesh, META, morphs=face_units, **given)
+            write_vrm(tmp_path / "a.vrm", CharacterModel(mesh, morphs=face_units), META, **given)
     assert list(tmp_path.iterdir()) == []

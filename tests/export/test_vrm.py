@@ -8,6 +8,7 @@ from glb_reader import Glb, validate
 from template_character import still, template_character
 
 from engine.body.template import load_rig
+from engine.export.glb import CharacterModel
 from engine.export.vrm import VrmMeta, human_bones, write_vrm
 from engine.geometry.skinned_mesh import SkinnedMesh
 
@@ -102,7 +103,7 @@ def mesh() -> SkinnedMesh:
 def path(mesh: SkinnedMesh, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("vrm") / "character.vrm"
     meta = VrmMeta("Person", ("A. Author",), other_licence_url="https://example.org/licence", redistribution=True)
-    write_vrm(path, mesh, meta, [still(mesh.skeleton)])
+    write_vrm(path, CharacterModel(mesh, [still(mesh.skeleton)]), meta)
     return path
 
 
@@ -162,4 +163,4 @@ def test_a_skeleton_that_is_no_human_is_refused(mesh: SkinnedMesh, tmp_path: Pat
     with pytest.raises(ValueError, match="leftFoot"):
         human_bones([name for name in mesh.skeleton.names if name != "LeftFoot"])
     with pytest.raises(ValueError, match="author"):
-        write_vrm(tmp_path / "a.vrm", mesh, VrmMeta("Person", ()))
+        write_vrm(tmp_path / "a.vrm", CharacterModel(mesh), VrmMeta("Person", ()))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from template_character import template_character
 
-from engine.export.glb import write_glb
+from engine.export.glb import CharacterModel, write_glb
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.gltf_motion import read_gltf_motion
@@ -110,7 +110,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[bytes, dict[str, 
     mesh = template_character(texture_size=16)
     clips = {name: built_in(name, mesh.skeleton) for name in CLIPS}
     path: Path = tmp_path_factory.mktemp("written") / "character.glb"
-    write_glb(path, mesh, list(clips.values()))
+    write_glb(path, CharacterModel(mesh, list(clips.values())))
     return path.read_bytes(), clips
 
 
