@@ -14,7 +14,7 @@ from service.artifacts.naming import download_name
 from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
 from service.context import InContext
-from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.job_records import artifacts as repository
 from service.job_records import jobs
 from service.job_records.owned import own_job
@@ -25,13 +25,7 @@ from service.tables.jobs import Status
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 
 
-@router.head("/{job_id}/artifacts/{name}", include_in_schema=False)
-@router.get(
-    "/{job_id}/artifacts/{name}",
-    operation_id="get_artifact",
-    response_class=Response,
-    responses=DELIVERED_IN_PARTS,
-)
+@stored_file("/{job_id}/artifacts/{name}", router, "get_artifact", DELIVERED_IN_PARTS)
 def get_artifact(
     job_id: str,
     name: str,
@@ -53,7 +47,7 @@ def get_artifact(
     if artifact is None or job is None:
         raise Problem(404, "artifact_not_found", "The job has no artifact of this name (yet).")
     stored = replace(artifact.stored, name=download_name(name, job.notes, job.inputs, job.options))
-    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+    return deliver(stored, context.storage, request)
 
 
 @router.get(

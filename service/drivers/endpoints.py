@@ -9,7 +9,7 @@ from service.auth.caller import Reader
 from service.context import InContext
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
-from service.http.delivery import DELIVERED_IN_PARTS, DELIVERY_RESPONSES, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, DELIVERY_RESPONSES, deliver, stored_file
 from service.keeping.endpoints import Endpoints, library_router
 
 router = library_router(
@@ -28,40 +28,22 @@ router = library_router(
 )
 
 
-@router.head("/{name}/video", include_in_schema=False)
-@router.get(
-    "/{name}/video",
-    operation_id="get_driver_video",
-    response_class=Response,
-    responses=DELIVERED_IN_PARTS,
-)
+@stored_file("/{name}/video", router, "get_driver_video", DELIVERED_IN_PARTS)
 def get_driver_video(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The video itself: whole, or the ranges asked for."""
     stored, storage = service.stored(context, caller.owner, name)
-    return deliver(stored, storage, request.headers, request.method == "HEAD")
+    return deliver(stored, storage, request)
 
 
-@router.head("/{name}/poster", include_in_schema=False)
-@router.get(
-    "/{name}/poster",
-    operation_id="get_driver_poster",
-    response_class=Response,
-    responses=DELIVERY_RESPONSES,
-)
+@stored_file("/{name}/poster", router, "get_driver_poster", DELIVERY_RESPONSES)
 def get_driver_poster(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) that shows what happens in it; of one's own drivers, the face at rest."""
     stored, storage = service.poster(context, caller.owner, name)
-    return deliver(stored, storage, request.headers, request.method == "HEAD")
+    return deliver(stored, storage, request)
 
 
-@router.head("/{name}/moments/{moment}/poster", include_in_schema=False)
-@router.get(
-    "/{name}/moments/{moment}/poster",
-    operation_id="get_moment_poster",
-    response_class=Response,
-    responses=DELIVERY_RESPONSES,
-)
+@stored_file("/{name}/moments/{moment}/poster", router, "get_moment_poster", DELIVERY_RESPONSES)
 def get_moment_poster(name: str, moment: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) of a moment at its height."""
     stored, storage = service.moment_poster(context, caller.owner, name, moment)
-    return deliver(stored, storage, request.headers, request.method == "HEAD")
+    return deliver(stored, storage, request)

@@ -13,7 +13,7 @@ from service.context import Context, InContext
 from service.files import repository, service
 from service.files.intake import Form
 from service.files.schemas import FileOut
-from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.problems import Problem, responses
 from service.tables.files import File
 
@@ -63,17 +63,11 @@ def get_file(file_id: str, caller: Reader, context: InContext) -> FileOut:
     return FileOut.of(_found(context, caller, file_id))
 
 
-@router.head("/{file_id}/content", include_in_schema=False)
-@router.get(
-    "/{file_id}/content",
-    operation_id="get_file_content",
-    response_class=Response,
-    responses=DELIVERED_IN_PARTS,
-)
+@stored_file("/{file_id}/content", router, "get_file_content", DELIVERED_IN_PARTS)
 def get_file_content(file_id: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The file itself: whole, or the ranges asked for."""
     stored = _found(context, caller, file_id).stored
-    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+    return deliver(stored, context.storage, request)
 
 
 def require_multipart(request: Request) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Callable
 from email.utils import format_datetime
-from typing import Any
+from typing import Any, TypeVar
 from urllib.parse import quote
 
+from fastapi import APIRouter, Request
 from starlette.responses import Response, StreamingResponse
 from starlette.types import Send
 
@@ -17,6 +18,8 @@ from service.problems import Problem, responses, unavailable
 from service.storage.files import Storage, StorageUnavailable
 from service.tables.stored import Stored
 
+Endpoint = TypeVar("Endpoint", bound=Callable[..., Any])
+
 DELIVERY_RESPONSES: dict[int | str, dict[str, Any]] = {304: {"description": "Not modified"}, **responses(404, 416)}
 """What `deliver` may answer beside the whole, for the OpenAPI document."""
 
@@ -24,8 +27,22 @@ DELIVERED_IN_PARTS: dict[int | str, dict[str, Any]] = {206: {"description": "The
 """What `deliver` may answer beside the whole where ranges are often asked for, for the OpenAPI document."""
 
 
-def deliver(stored: Stored, storage: Storage, headers: Mapping[str, str], head: bool) -> Response:
-    """The answer to a GET or HEAD request with these headers."""
+def stored_file(
+    path: str, router: APIRouter, operation_id: str, answers: dict[int | str, dict[str, Any]]
+) -> Callable[[Endpoint], Endpoint]:
+    """Register a function that answers GET requests by `deliver`, and HEAD requests for the same."""
+
+    def register(endpoint: Endpoint) -> Endpoint:
+        router.get(path, operation_id=operation_id, response_class=Response, responses=answers)(endpoint)
+        router.head(path, include_in_schema=False)(endpoint)
+        return endpoint
+
+    return register
+
+
+def deliver(stored: Stored, storage: Storage, request: Request) -> Response:
+    """The answer to a GET or HEAD request."""
+    headers, head = request.headers, request.method == "HEAD"
     etag = f'"{stored.sha256}"'
     answer = {
         "ETag": etag,

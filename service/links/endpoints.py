@@ -14,7 +14,7 @@ from service.auth.caller import Caller, InCaller, Reader, Scope, Submitter
 from service.auth.tokens import digest
 from service.clock import now
 from service.context import InContext
-from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.http.request_models import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id, new_id
 from service.job_records import artifacts, jobs
@@ -111,13 +111,7 @@ def get_shared(token: str, response: Response, context: InContext) -> SharedOut:
     return SharedOut.of(link, token, job, made)
 
 
-@router.head("/public/{token}/{name}", include_in_schema=False)
-@router.get(
-    "/public/{token}/{name}",
-    operation_id="get_shared_artifact",
-    response_class=Response,
-    responses=DELIVERED_IN_PARTS,
-)
+@stored_file("/public/{token}/{name}", router, "get_shared_artifact", DELIVERED_IN_PARTS)
 def get_shared_artifact(token: str, name: str, request: Request, context: InContext) -> Response:
     """An artifact that a public link opens: whole, or the ranges asked for."""
     with context.database.read() as session:
@@ -125,7 +119,7 @@ def get_shared_artifact(token: str, name: str, request: Request, context: InCont
         artifact = artifacts.get(session, link.job_id, name) if opens_artifact(link, name) else None
     if artifact is None:
         raise Problem(404, "artifact_not_found", "The link opens no artifact of this name.", headers=FROM_ANYWHERE)
-    response = deliver(artifact.stored, context.storage, request.headers, request.method == "HEAD")
+    response = deliver(artifact.stored, context.storage, request)
     response.headers.update(FROM_ANYWHERE)
     return response
 

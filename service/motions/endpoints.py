@@ -7,7 +7,7 @@ from starlette.responses import Response
 
 from service.auth.caller import Reader
 from service.context import InContext
-from service.http.delivery import DELIVERED_IN_PARTS, deliver
+from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.keeping.endpoints import Endpoints, library_router
 from service.motions import service
 from service.motions.schemas import MotionList, MotionOut
@@ -28,14 +28,8 @@ router = library_router(
 )
 
 
-@router.head("/{name}/file", include_in_schema=False)
-@router.get(
-    "/{name}/file",
-    operation_id="get_motion_file",
-    response_class=Response,
-    responses=DELIVERED_IN_PARTS,
-)
+@stored_file("/{name}/file", router, "get_motion_file", DELIVERED_IN_PARTS)
 def get_motion_file(name: str, request: Request, caller: Reader, context: InContext) -> Response:
     """The file of one of the user's own motions: whole, or the ranges asked for."""
     stored = service.stored(context, caller.owner, name)
-    return deliver(stored, context.storage, request.headers, request.method == "HEAD")
+    return deliver(stored, context.storage, request)
