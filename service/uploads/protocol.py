@@ -42,7 +42,7 @@ UploadMetadata = Annotated[
 UploadChecksum = Annotated[
     str | None,
     Header(
-        description_headers=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(ALGORITHMS)}.",
+        description=f"The piece's checksum, `ALGORITHM BASE64`; one of {', '.join(ALGORITHMS)}.",
         json_schema_extra={"pattern": f"^({'|'.join(ALGORITHMS)}) [A-Za-z0-9+/]+=*$"},
     ),
 ]
