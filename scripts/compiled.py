@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from service.settings import Settings
-from worker.compilation.rehearsal import rehearse, rehearsed
+from worker.compilation.rehearsal import is_rehearsed, rehearse
 
 
 def main() -> None:
     settings = Settings(kinds=["engine.kinds:KINDS"])
-    if not rehearsed(settings):
+    if not is_rehearsed(settings):
         rehearse(settings)
 
 
