@@ -16,9 +16,9 @@ from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.contact_sheet import Row, contact_sheet, evenly, write_sheet
 from benchmarks.shared_media import driving_clips, media, tool, write_clip
 from benchmarks.tables import mean_row, table
-from engine.face_animation.alignment import align
 from engine.face_animation.animation import Parts
-from engine.face_animation.control_points import carry_fiducials
+from engine.face_animation.motion_transfer.alignment import align
+from engine.face_animation.motion_transfer.control_points import carry_fiducials
 from engine.face_animation.rig import rig_target
 from engine.imaging.mesh_warp import inverse_map
 from engine.media.image import read_image

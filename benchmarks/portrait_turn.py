@@ -14,7 +14,7 @@ from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
 from benchmarks.head_scan import read_head_scan, render_head
 from benchmarks.shared_media import media, tool, write_clip
 from benchmarks.tables import table
-from engine.face_animation.layers import Layers
+from engine.face_animation.warping.layers import Layers
 from engine.portrait.options import PortraitOptions
 
 PICTURE_SIZE = (480, 576)

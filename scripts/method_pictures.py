@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts
-from engine.face_animation.driver import track_driver
-from engine.face_animation.fine_details import keep_ratio_images
-from engine.face_animation.layers import Layers, separate_layers
-from engine.face_animation.neutral import choose_neutral_frame
-from engine.face_animation.registration import register_track
+from engine.face_animation.creases.fine_details import keep_ratio_images
+from engine.face_animation.creases.registration import register_track
+from engine.face_animation.driver_tracking.driver import track_driver
+from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
 from engine.media.limits import Limits
 from engine.performances import video

@@ -54,7 +54,7 @@ def opened(mesh: NDArray, gap: float) -> NDArray[np.float32]:
 
 def shut(mesh: NDArray, share: float = 0.0) -> NDArray[np.float32]:
     """The face with its upper lids lowered until `share` of the gap is left."""
-    from engine.face_animation.lids_and_lips import LID_PAIRS
+    from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
 
     out = mesh.copy()
     upper, lower = np.array(LID_PAIRS).T

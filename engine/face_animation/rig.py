@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.face_animation.control_points import ControlPoints, place_control_points
-from engine.face_animation.dense_field import build_warp_mesh
-from engine.face_animation.fine_details import DetailRegion, detail_region
-from engine.face_animation.layers import Layers
+from engine.face_animation.creases.fine_details import DetailRegion, detail_region
+from engine.face_animation.motion_transfer.control_points import ControlPoints, place_control_points
 from engine.face_animation.target_face import TargetFace
-from engine.face_animation.warp_mesh import WarpMesh
+from engine.face_animation.warping.dense_field import build_warp_mesh
+from engine.face_animation.warping.layers import Layers
+from engine.face_animation.warping.warp_mesh import WarpMesh
 
 
 @dataclass(frozen=True)

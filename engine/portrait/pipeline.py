@@ -13,7 +13,7 @@ from engine.export.encoders import VideoTarget
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation
-from engine.face_animation.neutral import choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
 from engine.kind import Candidates, Given

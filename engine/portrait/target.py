@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.export.animated_gif import MAX_GIF_SIDE
-from engine.face_animation.lower_lids import fit_lower_lids
+from engine.face_animation.eyes.lower_lids import fit_lower_lids
 from engine.face_animation.target_face import TargetFace
 from engine.imaging.resample import even_size
 from engine.media.image import over_grey, read_image
@@ -47,7 +47,7 @@ MIN_INSIDE_SHARE = 0.5
 """Share of a placed face that lies in the picture; of one that reaches further out, nothing is left to move."""
 CROP_WITHOUT_FACE = "The crop leaves the face out: let it hold more than half of it."
 SHUT_EYE_OPENING = 0.13
-"""Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.face_animation.eyes`): calm
+"""Gap between an eye's lids, over its width, below which it is shut, and no eyeball is found (`engine.face_animation.eyes.eyes`): calm
 people have 0.22 to 0.43, a laugh 0.2."""
 
 

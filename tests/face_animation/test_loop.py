@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from made_face import driver, in_crop, opened, painted, placed
 
-from engine.face_animation.fine_details import keep_ratio_images
+from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.loop import close_loop
 from engine.perception.face_track.face_crop import CROP_SHAPE
 

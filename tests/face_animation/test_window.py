@@ -8,10 +8,10 @@ import numpy as np
 from made_clip import OPENS
 
 from engine.face_animation.animation import FaceAnimation, Window
-from engine.face_animation.driver import track_driver
-from engine.face_animation.fine_details import keep_ratio_images
-from engine.face_animation.layers import separate_layers
+from engine.face_animation.creases.fine_details import keep_ratio_images
+from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
+from engine.face_animation.warping.layers import separate_layers
 from engine.media.limits import Limits
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from tiny_onnx import brightness_model
 
-from engine.face_animation.layers import separate_layers
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.warping.layers import separate_layers
 from engine.perception.models import MATTING_SETTING, ModelError, ModelFile, load_matting_model, matting_model
 from engine.perception.person import DOUBTFUL_BELIEF, person_mask
 

@@ -12,11 +12,11 @@ from made_clip import face, unpacked, write_frames
 from numpy.typing import NDArray
 
 from engine.face_animation.animation import FaceAnimation
-from engine.face_animation.driver import track_driver
-from engine.face_animation.fine_details import RatioImages
-from engine.face_animation.layers import Layers, separate_layers
-from engine.face_animation.registration import register_track
+from engine.face_animation.creases.fine_details import RatioImages
+from engine.face_animation.creases.registration import register_track
+from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
+from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.landmarks import FACE_OVAL

@@ -13,7 +13,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.face_animation.layers import separate_layers
+from engine.face_animation.warping.layers import separate_layers
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.expression.features import measure_expression

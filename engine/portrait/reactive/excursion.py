@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.face_animation.motion import ControlMotion
+from engine.face_animation.motion_transfer.control_motion import ControlMotion
 
 STIR_SHARE = 0.05
 """A performance begins and ends where this share of its furthest offset is passed: what comes before is waiting."""

@@ -14,12 +14,11 @@ from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation, draw_in_order
-from engine.face_animation.fine_details import RatioStrip
-from engine.face_animation.head_proxy import build_head_proxy
-from engine.face_animation.landmark_residuals import LandmarkResiduals
-from engine.face_animation.layers import Layers
-from engine.face_animation.motion import carry_motion
-from engine.face_animation.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.creases.fine_details import RatioStrip
+from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
+from engine.face_animation.driver_tracking.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
+from engine.face_animation.motion_transfer.control_motion import carry_motion
+from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
 from engine.face_animation.rig import Rig
 from engine.face_animation.stages import (
     DriverPerformance,
@@ -28,6 +27,7 @@ from engine.face_animation.stages import (
     prepare_target,
 )
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.warping.layers import Layers
 from engine.kind import Given
 from engine.media.video import probe_video
 from engine.performances.catalogue import FPS

@@ -1,0 +1,1 @@
+"""The driver: its face followed, refined, and its frame at rest."""

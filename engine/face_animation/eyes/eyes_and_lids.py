@@ -1,0 +1,25 @@
+"""Both eyes of an animated face: the lids close over eyeballs that look elsewhere."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.eyes.eyes import draw_eye, lid_closing_share, prepare_eyes
+from engine.face_animation.eyes.lid_skin import draw_lid, lid_skins
+from engine.face_animation.target_face import TargetFace
+
+
+class EyesAndLids:
+    """The eyeballs and the lids' skin of a target; an eye that its picture does not show stays as the warp has it."""
+
+    def __init__(self, target: TargetFace):
+        self._eyeballs = prepare_eyes(target.rgb, target.mesh)
+        self._lids = lid_skins(target.rgb, target.mesh)
+
+    def draw(self, frame: NDArray[np.uint8], face: NDArray[np.float32], look: NDArray[np.float32]) -> None:
+        """Draw them in place where a `face` (478, 2) of the frame (H, W, 3) has them, pixels; `look` (2, 2) as `eyes.gaze_offsets`."""
+        for side, eyeball in enumerate(self._eyeballs):
+            if eyeball is not None:
+                draw_lid(frame, self._lids[side], face, side, lid_closing_share(eyeball, face, side))
+                draw_eye(frame, eyeball, face, side, look[side])

@@ -1,0 +1,1 @@
+"""How the driver's face and head move, carried to the target."""

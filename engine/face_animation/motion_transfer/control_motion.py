@@ -1,0 +1,220 @@
+"""From the driver's track to the control points of the target, frame by frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.acting_options import ActingOptions, Part
+from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
+from engine.face_animation.eyes.eyes import gaze_offsets
+from engine.face_animation.motion_transfer.alignment import align
+from engine.face_animation.motion_transfer.contour import keep_inside, rim_distance
+from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_fiducials, carry_periphery
+from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
+from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
+from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
+from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
+from engine.geometry.rigid import Similarity
+from engine.perception.face_track.track import FaceTrack
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import MESH_SIZE, eye_distance
+
+PLANE_SHARE = 0.65
+"""Inside a face that the picture shows turned, the paper's plane counts this much beside the proxy turned in space:
+its depth is hardly seen there, and errs."""
+PLANE_TURN_DEGREES = (3.0, 10.0)
+"""Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
+INSIDE_FROM = 0.12
+"""Eye distances inside the contour over which the plane's share rises to the full one."""
+CORRECTED_FROM = 0.3
+"""Eye distances from the face's rim at which tracked points correct the proxy fully."""
+TURN_TRUSTED, TURN_LOST = 15.0, 30.0
+"""Degrees of turn up to which tracked points of the head are trusted, and where no more."""
+MAX_CORRECTION = 0.6
+"""Largest correction of a point of the head, in eye distances."""
+CHUNK_FRAMES = 32
+"""Frames whose control points are computed together: enough for vectorised work, little memory."""
+
+
+@dataclass(frozen=True)
+class ControlMotion:
+    """One frame: `offsets` (C, 2) of the control points, pixels, and their `depth` (C,), smaller is nearer;
+    `look` (2, 2) of the irises, see `eyes.gaze_offsets`."""
+
+    frame: int
+    offsets: NDArray[np.float32]
+    depth: NDArray[np.float32]
+    look: NDArray[np.float32]
+
+
+def carry_motion(
+    track: FaceTrack,
+    neutral: int,
+    target: NDArray[np.float32],
+    control: ControlPoints,
+    proxy: HeadProxy | None,
+    options: ActingOptions,
+    residuals: LandmarkResiduals | None = None,
+) -> Iterator[ControlMotion]:
+    """Equation 1 for every frame; with a `proxy`, the head's part of it in 3D; corrected by a `residuals`.
+
+    Parameters
+    ----------
+    neutral : the driver's neutral frame. target : (478, 3) mesh, pixels. proxy : None keeps to the plane.
+    """
+    rest = track.meshes[neutral]
+    phi = align(rest, target)
+    unit = float(eye_distance(target[:, :2]))
+    maps = local_maps(phi, rest, target, float(eye_distance(rest[:, :2])))
+    follow = part_weights(options.follow)
+    rim = rim_distance(target, control.points[control.periphery]) / unit
+    head = options.strength if "head" in options.follow else 0.0
+    eyes = options.strength if "eyes" in options.follow else 0.0
+    correct = min(options.strength, 1.0) * follow
+    for start in range(0, len(track), CHUNK_FRAMES):
+        some = slice(start, min(start + CHUNK_FRAMES, len(track)))
+        motion = split_motion(track.meshes[some], rest)
+        around = track.periphery[some] - track.periphery[neutral]
+        if proxy is not None:
+            around = around - proxy_offsets(motion, track.periphery[neutral])
+        trust = track.trust[some] * track.trust[neutral]
+        around = head * carry_periphery(
+            phi, track.periphery[neutral], around, trust, control.points[control.periphery], unit
+        )
+        if proxy is not None:
+            around = tracked_correction(around, proxy.share[control.periphery], rim, motion, unit)
+        expression = options.strength * follow[:, None] * carry_expression(maps, phi, motion.expression)
+        upright, acted = rest + motion.expression, target + expression
+        ratio = 1 + eyes * (lid_ratio(upright, rest) - 1)
+        keep_lips_off_skin(acted, target, philtrum_compression(upright, rest))
+        expression = constrain_lids_and_lips(acted, target, np.maximum(ratio, 0)) - target
+        look = eyes * gaze_offsets(upright, rest) * np.clip(ratio[:, [3, 10]], 0, 1)[..., None]
+        if proxy is None:
+            frames = _in_plane(phi, motion, expression, around, target, control, head)
+        else:
+            frames = _in_space(phi, motion, expression, around, target, control, proxy, head)
+        offsets, depths = (np.stack(each) for each in zip(*frames, strict=True))
+        placed = control.points[:MESH_SIZE] + offsets[:, :MESH_SIZE]
+        if residuals is not None:
+            faces = np.stack([track.in_crop(frame) for frame in range(some.start, some.stop)])
+            placed += correct[:, None] * residuals.corrections(faces, placed)
+        keep_inside(placed, target, control.usable[:MESH_SIZE])
+        offsets[:, :MESH_SIZE] = placed - control.points[:MESH_SIZE]
+        for k in range(len(offsets)):
+            yield ControlMotion(start + k, offsets[k], depths[k], look[k].astype(np.float32))
+
+
+def _in_plane(
+    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
+    target: NDArray, control: ControlPoints, head: float,
+) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
+    """The paper's own form: the rigid part is carried as offsets in the plane, like everything else."""
+    face = _face_in_plane(phi, motion, expression, target, head)
+    for k in range(len(around)):
+        offsets = np.zeros((len(control.points), 2), np.float32)
+        offsets[:MESH_SIZE] = face[k]
+        offsets[control.periphery] = around[k]
+        yield offsets, np.zeros(len(offsets), np.float32)
+
+
+def _face_in_plane(
+    phi: Similarity, motion: HeadMotion, expression: NDArray, target: NDArray, head: float
+) -> NDArray[np.float64]:
+    """Equation 1 for the rigid motion, and the expression: (N, 478, 2) offsets."""
+    scaled = scale_motion(motion, head)
+    turned = np.einsum("nij,vj->nvi", scaled.rotation, motion.neutral)
+    rigid = scaled.scale[:, None, None] * turned + scaled.shift[:, None]
+    return carry_fiducials(phi, rigid, motion.neutral, target) - target[:, :2] + expression[..., :2]
+
+
+def proxy_offsets(motion: HeadMotion, points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """What a proxy of the driver's own head says of its tracked points (K, 2): offsets (N, K, 2), pixels."""
+    neutral = motion.neutral
+    proxy = build_head_proxy(np.concatenate([neutral[:, :2], points]), neutral)
+    moved = move_head(proxy, motion, neutral)[:, MESH_SIZE:, :2]
+    return np.asarray(proxy.share[MESH_SIZE:, None] * (moved - points), float)
+
+
+def tracked_correction(
+    carried: NDArray[np.floating],
+    share: NDArray[np.floating],
+    rim: NDArray[np.floating],
+    motion: HeadMotion,
+    unit: float,
+) -> NDArray[np.float64]:
+    """What the driver's tracked points may correct of the proxy: (N, P, 2) offsets, pixels.
+
+    Beside the face the mesh knows better, and in a head that turns far the tracked points slip; there, in
+    proportion to each point's `share` in the head, the correction fades. `rim` (P,) eye distances from the face.
+    """
+    beside = np.clip(rim / CORRECTED_FROM, 0, 1) ** 2
+    turn = np.rad2deg(np.arccos(np.clip(motion.rotation[:, 2, 2], -1, 1)))
+    trust = np.clip((TURN_LOST - turn) / (TURN_LOST - TURN_TRUSTED), 0, 1)
+    size = np.linalg.norm(carried, axis=-1)
+    limited = np.minimum(1.0, MAX_CORRECTION * unit / np.maximum(size, 1e-6))
+    kept = (1 - share) + share * beside * trust[:, None] * limited
+    return np.asarray(kept[..., None] * carried, float)
+
+
+def _in_space(
+    phi: Similarity, motion: HeadMotion, expression: NDArray, around: NDArray,
+    target: NDArray, control: ControlPoints, proxy: HeadProxy, head: float,
+) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:  # fmt: skip
+    """The head turned in space; the features of a target that is turned itself, partly as equation 1 has them."""
+    moved = move_head(proxy, scale_motion(motion, head), target, expression)
+    share = proxy.share[:, None].astype(np.float32)
+    face = _face_in_plane(phi, motion, expression, target, head)
+    plane = plane_share(target)
+    for k in range(len(around)):
+        offsets = share * (moved[k, :, :2] - proxy.points[:, :2])
+        offsets[:MESH_SIZE] += plane[:, None] * (face[k] - offsets[:MESH_SIZE])
+        offsets[control.periphery] += around[k]
+        offsets[control.border] = 0.0
+        yield offsets.astype(np.float32), moved[k, :, 2]
+
+
+def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(478,) how much equation 1 in the plane counts beside the head turned in space, for a target's mesh."""
+    slant = float(np.rad2deg(turn_angles(target[None], canonical_face())[0]))
+    inside = -rim_distance(target, target[:, :2]) / float(eye_distance(target[:, :2]))
+    return (
+        PLANE_SHARE
+        * np.clip((slant - PLANE_TURN_DEGREES[0]) / (PLANE_TURN_DEGREES[1] - PLANE_TURN_DEGREES[0]), 0, 1)
+        * _step(inside, 0, INSIDE_FROM)
+    )
+
+
+def scale_motion(motion: HeadMotion, strength: float) -> HeadMotion:
+    """The same motion of the head, stronger or weaker; 0 leaves it where the neutral frame has it."""
+    if strength == 1.0:
+        return motion
+    centre = motion.neutral.mean(axis=0)
+    moved = motion.scale[:, None] * (motion.rotation @ centre) + motion.shift - centre
+    rotation = np.array([cv2.Rodrigues(strength * cv2.Rodrigues(r)[0])[0] for r in motion.rotation])
+    scale = motion.scale**strength
+    shift = centre + strength * moved - scale[:, None] * (rotation @ centre)
+    return HeadMotion(motion.neutral, scale, rotation, shift, motion.expression)
+
+
+def part_weights(follow: tuple[Part, ...]) -> NDArray[np.float32]:
+    """(478,) how much each vertex's expression follows the driver, 1 for the parts named in `follow`.
+
+    The parts meet softly: brows above the eyes, eyes around them, mouth from the nose's wings down.
+    """
+    y = canonical_face()[:, 1].astype(float)
+    brows = _step(y, -0.15, -0.25)
+    mouth = _step(y, 0.3, 0.55)
+    weights = {"brows": brows, "mouth": mouth, "eyes": (1 - brows) * (1 - mouth)}
+    total = np.sum([weights[part] for part in weights if part in follow], axis=0) if follow else 0.0
+    return np.broadcast_to(np.asarray(total, np.float32), (len(y),)).copy()
+
+
+def _step(x: NDArray[np.floating], start: float, end: float) -> NDArray[np.float64]:
+    t = np.clip((x - start) / (end - start), 0, 1)
+    return np.asarray(t * t * (3 - 2 * t), float)

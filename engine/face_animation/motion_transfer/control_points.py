@@ -1,0 +1,143 @@
+"""The control points of the target and where each frame of the driver puts them (section 4, equation 1).
+
+Three sets: the fiducial points on the face (the whole mesh here, of which the 68 are a part), peripheral
+points around head and shoulders, and points on the image's border that hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.contour import beside_contour
+from engine.geometry.rigid import Similarity
+from engine.imaging.delaunay import delaunay
+from engine.perception.head_pose import canonical_face
+from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
+
+PERIPHERY_SPACING = 0.5
+"""Distance of peripheral points, in eye distances."""
+BORDER_POINTS = 12
+"""Along the longer side of the image."""
+MIN_VIEW_COSINE = 0.0
+"""Cosine between the line of sight and a surface that is still seen."""
+CARRY_REACH = 0.7
+"""Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
+HARDLY_ANY = 0.1
+"""With less than this share of the tracked points left, what they say fades."""
+
+
+@dataclass(frozen=True)
+class ControlPoints:
+    """Rest positions in the target: `points` (C, 2) pixels, first the 478 of the face's mesh, then
+    `peripheral` points, then those on the border. `usable` (C,) is False for points of the face that the
+    picture sees from behind, where they say nothing about the pixels there, for those beside its contour, which carries
+    them, and for the irises, which stay behind the lids that move over them."""
+
+    points: NDArray[np.float64]
+    peripheral: int
+    usable: NDArray[np.bool_]
+
+    @property
+    def periphery(self) -> slice:
+        return slice(MESH_SIZE, MESH_SIZE + self.peripheral)
+
+    @property
+    def border(self) -> slice:
+        return slice(MESH_SIZE + self.peripheral, len(self.points))
+
+
+def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating]) -> ControlPoints:
+    """Control points for a target.
+
+    Parameters
+    ----------
+    mesh : (478, 3) the target's face, pixels. person : (H, W) mask [0, 1].
+    """
+    height, width = person.shape
+    unit = float(eye_distance(mesh[:, :2]))
+    spacing = max(PERIPHERY_SPACING * unit, float(np.hypot(height, width)) / 40)
+    ys, xs = np.meshgrid(
+        np.arange(spacing / 2, height - 1, spacing * 0.87), np.arange(0, width - 1, spacing), indexing="ij"
+    )
+    xs = xs + (np.arange(len(xs)) % 2)[:, None] * spacing / 2
+    grid = np.stack([xs.ravel(), ys.ravel()], axis=1)
+    grid = grid[(grid[:, 0] > spacing / 2) & (grid[:, 0] < width - 1 - spacing / 2)]
+    away = cv2.distanceTransform((person <= 0.3).astype(np.uint8), cv2.DIST_L2, 5)
+    grid = grid[away[grid[:, 1].astype(int), grid[:, 0].astype(int)] <= spacing]
+    oval = mesh[list(FACE_OVAL), :2].astype(np.float32)
+    grid = grid[[cv2.pointPolygonTest(oval, (float(x), float(y)), True) < -0.35 * spacing for x, y in grid]]
+    count = BORDER_POINTS
+    step = max(height, width) / count
+    across, down = (
+        np.linspace(0, width - 1, max(3, round(width / step) + 1)),
+        np.linspace(0, height - 1, max(3, round(height / step) + 1)),
+    )
+    border = np.array(
+        [(x, y) for x in across for y in (0, height - 1)] + [(x, y) for y in down[1:-1] for x in (0, width - 1)]
+    )
+    points = np.concatenate([mesh[:, :2].astype(float), grid, border])
+    seen = facing(mesh)
+    usable = np.concatenate([seen & ~beside_contour(mesh, seen), np.ones(len(points) - MESH_SIZE, bool)])
+    usable[list(RIGHT_IRIS + LEFT_IRIS)] = False
+    return ControlPoints(points, len(grid), usable)
+
+
+def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `MIN_VIEW_COSINE`."""
+    triangles = delaunay(canonical_face()[:468, :2])
+    corners = mesh[triangles].astype(float)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    rest = canonical_face()[triangles].astype(float)
+    a, b = rest[:, 1] - rest[:, 0], rest[:, 2] - rest[:, 0]
+    front = np.sign(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    total = np.zeros((MESH_SIZE, 3))
+    np.add.at(total, triangles.ravel(), np.repeat(normal * front[:, None], 3, axis=0))
+    length = np.linalg.norm(total, axis=1)
+    return np.asarray((total[:, 2] > MIN_VIEW_COSINE * length) | (length == 0))
+
+
+def carry_fiducials(
+    phi: Similarity, meshes: NDArray[np.floating], neutral: NDArray[np.floating], target: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """Equation 1: p_i^t = p_0^t + phi (p_i^S - p_0^S), for (N, V, 2) positions; (N, V, 2)."""
+    return target[:, :2] + phi.offsets(meshes[..., :2] - neutral[:, :2])
+
+
+def carry_periphery(
+    phi: Similarity,
+    places: NDArray[np.floating],
+    offsets: NDArray[np.floating],
+    trust: NDArray[np.floating],
+    points: NDArray[np.floating],
+    unit: float,
+) -> NDArray[np.float32]:
+    """Offsets of the target's peripheral points: what the driver's tracked points around them do.
+
+    The paper puts the tracked points themselves into the target by phi. The two people differ there, and
+    points come and go; so each peripheral point takes the mean of the tracked ones that phi carries near
+    it, as far as they are trusted. Where hardly any are, it eases to rest.
+
+    Parameters
+    ----------
+    places (K, 2) : the driver's tracked points in its neutral frame. offsets (N, K, 2) : what they do.
+    trust (N, K) [0, 1]. points : (P, 2) of the target. unit : the target's eye distance, pixels.
+
+    Returns
+    -------
+    (N, P, 2) offsets in the target, pixels.
+    """
+    if not len(places) or not len(points):
+        return np.zeros((len(offsets), len(points), 2), np.float32)
+    apart = ((points[:, None] - phi(places)[None]) ** 2).sum(axis=2)
+    reach = 2 * (CARRY_REACH * unit) ** 2
+    near = (np.exp(-apart / reach) + 1e-4 * np.exp(-apart / (25 * reach)) + 1e-12).astype(np.float32)
+    trust = trust.astype(np.float32)
+    carried = phi.offsets(offsets).astype(np.float32)
+    total = (trust[..., None] * carried).transpose(0, 2, 1) @ near.T
+    weight = trust @ near.T
+    left = np.minimum(trust.mean(axis=1) / HARDLY_ANY, 1)[:, None, None]
+    return np.asarray(left * (total / np.maximum(weight, 1e-12)[:, None]).transpose(0, 2, 1), np.float32)

@@ -1,0 +1,1 @@
+"""The picture in layers, and how each is warped."""

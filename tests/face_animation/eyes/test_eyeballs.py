@@ -1,0 +1,181 @@
+"""Eyes as layers: at rest the picture stays, a gaze moves the iris by the asked distance, shut lids show no eye."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from made_face import BROWN, SKIN, painted, placed, shut
+from numpy.typing import NDArray
+
+from engine.face_animation.eyes.eyes import MIN_EYE_WIDTH, draw_eye, gaze_offsets, prepare_eyes
+from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS
+from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IRIS
+
+SIZE = (360, 320)
+REST = np.zeros(2)
+CONTOURS, IRISES = (RIGHT_EYE, LEFT_EYE), (RIGHT_IRIS, LEFT_IRIS)
+
+
+@pytest.fixture(scope="module")
+def mesh() -> NDArray[np.float32]:
+    """Wide open eyes, so that the whole iris can be measured."""
+    wide = shut(placed(120, (180, 140)), 1.6)
+    lower = np.array(LID_PAIRS)[:, 1]
+    wide[lower, 1] += 9 * np.repeat([[0.4, 0.8, 1, 1, 1, 0.8, 0.4]], 2, axis=0).ravel()
+    return wide
+
+
+@pytest.fixture(scope="module")
+def picture(mesh: NDArray) -> NDArray[np.uint8]:
+    return painted(mesh, SIZE)
+
+
+def width(mesh: NDArray, side: int) -> float:
+    contour = CONTOURS[side]
+    return float(np.linalg.norm(mesh[contour[0], :2] - mesh[contour[8], :2]))
+
+
+def iris_centre(picture: NDArray, mesh: NDArray, side: int) -> NDArray[np.float64]:
+    """Centre of gravity of the iris' brown in an eye's opening, pixels."""
+    opening = np.zeros(picture.shape[:2], np.uint8)
+    cv2.fillPoly(opening, [mesh[list(CONTOURS[side]), :2].round().astype(np.int32)], 1)
+    brown = np.clip(1 - np.linalg.norm(picture.astype(float) - BROWN, axis=2) / 150, 0, 1) * opening
+    ys, xs = np.mgrid[: picture.shape[0], : picture.shape[1]]
+    return np.array([(xs * brown).sum(), (ys * brown).sum()]) / brown.sum()
+
+
+def drawn(picture: NDArray, mesh: NDArray, at: NDArray, look: NDArray = REST) -> NDArray[np.uint8]:
+    """The picture with both eyes drawn anew, with the face at `at`."""
+    out = picture.copy()
+    for side, eye in enumerate(prepare_eyes(picture, mesh)):
+        assert eye is not None
+        draw_eye(out, eye, at, side, look)
+    return out
+
+
+def test_at_rest_the_picture_stays(picture: NDArray, mesh: NDArray) -> None:
+    change = np.abs(drawn(picture, mesh, mesh).astype(int) - picture)
+    opening = np.zeros(picture.shape[:2], np.uint8)
+    for contour in CONTOURS:
+        cv2.fillPoly(opening, [mesh[list(contour), :2].round().astype(np.int32)], 1)
+    assert change[opening > 0].mean() < 3
+    assert (change.max(axis=2)[cv2.erode(opening, np.ones((5, 5))) > 0] < 12).mean() > 0.93  # but for the iris' rim
+
+
+def test_nothing_outside_the_lids_is_touched(picture: NDArray, mesh: NDArray) -> None:
+    out = drawn(picture, mesh, mesh, np.array([0.15, 0.05]))
+    around = np.zeros(picture.shape[:2], np.uint8)
+    for contour in CONTOURS:
+        cv2.fillPoly(around, [mesh[list(contour), :2].round().astype(np.int32)], 1)
+    around = cv2.dilate(around, np.ones((5, 5)))
+    np.testing.assert_array_equal(out[around == 0], picture[around == 0])
+
+
+@pytest.mark.parametrize("look", [(0.1, 0.0), (-0.12, 0.0), (0.0, 0.06), (0.08, -0.05)])
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_gaze_moves_the_iris_by_the_asked_distance(picture, mesh, look: tuple[float, float], side: int) -> None:
+    """Along and across the line from the eye's outer to its inner corner, in eye widths."""
+    eye = prepare_eyes(picture, mesh)[side]
+    assert eye is not None
+    out = picture.copy()
+    draw_eye(out, eye, mesh, side, np.array(look))
+    along = mesh[CONTOURS[side][8], :2] - mesh[CONTOURS[side][0], :2]
+    across = np.array([-along[1], along[0]])
+    asked = look[0] * along + look[1] * across
+    moved = iris_centre(out, mesh, side) - iris_centre(picture, mesh, side)
+    assert np.linalg.norm(moved - asked) < max(0.15 * np.linalg.norm(asked), 0.6)
+
+
+def test_the_measured_gaze_is_the_drawn_one(mesh: NDArray) -> None:
+    """What `gaze_offsets` reads from two meshes is what `draw_eye` wants: both eyes look to the picture's right."""
+    looking = mesh.copy()
+    for iris in IRISES:
+        looking[list(iris), 0] += 5.0
+    found = gaze_offsets(looking[None], mesh)[0]
+    assert found[0, 0] == pytest.approx(5 / width(mesh, 0), abs=0.01)  # outer to inner corner: to the right
+    assert found[1, 0] == pytest.approx(-5 / width(mesh, 1), abs=0.01)  # the left eye's inner corner is on its left
+    picture = painted(mesh, SIZE)
+    for side, eye in enumerate(prepare_eyes(picture, mesh)):
+        assert eye is not None
+        out = picture.copy()
+        draw_eye(out, eye, mesh, side, found[side])
+        moved = iris_centre(out, mesh, side) - iris_centre(picture, mesh, side)
+        np.testing.assert_allclose(moved, [5, 0], atol=0.8)
+
+
+def test_gaze_does_not_see_the_head_move(mesh: NDArray) -> None:
+    a = np.deg2rad(20)
+    turned = 1.3 * (mesh[:, :2] - 180) @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) + 90
+    np.testing.assert_allclose(gaze_offsets(turned[None], mesh[:, :2])[0], 0, atol=1e-5)
+
+
+def test_closing_lids_move_over_the_eyeball(picture: NDArray, mesh: NDArray) -> None:
+    """The iris does not shrink or sink with the lid: what is still open shows what was there."""
+    half = shut(mesh, 0.55)
+    out = drawn(picture, mesh, half)
+    for side in (0, 1):
+        opening = np.zeros(picture.shape[:2], np.uint8)
+        cv2.fillPoly(opening, [half[list(CONTOURS[side]), :2].round().astype(np.int32)], 1)
+        still = cv2.erode(opening, np.ones((3, 3))) > 0
+        assert np.abs(out[still].astype(int) - picture[still]).mean() < 6
+
+
+def test_a_shut_eye_shows_its_lashes_and_nothing_of_the_eye(mesh: NDArray) -> None:
+    """With the lids on each other a line in the colour of the upper lid's edge covers their seam."""
+    closed = shut(mesh, 0.0)
+    skin = np.full((SIZE[1], SIZE[0], 3), SKIN, np.uint8)
+    out = skin.copy()
+    lashes = np.array([90, 60, 50], np.float32)
+    for side, eye in enumerate(prepare_eyes(painted(mesh, SIZE), mesh)):
+        assert eye is not None
+        draw_eye(out, replace(eye, lashes=lashes), closed, side, REST)
+    share = (out.astype(float) - SKIN) @ (lashes - SKIN) / float((lashes - SKIN) @ (lashes - SKIN))
+    np.testing.assert_allclose(out, SKIN + share[..., None] * (lashes - SKIN), atol=2)
+    assert share.max() > 0.8
+    assert (share > 0.1).sum() < 0.12 * 2 * width(mesh, 0) ** 2
+
+
+def test_what_lids_hide_of_the_iris_is_completed(mesh: NDArray) -> None:
+    """Eyes narrow in the picture, wide in the frame: the iris is a disk, brown above and below."""
+    narrow = shut(mesh, 0.45)
+    wide = drawn(painted(narrow, SIZE), narrow, mesh)
+    for side in (0, 1):
+        centre = mesh[IRISES[side][0], :2]
+        radius = float(np.linalg.norm(mesh[list(IRISES[side][1:]), :2] - centre, axis=1).mean())
+        opening = mesh[list(CONTOURS[side]), :2]
+        for dy in (-0.6, 0.6):
+            x, y = round(float(centre[0])), round(float(centre[1] + dy * radius))
+            if cv2.pointPolygonTest(opening, (float(x), float(y)), True) > 2:
+                assert np.linalg.norm(wide[y, x].astype(float) - BROWN) < 40
+
+
+def test_small_and_shut_eyes_of_a_picture_have_no_layer(mesh: NDArray) -> None:
+    tiny = placed(MIN_EYE_WIDTH, (180, 140))
+    assert prepare_eyes(painted(tiny, SIZE), tiny) == (None, None)
+    closed = shut(mesh, 0.05)
+    assert prepare_eyes(painted(closed, SIZE), closed) == (None, None)
+
+
+@pytest.mark.parametrize("place", [(-40.0, 140.0), (400.0, 140.0), (180.0, -70.0), (180.0, 400.0)])
+def test_eyes_at_or_beyond_the_border_do_no_harm(picture: NDArray, mesh: NDArray, place: tuple[float, float]) -> None:
+    at = mesh[:, :2] - (180, 140) + place
+    drawn(picture, mesh, at)
+    prepare_eyes(picture, at)
+
+
+def test_a_real_portrait_at_rest_stays(media: Callable[[str], Path]) -> None:
+    from engine.media.image import read_image
+    from engine.perception.faces import find_faces
+
+    picture = np.ascontiguousarray(read_image(media("portraits/photo_woman_outdoor.jpg")).rgb)
+    mesh = find_faces(picture)[0]
+    change = np.abs(drawn(picture, mesh, mesh).astype(int) - picture)
+    for contour in CONTOURS:
+        opening = np.zeros(picture.shape[:2], np.uint8)
+        cv2.fillPoly(opening, [mesh[list(contour), :2].round().astype(np.int32)], 1)
+        assert change[opening > 0].mean() < 4

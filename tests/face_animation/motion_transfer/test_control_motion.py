@@ -1,0 +1,81 @@
+"""How much the plane counts beside the head turned in space."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_face import driver, opened, placed, shut, smiling
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from engine.face_animation.acting_options import ActingOptions, Part
+from engine.face_animation.motion_transfer.control_motion import PLANE_SHARE, ControlMotion, carry_motion, plane_share
+from engine.face_animation.motion_transfer.control_points import place_control_points
+from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
+from engine.perception.landmarks import (
+    FACE_OVAL,
+    LEFT_BROW,
+    LEFT_EYE,
+    LEFT_IRIS,
+    LIPS_INNER,
+    LIPS_OUTER,
+    RIGHT_BROW,
+    RIGHT_EYE,
+    RIGHT_IRIS,
+)
+from engine.portrait.options import PortraitOptions
+
+PARTS: dict[Part, list[int]] = {
+    "eyes": [*RIGHT_EYE, *LEFT_EYE],
+    "brows": [*RIGHT_BROW[:5], *LEFT_BROW[:5]],  # their upper edges: the lower ones go half with the eyes
+    "mouth": [*LIPS_OUTER, *LIPS_INNER],
+}
+
+
+def test_a_frontal_face_moves_in_space_alone() -> None:
+    assert plane_share(placed(60, (150, 140))).max() == 0
+
+
+@pytest.mark.parametrize(("yaw", "share"), [(6.5, 0.5), (10, 1), (25, 1)])
+def test_inside_a_turned_face_the_plane_counts_and_never_on_its_contour(yaw: float, share: float) -> None:
+    face = placed(60, (150, 140), yaw=yaw)
+    counts = plane_share(face)
+    assert np.abs(counts[list(FACE_OVAL)]).max() < 0.02
+    assert counts[[1, 133, 362, 13, 14]] == pytest.approx(PLANE_SHARE * share, abs=0.03)
+
+
+def grimace(face: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The face with half-shut eyes that look aside, brows up, and a mouth that smiles and opens."""
+    made = shut(smiling(opened(face, 0.3)), 0.5)
+    made[[*RIGHT_BROW, *LEFT_BROW], 1] -= 8
+    made[[*RIGHT_IRIS, *LEFT_IRIS], 0] += 3
+    return made
+
+
+def carried(folder: Path, in_space: bool, **options: object) -> ControlMotion:
+    """What the control points of a face do when a driver, at rest in its first frame, makes a grimace in its second."""
+    rest, target = placed(80, (200, 180)), placed(60, (150, 130))
+    track = driver(folder, [rest, grimace(rest)], size=(400, 400))
+    control = place_control_points(target, np.ones((300, 300), np.float32))
+    proxy = build_head_proxy(control.points, target) if in_space else None
+    return list(carry_motion(track, 0, target, control, proxy, ActingOptions(**options)))[1]
+
+
+def test_all_parts_can_be_named_in_one_word() -> None:
+    assert PortraitOptions.model_validate({"follow": ["all"]}) == PortraitOptions()
+    with pytest.raises(ValidationError):
+        PortraitOptions.model_validate({"follow": ["all", "mouth"]})
+
+
+@pytest.mark.parametrize("in_space", [False, True])
+@pytest.mark.parametrize("part", PARTS)
+def test_what_is_named_follows_and_the_rest_stays(tmp_path: Path, part: Part, in_space: bool) -> None:
+    everything, made = carried(tmp_path, in_space), carried(tmp_path, in_space, follow=(part,))
+    for name, vertices in PARTS.items():
+        most = np.linalg.norm(everything.offsets[vertices], axis=1).max()
+        assert most > 2
+        wanted = everything.offsets[vertices] if name == part else 0.0
+        assert np.linalg.norm(made.offsets[vertices] - wanted, axis=1).max() < 0.1 * most, name
+    assert np.abs(made.look).max() > 0.02 if part == "eyes" else not made.look.any()

@@ -1,0 +1,163 @@
+"""The 3D proxy of the head: depth, belonging to the head, and turns that can be computed by hand."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from made_face import placed, turn
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion
+from engine.face_animation.motion_transfer.head_proxy import (
+    CONTOUR_BLEND_EYE_DISTANCES,
+    LARGEST_TURN,
+    MAX_DEPTH_SLOPE,
+    build_head_proxy,
+    head_share,
+    limit_rotation,
+    move_head,
+    surface_depth,
+)
+from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES
+
+UNIT, CENTRE = 50.0, (150.0, 120.0)
+
+
+@pytest.fixture(scope="module")
+def mesh() -> NDArray[np.float32]:
+    return placed(UNIT, CENTRE)
+
+
+def acted(mesh: NDArray, rotation: NDArray, scale: float = 1.0, shift=(0.0, 0.0, 0.0)) -> HeadMotion:
+    """A driver with this very face that turns about the middle of its rigid points."""
+    pivot = mesh[list(RIGID_VERTICES)].mean(axis=0)
+    return split_motion((scale * (mesh - pivot) @ rotation.T + pivot + shift)[None], mesh)
+
+
+def test_the_proxy_has_the_mesh_s_own_depth_on_the_face(mesh: NDArray) -> None:
+    points = np.concatenate([mesh[:, :2], [[10.0, 10.0]]])
+    proxy = build_head_proxy(points, mesh)
+    oval = mesh[list(FACE_OVAL), :2]
+    inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in mesh[:, :2]])
+    own = (inside > CONTOUR_BLEND_EYE_DISTANCES * UNIT) | np.isin(np.arange(MESH_SIZE), FACE_OVAL)
+    assert own.sum() > 430
+    np.testing.assert_allclose(proxy.points[:MESH_SIZE][own], mesh[own], atol=1e-4)
+    np.testing.assert_array_equal(proxy.points[:MESH_SIZE, :2], mesh[:, :2])
+    assert (proxy.share[:MESH_SIZE] == 1).all()
+
+
+def test_what_the_picture_shows_on_the_contour_moves_with_it(mesh: NDArray) -> None:
+    """A cheek that hides the contour's line of sight has the contour's depth: turned, the two stay together."""
+    bulged = mesh.copy()
+    jaw = (mesh[58] + mesh[172]) / 2
+    bulged[177, :2], bulged[177, 2] = jaw[:2], jaw[2] - 0.4 * UNIT
+    proxy = build_head_proxy(bulged[:, :2].astype(float), bulged)
+    assert proxy.points[177, 2] == pytest.approx(jaw[2], abs=0.02 * UNIT)
+
+
+@pytest.mark.parametrize("yaw", [20, 30])
+def test_in_a_turned_face_depth_leaves_the_contour_s_at_a_bounded_slope(yaw: float) -> None:
+    """Where a turned cheek goes out of sight its depth runs away; a turn would tear it into flaps."""
+    turned = placed(UNIT, CENTRE, yaw=yaw)
+    proxy = build_head_proxy(turned[:, :2].astype(float), turned)
+    ring = turned[list(FACE_OVAL)].astype(float)
+    t = np.linspace(0, 1, 50, endpoint=False)[:, None, None]
+    contour = (ring + t * (np.roll(ring, -1, axis=0) - ring)).reshape(-1, 3)
+    apart = np.linalg.norm(turned[:, None, :2] - contour[None, :, :2], axis=2)
+    nearest = apart.argmin(axis=1)
+    rise = np.abs(proxy.points[:MESH_SIZE, 2] - contour[nearest, 2])
+    assert (rise <= MAX_DEPTH_SLOPE * apart.min(axis=1) + 0.05 * UNIT).all()
+
+
+def test_depth_beside_the_face_falls_back_to_the_ears(mesh: NDArray) -> None:
+    """Continuous at the rim, and no further back than the ears however far out."""
+    top = mesh[10].astype(float)
+    out = np.array([[top[0], top[1] - d] for d in (0.01, 5.0, 20.0, 60.0, 500.0)])
+    depth = surface_depth(mesh, out)
+    ears = float(mesh[[127, 356, 234, 454, 93, 323], 2].mean())
+    assert depth[0] == pytest.approx(top[2], abs=0.1 * UNIT)
+    assert (np.diff(depth) >= -1e-6).all()
+    assert depth[-1] == pytest.approx(ears, abs=1e-3)
+
+
+def test_share_is_one_on_the_head_and_fades_down_the_neck(mesh: NDArray) -> None:
+    chin = mesh[152, 1]
+    y = np.array([0.0, CENTRE[1], chin - 0.15 * UNIT, chin + 0.5 * UNIT, chin + 1.0 * UNIT, chin + 5 * UNIT])
+    share = head_share(mesh, np.column_stack([np.full(6, CENTRE[0] + 40), y]))
+    assert share[:3] == pytest.approx([1, 1, 1], abs=0.01)
+    assert 0 < share[4] < share[3] < 1
+    assert share[5] == 0
+    line = head_share(mesh, np.column_stack([np.full(300, 100.0), np.linspace(0, 600, 300)]))
+    assert (np.diff(line) <= 0).all() and np.abs(np.diff(line)).max() < 0.05
+
+
+def test_share_follows_a_tilted_head() -> None:
+    """Down the neck is down the face, not down the picture."""
+    tilted = placed(UNIT, CENTRE, roll=90)  # the chin points to the picture's left
+    left, below = head_share(tilted, np.array([[CENTRE[0] - 4 * UNIT, CENTRE[1]], [CENTRE[0], CENTRE[1] + 4 * UNIT]]))
+    assert left == 0 and below == 1
+
+
+@pytest.mark.parametrize("yaw", [-20.0, 10.0])
+def test_a_turn_by_hand(mesh: NDArray, yaw: float) -> None:
+    """About y through the pivot: x' = px + cos (x - px) - sin (z - pz), y' = y."""
+    points = np.concatenate([mesh[:, :2].astype(float), [[190.0, 60.0], [100.0, 90.0]]])
+    proxy = build_head_proxy(points, mesh)
+    moved = move_head(proxy, acted(mesh, turn(yaw=yaw)), mesh)[0]
+    pivot = mesh[list(RIGID_VERTICES)].astype(float).mean(axis=0)
+    c, s = np.cos(np.deg2rad(yaw)), np.sin(np.deg2rad(yaw))
+    x, z = proxy.points[:, 0] - pivot[0], proxy.points[:, 2] - pivot[2]
+    np.testing.assert_allclose(moved[:, 0], pivot[0] + c * x - s * z, atol=0.02)
+    np.testing.assert_allclose(moved[:, 1], proxy.points[:, 1], atol=0.02)
+    np.testing.assert_allclose(moved[:, 2], pivot[2] + s * x + c * z, atol=0.02)
+    assert np.sign(moved[4, 0] - mesh[4, 0]) == np.sign(yaw)  # the nose goes where the face turns to
+
+
+def test_scale_and_shift_are_carried_in_the_target_s_own_size(mesh: NDArray) -> None:
+    """The driver's face is half as large: what it moves by, the target moves by twice."""
+    target = placed(2 * UNIT, (300.0, 300.0))
+    proxy = build_head_proxy(target[:, :2], target)
+    moved = move_head(proxy, acted(mesh, turn(), 1.1, (6.0, -4.0, 0.0)), target)[0]
+    pivot = target[list(RIGID_VERTICES)].mean(axis=0)
+    expected = 1.1 * (target - pivot) + pivot + (12.0, -8.0, 0.0)
+    np.testing.assert_allclose(moved[:, :2], expected[:, :2], atol=0.05)
+
+
+def test_a_head_at_rest_stays(mesh: NDArray) -> None:
+    target = placed(80, (200, 220), yaw=8, roll=-6)
+    proxy = build_head_proxy(target[:, :2], target)
+    np.testing.assert_allclose(move_head(proxy, acted(mesh, turn()), target)[0], proxy.points, atol=0.02)
+
+
+def test_expressions_turn_with_the_head(mesh: NDArray) -> None:
+    proxy = build_head_proxy(mesh[:, :2], mesh)
+    expression = np.zeros((1, MESH_SIZE, 3), np.float32)
+    expression[0, 14] = (0, 0, -10)  # a lip thrust out towards the viewer
+    motion = acted(mesh, turn(yaw=20))
+    offset = move_head(proxy, motion, mesh, expression)[0, 14] - move_head(proxy, motion, mesh)[0, 14]
+    np.testing.assert_allclose(offset, turn(yaw=20) @ (0, 0, -10), atol=0.01)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 5.0, 19.0])
+@pytest.mark.parametrize("axis", ["yaw", "pitch"])
+def test_small_turns_are_kept(degrees: float, axis: str) -> None:
+    rotation = turn(**{axis: degrees})
+    np.testing.assert_allclose(limit_rotation(rotation[None])[0], rotation, atol=1e-12)
+
+
+@pytest.mark.parametrize("roll", [-80.0, 45.0])
+def test_turns_in_the_picture_plane_are_not_limited(roll: float) -> None:
+    np.testing.assert_allclose(limit_rotation(turn(roll=roll)[None])[0], turn(roll=roll), atol=1e-12)
+
+
+def test_large_turns_are_held_back_softly() -> None:
+    """Never beyond the limit, never backwards, and without a kink."""
+    asked = np.linspace(0, 80, 161)
+    held = limit_rotation(np.stack([turn(yaw=a) for a in asked]))
+    angles = np.array([cv2.Rodrigues(r)[0][1, 0] for r in held])
+    angles = np.rad2deg(np.abs(angles))
+    assert angles.max() <= np.rad2deg(LARGEST_TURN)
+    assert angles.max() > 0.99 * np.rad2deg(LARGEST_TURN)
+    assert (np.diff(angles) >= -1e-9).all()
+    assert np.abs(np.diff(angles, 2)).max() < 0.1

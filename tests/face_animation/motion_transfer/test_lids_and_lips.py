@@ -1,0 +1,144 @@
+"""Closed on the driver is closed on the target, open as it was is open as it was, and lips never cross."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made_face import opened, placed, shut, smiling
+from numpy.typing import NDArray
+
+from engine.face_animation.motion_transfer.lids_and_lips import (
+    INNER_LIP_PAIRS,
+    LID_PAIRS,
+    MAX_GAP_RATIO,
+    constrain_lids_and_lips,
+    lid_ratio,
+)
+from engine.perception.head_pose import canonical_face, mirror_vertices
+from engine.perception.landmarks import eye_opening
+
+UPPER, LOWER = np.array(LID_PAIRS).T
+TOP, BOTTOM = np.array(INNER_LIP_PAIRS).T
+
+
+@pytest.fixture(scope="module")
+def target() -> NDArray[np.float32]:
+    """Wider eyes than the driver's."""
+    mesh = placed(90, (300, 200), roll=7)
+    return shut(mesh, 1.3)
+
+
+@pytest.fixture(scope="module")
+def driver() -> NDArray[np.float32]:
+    return placed(50, (120, 100))
+
+
+def gap(mesh: NDArray) -> NDArray:
+    return np.linalg.norm(mesh[..., UPPER, :] - mesh[..., LOWER, :], axis=-1)
+
+
+def test_pairs_face_each_other() -> None:
+    face, mirror = canonical_face(), mirror_vertices()
+    assert (face[LOWER, 1] > face[UPPER, 1]).all() and (face[BOTTOM, 1] >= face[TOP, 1]).all()
+    assert np.abs(face[LOWER, 0] - face[UPPER, 0]).max() < 0.04
+    assert mirror[UPPER[:7]].tolist() == UPPER[7:].tolist() and mirror[LOWER[:7]].tolist() == LOWER[7:].tolist()
+    assert mirror[TOP].tolist() == TOP[::-1].tolist()
+
+
+def test_the_neutral_frame_has_ratio_one(driver: NDArray) -> None:
+    np.testing.assert_allclose(lid_ratio(driver[None], driver), 1)
+
+
+@pytest.mark.parametrize("left_over", [0.0, 0.1, 0.25])
+def test_a_shut_eye_has_ratio_nought(driver: NDArray, left_over: float) -> None:
+    """Also where the tracker sees a slit, as it always does."""
+    np.testing.assert_array_equal(lid_ratio(shut(driver, left_over)[None], driver), 0)
+
+
+def test_ratios_grow_with_the_gap_and_have_a_limit(driver: NDArray) -> None:
+    shares = np.linspace(0, 2, 41)
+    ratio = lid_ratio(np.stack([shut(driver, s) for s in shares]), driver)
+    assert (np.diff(ratio, axis=0) >= 0).all()
+    open_eyes = (shares > 0.6) & (shares < MAX_GAP_RATIO)
+    np.testing.assert_allclose(ratio[open_eyes], np.repeat(shares[open_eyes, None], 14, axis=1), rtol=1e-3)
+    assert ratio.max() == pytest.approx(MAX_GAP_RATIO)
+
+
+def test_each_eye_is_its_own(driver: NDArray) -> None:
+    wink = driver.copy()
+    wink[UPPER[:7]] = shut(driver, 0.0)[UPPER[:7]]
+    ratio = lid_ratio(wink[None], driver)[0]
+    np.testing.assert_allclose(ratio[:7], 0)
+    np.testing.assert_allclose(ratio[7:], 1)
+
+
+def test_a_closed_driver_closes_the_target(driver: NDArray, target: NDArray) -> None:
+    """Whatever offsets were carried over, and however much larger the target's eyes are: the gap is nought."""
+    carried = (shut(driver, 0.15) - driver) * 1.1
+    out = constrain_lids_and_lips((target + carried)[None], target, lid_ratio(shut(driver, 0.15)[None], driver))
+    assert gap(out).max() < 1e-6
+    assert eye_opening(out[0]).max() < 1e-6
+
+
+def test_at_rest_nothing_changes(target: NDArray) -> None:
+    out = constrain_lids_and_lips(target[None], target, np.ones((1, 14)))
+    np.testing.assert_allclose(out[0], target, atol=1e-4)
+
+
+def test_an_open_eye_keeps_its_own_gap_wherever_the_face_goes(target: NDArray) -> None:
+    """Ratio 1 and an expression that shifts lids and brows: the gap is the target's own."""
+    moved = smiling(target, 0.1) + np.array([3.0, -5.0, 0.0], np.float32)
+    out = constrain_lids_and_lips(moved[None], target, np.ones((1, 14)))
+    np.testing.assert_allclose(gap(out)[0], gap(target), atol=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [0.25, 0.5, 1.4])
+def test_gaps_are_carried_as_ratios(target: NDArray, ratio: float) -> None:
+    out = constrain_lids_and_lips(target[None], target, np.full((1, 14), ratio))
+    np.testing.assert_allclose(gap(out)[0], ratio * gap(target), rtol=1e-4)
+
+
+def test_a_closing_lid_moves_and_the_lower_one_stays(target: NDArray) -> None:
+    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)))[0]
+    np.testing.assert_allclose(out[LOWER], target[LOWER], atol=1e-4)
+    below = out[UPPER] - target[UPPER]
+    down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
+    assert (below @ down > 0).all()
+
+
+def test_lid_skin_follows_between_lid_and_brow(target: NDArray) -> None:
+    from engine.face_animation.motion_transfer.lids_and_lips import LID_SKIN
+
+    skin, edge = np.array(LID_SKIN).T
+    out = constrain_lids_and_lips(target[None], target, np.zeros((1, 14)))[0]
+    way = np.linalg.norm((out - target)[skin], axis=1) / np.linalg.norm((out - target)[edge], axis=1)
+    np.testing.assert_allclose(way, 0.5, atol=1e-4)
+    brows = [70, 63, 105, 66, 107, 336, 296, 334, 293, 300]
+    np.testing.assert_allclose(out[brows], target[brows], atol=1e-4)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_lips_never_cross(target: NDArray, seed: int) -> None:
+    """Random offsets as large as the lips are thick: the lower lip is never above the upper one."""
+    rng = np.random.default_rng(seed)
+    positions = target + rng.normal(0, 15, (4, *target.shape)).astype(np.float32)
+    out = constrain_lids_and_lips(positions, target, np.ones((4, 14)))
+    down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
+    assert ((out[:, BOTTOM] - out[:, TOP]) @ down).min() > -1e-4
+
+
+def test_lips_that_do_not_cross_are_left_alone(target: NDArray) -> None:
+    wide = opened(target, 0.3)
+    out = constrain_lids_and_lips(wide[None], target, np.ones((1, 14)))[0]
+    np.testing.assert_allclose(out[TOP], wide[TOP], atol=1e-4)
+    np.testing.assert_allclose(out[BOTTOM], wide[BOTTOM], atol=1e-4)
+
+
+def test_crossing_lips_meet_half_way(target: NDArray) -> None:
+    crossed = target.copy()
+    down = (target[152] - target[10]) / np.linalg.norm(target[152] - target[10])
+    crossed[TOP] = target[TOP] + 10 * down
+    crossed[BOTTOM] = target[TOP] + 4 * down
+    out = constrain_lids_and_lips(crossed[None], target, np.ones((1, 14)))[0]
+    np.testing.assert_allclose(out[TOP], target[TOP] + 7 * down, atol=1e-3)
+    np.testing.assert_allclose(out[BOTTOM], out[TOP], atol=1e-3)
