@@ -21,7 +21,7 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip
 from engine.motion.confine import MovementRoom, confine_clip
-from engine.motion.sole import leg_length
+from engine.motion.feet.sole import leg_length
 
 Array = NDArray[np.float64]
 

@@ -17,11 +17,11 @@ from engine.geometry.camera import Camera
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep_pictured_parts, loop_travel
+from engine.motion.files.reading import read_motion
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import CLIPS, built_in
-from engine.motion.reading import read_motion
-from engine.motion.retarget import retarget
+from engine.motion.retargeting.retarget import retarget
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion
 from engine.motion.step_out import step_out
 
 TRAVELS = 0.1

@@ -13,7 +13,7 @@ from engine.character.options import CharacterOptions
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
 from engine.character.template_fit import FittedBody
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
 
 
 @dataclass

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.resampling import loop_step
+from engine.motion.retargeting.resampling import loop_step
 from engine.motion.skeleton import Skeleton
 
 STILL_TOLERANCE = 1e-5

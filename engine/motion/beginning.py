@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
 
 MAX_MOTION_SECONDS = 60.0
 """Seconds of a file's motion that are used, at most."""

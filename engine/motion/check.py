@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from engine.errors import InputError
 from engine.motion.beginning import beginning, duration
-from engine.motion.joint_map import REQUIRED_JOINTS, map_joints
-from engine.motion.retarget import clean_motion
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
+from engine.motion.retargeting.joint_map import REQUIRED_JOINTS, map_joints
+from engine.motion.retargeting.retarget import clean_motion
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import repeat_loop
-from engine.motion.foot_contact import find_contacts, sole_places, true_runs
+from engine.motion.feet.foot_contact import find_contacts, sole_places, true_runs
+from engine.motion.feet.legs import HeldFoot, hip_lowering, set_legs
+from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, hip_lowering, set_legs
-from engine.motion.resampling import places_at, turns_at
+from engine.motion.retargeting.resampling import places_at, turns_at
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import Sole, leg_length, soles
 
 Array = NDArray[np.float64]
 

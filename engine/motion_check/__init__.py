@@ -36,8 +36,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     """Leaves `motion.json` and `report.json` in `out`. A skeleton that is nobody's is told of, and no failure."""
     from engine.motion.beginning import length_warning  # the service reads KIND alone: it stays light
     from engine.motion.check import check_motion
-    from engine.motion.joint_map import lost_warning
-    from engine.motion.reading import motion_clips, read_motion
+    from engine.motion.files.reading import motion_clips, read_motion
+    from engine.motion.retargeting.joint_map import lost_warning
 
     path = inputs["motion"]
     assert isinstance(path, Path) and isinstance(options, MotionOptions)
@@ -75,7 +75,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 
 def _prepare() -> None:
-    from engine.motion import check, reading  # noqa: F401 - importing them is the preparation
+    from engine.motion import check
+    from engine.motion.files import reading  # noqa: F401 - importing them is the preparation
 
 
 KIND = Kind(

@@ -16,11 +16,11 @@ from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion import rotation
 from engine.motion.edit import repeat_loop
-from engine.motion.foot_contact import sole_places
+from engine.motion.feet.foot_contact import sole_places
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import built_in
 from engine.motion.rotation import about
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion
 from engine.render.camera_moves import CAMERA_MOVES, Move, camera_at
 
 DISTANCE = 4.0

@@ -16,7 +16,7 @@ from engine.geometry.camera import Camera
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel
-from engine.motion.foot_contact import sinking_depth, sole_places
+from engine.motion.feet.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS
 from engine.motion.skeleton import Skeleton

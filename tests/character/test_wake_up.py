@@ -22,7 +22,7 @@ from engine.geometry.welding import weld
 from engine.media.image import read_image, write_image
 from engine.media.video import read_video
 from engine.motion import rotation
-from engine.motion.gltf_motion import read_gltf_motion
+from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.render.character import draw_character, prepare_character
 from engine.run import Progress
 from galatea import wake_up

@@ -6,11 +6,11 @@ import numpy as np
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
+from engine.motion.feet.legs import HeldFoot, set_legs
+from engine.motion.feet.sole import soles
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, set_legs
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import soles
-from engine.motion.source_motion import SourceMotion
 
 TRUNK = {
     "Hips": ("", (0.0, 0.97, 0.0)),

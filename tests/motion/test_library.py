@@ -9,11 +9,11 @@ from humanoids import build_skeleton
 from engine.motion import rotation
 from engine.motion.catalogue import CATALOGUE
 from engine.motion.edit import loop_travel, repeat_loop
-from engine.motion.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
+from engine.motion.feet.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
+from engine.motion.feet.sole import leg_length
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import CLIPS, built_in
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import leg_length
 
 LOOPS = {"idle", "walk", "run", "dance"}
 

@@ -9,7 +9,7 @@ import pytest
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import sinking_depth, sole_places
+from engine.motion.feet.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS, built_in
 from engine.motion.library.posture import Arm, Foot, Posture, embody

@@ -16,7 +16,7 @@ from template_character import template_character
 from engine.export.glb import CharacterModel, write_glb
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.gltf_motion import read_gltf_motion
+from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.motion.library import built_in
 
 Document = dict[str, Any]

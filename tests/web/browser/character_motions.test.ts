@@ -18,8 +18,8 @@ import json, sys
 from pathlib import Path
 sys.path.insert(0, "tests/live_service")
 from made_motion import bvh
-from engine.motion.joint_map import REQUIRED_JOINTS
-from engine.motion.joint_names import TARGET_NAMES
+from engine.motion.retargeting.joint_map import REQUIRED_JOINTS
+from engine.motion.retargeting.joint_names import TARGET_NAMES
 Path(sys.argv[1]).write_bytes(bvh())
 print(json.dumps([TARGET_NAMES, REQUIRED_JOINTS]))
 `;

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.source_motion import (
+from engine.motion.files.source_motion import (
     MAX_FRAMES,
     MAX_JOINT_DEPTH,
     MAX_JOINTS,

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
-from engine.motion.gltf_motion import read_gltf_motion
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.gltf_motion import read_gltf_motion
+from engine.motion.files.source_motion import SourceMotion
 
 FRAMES, JOINTS = 7, 12
 CODES = {1: 5120, 2: 5122}

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 

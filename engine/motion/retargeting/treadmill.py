@@ -15,9 +15,9 @@ from scipy.ndimage import gaussian_filter1d
 
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel
-from engine.motion.foot_contact import REFERENCE_LEG, sole_places
+from engine.motion.feet.foot_contact import REFERENCE_LEG, sole_places
+from engine.motion.feet.sole import leg_length
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import leg_length
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names
-from engine.motion.source_motion import SourceMotion
-from engine.motion.tree_shape import children_of, common_ancestor, match_shape, path
+from engine.motion.files.source_motion import SourceMotion
+from engine.motion.retargeting.joint_names import SIDED_JOINTS, TARGET_NAMES, match_names
+from engine.motion.retargeting.tree_shape import children_of, common_ancestor, match_shape, path
 
 REQUIRED_JOINTS = (
     "Hips",

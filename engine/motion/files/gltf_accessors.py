@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.motion.gltf_file import GltfFile, Part, natural_number, unreadable
-from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS
+from engine.motion.files.gltf_file import GltfFile, Part, natural_number, unreadable
+from engine.motion.files.source_motion import MAX_FRAMES, MAX_NUMBERS
 
 T = TypeVar("T")
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from engine.errors import InputError
-from engine.motion.bvh import read_bvh
-from engine.motion.gltf_file import MAX_CHANNELS, MAX_NODES, GltfFile
-from engine.motion.gltf_motion import read_gltf_motion
-from engine.motion.joint_map import map_joints
-from engine.motion.source_motion import MAX_JOINT_DEPTH, MAX_JOINTS
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.gltf_file import MAX_CHANNELS, MAX_NODES, GltfFile
+from engine.motion.files.gltf_motion import read_gltf_motion
+from engine.motion.files.source_motion import MAX_JOINT_DEPTH, MAX_JOINTS
+from engine.motion.retargeting.joint_map import map_joints
 
 DEADLINE_SECONDS = 60
 """Seconds: what these files took before, by far, and no machine takes for what is linear."""

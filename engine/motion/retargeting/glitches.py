@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion import rotation
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 

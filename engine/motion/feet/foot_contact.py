@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion.clip import Clip
+from engine.motion.feet.sole import soles
 from engine.motion.kinematics import place_joints, world_rotations
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import soles
 
 Array = NDArray[np.float64]
 Contacts = NDArray[np.bool_]

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.gltf_accessors import Accessors
-from engine.motion.gltf_file import GltfFile, unreadable
-from engine.motion.source_motion import MAX_JOINTS, Array, place
+from engine.motion.files.gltf_accessors import Accessors
+from engine.motion.files.gltf_file import GltfFile, unreadable
+from engine.motion.files.source_motion import MAX_JOINTS, Array, place
 
 MIN_JOINTS = 10
 """What has fewer is no skeleton of a person: hips, limbs, head."""

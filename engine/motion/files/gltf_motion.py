@@ -10,9 +10,9 @@ import numpy as np
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.gltf_accessors import Accessors
-from engine.motion.gltf_file import GltfFile, unreadable
-from engine.motion.gltf_skeleton import (
+from engine.motion.files.gltf_accessors import Accessors
+from engine.motion.files.gltf_file import GltfFile, unreadable
+from engine.motion.files.gltf_skeleton import (
     MIN_JOINTS,
     NodeTree,
     at_rest,
@@ -21,7 +21,7 @@ from engine.motion.gltf_skeleton import (
     node_tree,
     skeleton_nodes,
 )
-from engine.motion.source_motion import MAX_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
+from engine.motion.files.source_motion import MAX_FRAMES, MAX_NUMBERS, Array, SourceMotion, unique_names
 
 DEFAULT_FPS = 30.0
 """For clips whose keys are sparse."""

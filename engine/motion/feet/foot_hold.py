@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import (
+from engine.motion.feet.foot_contact import (
     REFERENCE_LEG,
     Contacts,
     FeetReport,
@@ -27,11 +27,11 @@ from engine.motion.foot_contact import (
     sole_places,
     true_runs,
 )
+from engine.motion.feet.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
+from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
-from engine.motion.resampling import loop_step
+from engine.motion.retargeting.resampling import loop_step
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import Sole, leg_length, soles
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import pytest
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
+from engine.motion.files.bvh import read_bvh
 
 DEADLINE_SECONDS = 60
 """Seconds: a dead man's handle, no measure."""
@@ -95,7 +95,7 @@ def test_a_file_by_hand_is_read_as_it_is_meant() -> None:
     [("metre", 1.0), ("centimetre", 0.01), ("decimetre", 0.1), ("inch", 0.0254), ("millimetre", 0.001)],
 )
 def test_the_unit_is_guessed_from_the_persons_size(media: Media, unit: str, metres: float) -> None:
-    from engine.motion.bvh import guess_unit
+    from engine.motion.files.bvh import guess_unit
 
     motion = read_bvh(media("mocap/makehuman_walk_cycle.bvh"))
     factor = 0.1 / metres

@@ -11,16 +11,16 @@ import pytest
 from humanoids import told_by, treadmill_walk
 
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel, repeat_loop
-from engine.motion.foot_contact import find_contacts, sole_places, true_runs
-from engine.motion.gltf_motion import read_gltf_motion
+from engine.motion.feet.foot_contact import find_contacts, sole_places, true_runs
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.gltf_motion import read_gltf_motion
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import joint_places
 from engine.motion.library import built_in
-from engine.motion.retarget import retarget
+from engine.motion.retargeting.retarget import retarget
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion
 
 Media = Callable[[str], Path]
 

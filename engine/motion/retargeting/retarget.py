@@ -17,18 +17,18 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import FeetReport
-from engine.motion.foot_hold import hold_feet
-from engine.motion.glitches import without_flips
-from engine.motion.joint_map import map_joints, not_humanoid
+from engine.motion.feet.foot_contact import FeetReport
+from engine.motion.feet.foot_hold import hold_feet
+from engine.motion.feet.sole import leg_length
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import local_rotations
-from engine.motion.looping import as_loop
-from engine.motion.reference_pose import t_pose_turns
-from engine.motion.resampling import resample_source
+from engine.motion.retargeting.glitches import without_flips
+from engine.motion.retargeting.joint_map import map_joints, not_humanoid
+from engine.motion.retargeting.looping import as_loop
+from engine.motion.retargeting.reference_pose import t_pose_turns
+from engine.motion.retargeting.resampling import resample_source
+from engine.motion.retargeting.treadmill import travel_as_walked
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import leg_length
-from engine.motion.source_motion import SourceMotion
-from engine.motion.treadmill import travel_as_walked
 
 Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def retarget(
 
     Parameters
     ----------
-    mapping : overrides of the automatic mapping (`engine.motion.joint_map.map_joints`).
+    mapping : overrides of the automatic mapping (`engine.motion.retargeting.joint_map.map_joints`).
     fps : frames a second wanted.
     facing : the character looks along +z in the first second (`start`), most of the time (`main`), or where it looked
         (`keep`). It begins over the skeleton's own place at rest.

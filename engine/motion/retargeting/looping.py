@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion import rotation
-from engine.motion.resampling import places_at, turns_at
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.source_motion import SourceMotion
+from engine.motion.retargeting.resampling import places_at, turns_at
 
 Array = NDArray[np.float64]
 

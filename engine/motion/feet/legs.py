@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from engine.motion import rotation
-from engine.motion.inverse_kinematics import two_bones
-from engine.motion.sole import Sole
+from engine.motion.feet.inverse_kinematics import two_bones
+from engine.motion.feet.sole import Sole
 
 Array = NDArray[np.float64]
 

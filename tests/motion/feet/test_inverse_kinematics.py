@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.motion import rotation
-from engine.motion.inverse_kinematics import two_bones
+from engine.motion.feet.inverse_kinematics import two_bones
 
 RNG = np.random.default_rng(3)
 UPPER, LOWER = np.array([0.02, -0.42, 0.01]), np.array([0.0, -0.4, -0.02])

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from engine.errors import InputError
-from engine.motion.bvh import read_bvh
-from engine.motion.gltf_file import begins_as_gltf
-from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
-from engine.motion.source_motion import SourceMotion
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.gltf_file import begins_as_gltf
+from engine.motion.files.gltf_motion import gltf_clips, read_gltf_motion
+from engine.motion.files.source_motion import SourceMotion
 
 
 def read_motion(path: Path, clip: str | None = None) -> SourceMotion:

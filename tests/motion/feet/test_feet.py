@@ -11,12 +11,12 @@ from humanoids import build_skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel, repeat_loop
-from engine.motion.foot_contact import find_contacts, floor_height, sinking_depth, sliding_speed, sole_places
-from engine.motion.foot_hold import hold_feet
+from engine.motion.feet.foot_contact import find_contacts, floor_height, sinking_depth, sliding_speed, sole_places
+from engine.motion.feet.foot_hold import hold_feet
+from engine.motion.feet.sole import soles
 from engine.motion.kinematics import joint_places, local_rotations, world_rotations
 from engine.motion.library import built_in
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import soles
 
 
 def spoiled(skeleton: Skeleton) -> tuple[Clip, Clip]:

@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
 from engine.motion.clip import Clip
-from engine.motion.joint_map import lost_joints, lost_warning, map_joints
-from engine.motion.joint_names import match_names, read_name
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.source_motion import SourceMotion, unique_names
 from engine.motion.library import built_in
+from engine.motion.retargeting.joint_map import lost_joints, lost_warning, map_joints
+from engine.motion.retargeting.joint_names import match_names, read_name
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion, unique_names
 
 Media = Callable[[str], Path]
 

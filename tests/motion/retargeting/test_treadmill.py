@@ -11,15 +11,15 @@ import pytest
 from humanoids import build_skeleton, on_feet, treadmill_walk
 
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, loop_travel, repeat_loop
-from engine.motion.foot_contact import find_contacts, sliding_speed, sole_places
-from engine.motion.gltf_motion import read_gltf_motion
+from engine.motion.feet.foot_contact import find_contacts, sliding_speed, sole_places
+from engine.motion.files.bvh import read_bvh
+from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.motion.library import CLIPS, built_in
-from engine.motion.retarget import retarget
+from engine.motion.retargeting.retarget import retarget
+from engine.motion.retargeting.treadmill import travel_as_walked
 from engine.motion.skeleton import Skeleton
-from engine.motion.treadmill import travel_as_walked
 
 Media = Callable[[str], Path]
 

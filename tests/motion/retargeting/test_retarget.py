@@ -12,16 +12,16 @@ from humanoids import build_skeleton, told_by
 
 from engine.errors import InputError
 from engine.motion import rotation
-from engine.motion.bvh import read_bvh
 from engine.motion.check import check_motion
 from engine.motion.clip import Clip
-from engine.motion.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
-from engine.motion.glitches import without_flips
+from engine.motion.feet.foot_contact import find_contacts, sinking_depth, sliding_speed, sole_places
+from engine.motion.feet.sole import leg_length
+from engine.motion.files.bvh import read_bvh
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
-from engine.motion.retarget import retarget
+from engine.motion.retargeting.glitches import without_flips
+from engine.motion.retargeting.retarget import retarget
 from engine.motion.skeleton import Skeleton
-from engine.motion.sole import leg_length
 
 Media = Callable[[str], Path]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from engine.errors import InputError
-from engine.motion.source_motion import MAX_MOTION_BYTES
+from engine.motion.files.source_motion import MAX_MOTION_BYTES
 
 MAX_JSON_BYTES = 8 << 20
 """Bytes of a file's JSON beside the buffers in it."""

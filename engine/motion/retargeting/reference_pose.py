@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.motion import rotation
+from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import world_rotations
 from engine.motion.skeleton import Skeleton
-from engine.motion.source_motion import SourceMotion
 
 Array = NDArray[np.float64]
 

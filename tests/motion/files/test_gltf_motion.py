@@ -14,13 +14,13 @@ import pytest
 from engine.errors import InputError
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.gltf_file import MAX_JSON_BYTES
-from engine.motion.gltf_motion import gltf_clips, read_gltf_motion
-from engine.motion.joint_map import map_joints
+from engine.motion.files.gltf_file import MAX_JSON_BYTES
+from engine.motion.files.gltf_motion import gltf_clips, read_gltf_motion
+from engine.motion.files.reading import motion_clips, read_motion
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
-from engine.motion.reading import motion_clips, read_motion
-from engine.motion.retarget import retarget
+from engine.motion.retargeting.joint_map import map_joints
+from engine.motion.retargeting.retarget import retarget
 from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]

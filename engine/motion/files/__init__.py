@@ -1,0 +1,1 @@
+"""Motions as they come: BVH and glTF files."""

@@ -1,0 +1,1 @@
+"""From the joints of any motion to those of the character."""
