@@ -46,7 +46,7 @@ from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
 from engine.geometry.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms
-from engine.imaging.mask_pieces import rows_apart
+from engine.imaging.masks.mask_pieces import rows_apart
 from engine.media.limits import Limits
 
 BODY_METRES = 1.8

@@ -20,7 +20,7 @@ from engine.face_animation.animation import Parts
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.control_points import carry_fiducials
 from engine.face_animation.rig import rig_target
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.media.image import read_image
 from engine.perception.faces import find_faces
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_OUTER, RIGHT_EYE, eye_distance

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_pieces import pieces_touching
+from engine.imaging.masks.mask_pieces import pieces_touching
 from engine.media.video import read_video
 from engine.perception.person import person_mask
 from engine.performances import video

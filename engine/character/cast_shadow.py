@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from engine.character.measures import picture_camera, pose
 from engine.character.rigging import Character
 from engine.character.template_fit import FittedBody
-from engine.imaging.mask_distance import dilate_mask
-from engine.imaging.mask_pieces import bounding_box, pieces_touching
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import bounding_box, pieces_touching
 from engine.render.ground_shadow import GroundShadow
 
 ABOVE, BELOW, BESIDE = 0.3, 0.2, 1.2

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.body.observation import Crossing
 from engine.character.figure import SEEN, SIDES, Figure
-from engine.imaging.colour_segmentation import ColourMixture
+from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.hands import Side
 from engine.perception.landmarks import FACE_OVAL

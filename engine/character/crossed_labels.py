@@ -19,8 +19,8 @@ from engine.body.rig import Rig
 from engine.character.crossed_arms import CrossedArms
 from engine.character.figure import SIDES, Figure
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.mask_distance import dilate_mask, distance_inside
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside
+from engine.imaging.masks.mask_pieces import largest_piece
 
 NARROWEST, WIDEST = 0.045, 0.085
 """Metres that half the width of an arm at its elbow has, at least and at most."""

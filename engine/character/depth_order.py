@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from engine.character.part_surface import Surface
 from engine.character.sheets import THINNEST, Layer
-from engine.imaging.mask_distance import dilate_mask, distance_to
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_pieces import largest_piece
 
 THIN = 0.5
 """Share of its depth that the body keeps behind a limb, at least."""

@@ -11,7 +11,7 @@ from engine.body.parts import BODY_PARTS
 from engine.character.figure import Figure
 from engine.character.placed_joints import WHOLE_SKELETON
 from engine.errors import InputError
-from engine.imaging.mask_distance import distance_to
+from engine.imaging.masks.mask_distance import distance_to
 from engine.perception.body import BODY_LANDMARKS
 
 SURE = 0.8

@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter1d
 from engine.character.free_cloth import FreeCloth
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 
 STEEPEST = 0.7
 """By how much half of the depth may grow with a step down."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.figure import Figure
-from engine.imaging.mask_distance import distance_inside
+from engine.imaging.masks.mask_distance import distance_inside
 
 RIGHT_EDGE, NOSE_TIP, LEFT_EDGE = 234, 1, 454
 """Vertices of the face's mesh: before the ears, and at the tip of the nose."""

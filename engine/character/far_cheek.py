@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.character.head_area import Head
-from engine.imaging.mask_distance import distance_to
-from engine.imaging.nearest import nearest_in
+from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.masks.mask_distance import distance_to
 
 BESIDE = 1.12
 """How far out, in half axes of the face's oval, a cheek may reach."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
-from engine.imaging.mask_pieces import rows_apart
+from engine.imaging.masks.mask_pieces import rows_apart
 
 CLOSE, FREE = 1.12, 1.5
 """How much wider than the template cloth is that still follows the legs, and that hangs freely."""

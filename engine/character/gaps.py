@@ -12,15 +12,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.colour_segmentation import (
+from engine.imaging.masks.colour_segmentation import (
     MIN_SAMPLES,
     UNSEEDED,
     ColourMixture,
     ContrastGraph,
     log_likelihood_ratio,
 )
-from engine.imaging.mask_distance import dilate_mask, distance_inside, distance_to
-from engine.imaging.mask_pieces import bounding_box, mask_height, pieces_by_area, pieces_touching
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
+from engine.imaging.masks.mask_pieces import bounding_box, mask_height, pieces_by_area, pieces_touching
 
 WORKING = 500
 """Pixels of the person's height at which gaps are looked for."""

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.character.labels import ARMS, SPECK
-from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
-from engine.imaging.mask_distance import dilate_mask
-from engine.imaging.mask_pieces import pieces_touching, without_small_pieces
+from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, log_likelihood_ratio
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import pieces_touching, without_small_pieces
 
 OUTLINE = 0.008
 """How far around the template's outline an arm's may be, as a share of the height."""

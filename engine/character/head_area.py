@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_distance import distance_inside
+from engine.imaging.masks.mask_distance import distance_inside
 
 LEVEL = 0.04
 """How far above and below a level pixels are on it, in half axes of the face's oval."""

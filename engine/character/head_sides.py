@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 from engine.character.sheets import ClosedMesh
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 
 THINNEST = 4.0
 """Pixels from the outline to the middle from which a part of a head is round."""

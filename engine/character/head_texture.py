@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from engine.character.far_cheek import with_far_cheek
 from engine.character.head_area import Head, measure_head
-from engine.imaging.inpaint import inpaint
-from engine.imaging.mask_distance import distance_to
-from engine.imaging.mask_pieces import bounding_box, pieces_touching
-from engine.imaging.nearest import nearest_in
+from engine.imaging.filling.inpaint import inpaint
+from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.masks.mask_distance import distance_to
+from engine.imaging.masks.mask_pieces import bounding_box, pieces_touching
 
 ALIKE = 20.0
 """Distance of two colours (CIE Lab, 8 bits) below which they may be of one thing."""

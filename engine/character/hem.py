@@ -21,9 +21,9 @@ from engine.character.overlapping_legs import leg_before
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import Region, find_regions
 from engine.character.unseen_limbs import not_seen
-from engine.imaging.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
-from engine.imaging.mask_distance import dilate_mask
-from engine.imaging.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
+from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, UNSEEDED, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import largest_piece, pieces_touching, rows_apart, without_small_pieces
 
 BAND = 0.05
 """How far above and below the last ring of the cloth its hem may be, as a share of the person's height."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS
 from engine.geometry.graph_cut import alpha_expansion, grid_edges
-from engine.imaging.colour_segmentation import (
+from engine.imaging.masks.colour_segmentation import (
     MIN_SAMPLES,
     UNSEEDED,
     ColourMixture,
@@ -16,8 +16,8 @@ from engine.imaging.colour_segmentation import (
     colour_costs,
     log_likelihood_ratio,
 )
-from engine.imaging.mask_distance import dilate_mask, distance_to
-from engine.imaging.mask_pieces import pieces_touching
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_pieces import pieces_touching
 
 ARMS = (BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm"))
 LEGS = (BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg"))

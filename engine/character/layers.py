@@ -38,7 +38,7 @@ from engine.character.skirt_weights import moved_by_both
 from engine.character.solid_limb import SolidLimb, solid_arms, solid_limb
 from engine.character.template_maps import SideMaps, weights_at
 from engine.character.unseen_limbs import UnseenLimb, unseen_limbs
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_pieces import largest_piece
 
 BARE = ("Head", "Neck", "Jaw", "Eye", "Hand", "Foot", "Toe")
 """What is in the names of joints that move skin, hair or shoes, not cloth."""

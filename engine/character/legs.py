@@ -15,7 +15,7 @@ from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 
 LEGS_APART = 0.05
 """Metres at rest between points of the legs that touch in the picture and are not joined: near the crotch they are."""

@@ -18,7 +18,7 @@ from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import LimbRegion
 from engine.character.sheets import Layer
-from engine.imaging.mask_pieces import largest_piece, rows_apart
+from engine.imaging.masks.mask_pieces import largest_piece, rows_apart
 
 UP = 0.06
 """How far a leg goes on under the cloth, as a share of the person's height."""

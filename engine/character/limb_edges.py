@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 
 BESIDE = 0.004
 """How far a limb's edge may lie from that of its label, as a share of the person's height."""

@@ -16,11 +16,11 @@ from engine.character.crossed_labels import Behind
 from engine.character.face_region import within_oval
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, OTHER_SIDE
-from engine.imaging.inpaint import inpaint
-from engine.imaging.mask_distance import dilate_mask, distance_inside, distance_to
-from engine.imaging.nearest import continued_colours
+from engine.imaging.filling.inpaint import inpaint
+from engine.imaging.filling.nearest import continued_colours
+from engine.imaging.masks.mask_distance import dilate_mask, distance_inside, distance_to
+from engine.imaging.masks.usual_colours import usual_colours
 from engine.imaging.resample import enlarged_mask
-from engine.imaging.usual_colours import usual_colours
 
 SOFT_EDGE = (0.5, 1.5)
 """Pixels of the grid within a limb's edge up to which its colours are mixed with what is behind, and from which on they are

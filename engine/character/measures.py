@@ -16,7 +16,7 @@ from engine.character.template_fit import FittedBody
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed, weld
-from engine.imaging.mask_pieces import rows_apart
+from engine.imaging.masks.mask_pieces import rows_apart
 from engine.motion.clip import Clip
 from engine.render.rasteriser import SUBPIXEL_STEPS, rasterise
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
-from engine.imaging.mask_distance import dilate_mask, distance_to
-from engine.imaging.mask_pieces import largest_piece, outline, pieces_by_area
-from engine.imaging.nearest import nearest_in
+from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_pieces import largest_piece, outline, pieces_by_area
 
 NEAR = 0.16
 """Metres at rest within which two points of the template are near each other on its surface."""

@@ -15,7 +15,7 @@ from engine.body.rig import Rig
 from engine.character.labels import LEGS, OTHER_SIDE
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_maps import side_maps
-from engine.imaging.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 
 CROSSING = 0.04
 """Metres around the place where legs cross within which is looked which of them is seen."""

@@ -18,10 +18,10 @@ from engine.character.template_maps import SideMaps
 from engine.geometry.boundary_matching import match_boundaries
 from engine.geometry.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
-from engine.imaging.grid_diffusion import diffuse
-from engine.imaging.harmonic_fill import HarmonicFill, harmonic_fill
-from engine.imaging.mask_pieces import outline
-from engine.imaging.nearest import nearest_in
+from engine.imaging.filling.grid_diffusion import diffuse
+from engine.imaging.filling.harmonic_fill import HarmonicFill, harmonic_fill
+from engine.imaging.filling.nearest import nearest_in
+from engine.imaging.masks.mask_pieces import outline
 
 ALONG = 10.0
 """Pixels along the outline over which its depth is smoothed: the template's own outline jumps where limbs overlap."""

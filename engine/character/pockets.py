@@ -19,9 +19,9 @@ from engine.character.figure import SIDES
 from engine.character.labels import ARMS, complete_labels
 from engine.character.template_maps import side_maps
 from engine.character.unfound_hands import SURE, UnfoundHand, unit
-from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
-from engine.imaging.mask_distance import dilate_mask, distance_to
-from engine.imaging.mask_pieces import pieces_touching
+from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, smoothed_map
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_pieces import pieces_touching
 
 UNSEEN = 0.7
 """Confidence of a finger below which the hand surely is not seen."""

@@ -21,8 +21,8 @@ from engine.character.labels import ARMS, LEGS
 from engine.character.occlusion import completed
 from engine.character.overlapping_legs import hidden_leg
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.mask_distance import dilate_mask, distance_to
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_distance import dilate_mask, distance_to
+from engine.imaging.masks.mask_pieces import largest_piece
 
 SHOULDER, HIP = 0.105, 0.125
 """Metres around the joint in which arm or leg and the body overlap."""

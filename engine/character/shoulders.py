@@ -13,9 +13,9 @@ from engine.body.parts import BODY_PARTS
 from engine.body.rig import Rig
 from engine.character.labels import ARMS
 from engine.character.posed_template import PosedTemplate
-from engine.imaging.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
-from engine.imaging.mask_distance import dilate_mask
-from engine.imaging.mask_pieces import pieces_touching
+from engine.imaging.masks.colour_segmentation import MIN_SAMPLES, ColourMixture, ContrastGraph, colour_costs
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import pieces_touching
 
 REACH, TRUNK = 0.13, 0.35
 """Metres around a shoulder in which labels may go by colours, and in which the trunk's are learned."""

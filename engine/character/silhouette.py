@@ -17,8 +17,8 @@ from engine.character.options import MaskStroke
 from engine.character.picture_space import PictureCamera
 from engine.character.strokes import read_mask, repaint_mask
 from engine.errors import InputError
-from engine.imaging.mask_distance import dilate_mask
-from engine.imaging.mask_pieces import bounding_box, largest_piece
+from engine.imaging.masks.mask_distance import dilate_mask
+from engine.imaging.masks.mask_pieces import bounding_box, largest_piece
 from engine.imaging.resample import resized
 from engine.media.limits import Limits
 from engine.perception.body import BODY_LANDMARKS

@@ -22,7 +22,7 @@ from engine.character.labels import ARMS
 from engine.character.part_surface import warp_part
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_maps import side_maps
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_pieces import largest_piece
 
 FORESHORTENED = 0.5
 """Share of its length that a bone has in the picture, below which the limb is more deep than long."""

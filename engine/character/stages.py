@@ -39,7 +39,7 @@ from engine.character.turned_over import without_backs_in_view
 from engine.character.unfound_hands import unfound_hands
 from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.imaging.background_plate import background_plate
+from engine.imaging.filling.background_plate import background_plate
 from engine.media.image import is_cut_out, over_white
 from engine.media.limits import Limits
 from engine.perception.landmarks import fiducials

@@ -23,12 +23,12 @@ from engine.character.limb_edges import soft_limbs
 from engine.character.limb_texture import behind_another, own_of_limbs, paint_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
-from engine.imaging.inpaint import inpaint
-from engine.imaging.mask_distance import distance_inside, distance_to
-from engine.imaging.nearest import continued_colours
-from engine.imaging.poisson import poisson_blend
+from engine.imaging.filling.inpaint import inpaint
+from engine.imaging.filling.nearest import continued_colours
+from engine.imaging.filling.poisson import poisson_blend
+from engine.imaging.masks.mask_distance import distance_inside, distance_to
+from engine.imaging.masks.usual_colours import usual_colours
 from engine.imaging.resample import enlarged_mask
-from engine.imaging.usual_colours import usual_colours
 
 BackTexture = Literal["mirror", "inpaint"]
 

@@ -22,7 +22,7 @@ from engine.character.labels import ARMS, LEAST, LEGS, OTHER_SIDE
 from engine.character.picture_space import PictureCamera
 from engine.character.posed_template import PosedTemplate
 from engine.character.template_fit import FittedBody, load_human, pose_template
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_pieces import largest_piece
 
 WITHIN = 0.97
 """Share of the limb's vertices that must be within the person's outline: what is not hidden there would be seen."""

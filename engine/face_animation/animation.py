@@ -28,7 +28,7 @@ from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
-from engine.imaging.fold_edges import smooth_folds
+from engine.imaging.warping.fold_edges import smooth_folds
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import MESH_SIZE
 

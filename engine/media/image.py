@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from engine.errors import InputError
-from engine.imaging.nearest import nearest_colours
+from engine.imaging.filling.nearest import nearest_colours
 from engine.media.limits import MAX_DECODED_SIDE, SHORTEST_SIDE, Limits
 from engine.media.sniff import IMAGE_TYPES, sniff
 

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_pieces import largest_piece
+from engine.imaging.masks.mask_pieces import largest_piece
 from engine.imaging.resample import resized, size_within
 
 WORKING_SIZE = 400

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 from engine.perception.body import BODY_LANDMARKS, FAINT_CONFIDENCE, Body, find_body
 from engine.perception.faces import find_faces
 

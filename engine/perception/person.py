@@ -1,8 +1,8 @@
 """The mask of the people in a picture, soft at hair and sharp at cloth, at the picture's own resolution.
 
 Two networks look first (`engine.perception.segmentation`). Where both are sure the matter is settled; elsewhere colours
-have a say (GrabCut); and along the outline an alpha matte is solved (`engine.imaging.trimap`,
-`engine.imaging.alpha_matte`).
+have a say (GrabCut); and along the outline an alpha matte is solved (`engine.imaging.alpha.trimap`,
+`engine.imaging.alpha.alpha_matte`).
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.alpha_matte import alpha_matte
-from engine.imaging.colour_segmentation import grab_cut
-from engine.imaging.guided_upsample import upsample_guided
-from engine.imaging.mask_pieces import pieces_touching
+from engine.imaging.alpha.alpha_matte import alpha_matte
+from engine.imaging.alpha.guided_upsample import upsample_guided
+from engine.imaging.alpha.trimap import CERTAIN_BELIEF, like_plain_background, outline_trimap
+from engine.imaging.masks.colour_segmentation import grab_cut
+from engine.imaging.masks.mask_pieces import pieces_touching
 from engine.imaging.resample import resized, size_within
-from engine.imaging.trimap import CERTAIN_BELIEF, like_plain_background, outline_trimap
 from engine.media.image import is_cut_out
 from engine.perception.figure import figure_on_plain_ground
 from engine.perception.models import MattingModel

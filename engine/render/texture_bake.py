@@ -18,7 +18,7 @@ from engine.compiled import njit
 from engine.geometry.camera import Camera
 from engine.geometry.surface import vertex_normals
 from engine.geometry.texture_atlas import TextureAtlas
-from engine.imaging.nearest import nearest_in
+from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
 
 DEPTH_SLACK = 4e-3

@@ -28,7 +28,7 @@ from engine.character.template_maps import side_maps
 from engine.geometry.camera import Camera
 from engine.geometry.skinning import pose_transforms, skin
 from engine.geometry.welding import is_closed
-from engine.imaging.nearest import continued_colours
+from engine.imaging.filling.nearest import continued_colours
 from engine.motion.kinematics import joint_places
 
 

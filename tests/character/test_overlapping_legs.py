@@ -21,7 +21,7 @@ from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import side_maps
 from engine.geometry.camera import Camera
 from engine.geometry.welding import is_closed
-from engine.imaging.mask_distance import distance_to
+from engine.imaging.masks.mask_distance import distance_to
 
 SIZE = (448, 260)
 LEFT, RIGHT = BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg")

@@ -13,7 +13,7 @@ from engine.character.posed_template import PosedTemplate
 from engine.character.regions import find_regions
 from engine.character.shoulders import labelled_shoulders
 from engine.character.template_fit import load_human
-from engine.imaging.mask_distance import dilate_mask
+from engine.imaging.masks.mask_distance import dilate_mask
 from tests.character.test_overlapping_legs import SIZE, standing
 
 HEAD, TORSO, LEFT, RIGHT = (BODY_PARTS.index(name) for name in ("head", "torso", "left_arm", "right_arm"))

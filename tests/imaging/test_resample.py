@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.imaging.guided_upsample import upsample_guided
+from engine.imaging.alpha.guided_upsample import upsample_guided
 from engine.imaging.resample import even_size, resized, size_within
 
 

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
-from engine.imaging.matting import estimate_foreground
+from engine.imaging.alpha.matting import estimate_foreground
 from engine.perception.faces import find_faces
 from engine.perception.person import person_mask
 

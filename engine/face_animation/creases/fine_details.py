@@ -21,9 +21,9 @@ from engine.compiled import njit
 from engine.face_animation.creases.outliers import Outliers, find_outliers
 from engine.face_animation.motion_transfer.head_motion import turn_angles
 from engine.geometry.rigid import fit_similarity
-from engine.imaging.colour_segmentation import grab_cut
-from engine.imaging.delaunay import delaunay
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.masks.colour_segmentation import grab_cut
+from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.film_strip import FilmStrip, FilmStripWriter
 from engine.perception.face_track.track import FaceTrack

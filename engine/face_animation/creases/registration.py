@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast, shut_by_contrast
 from engine.face_animation.mouth.teeth import TEETH_SHOW_FROM
-from engine.imaging.delaunay import delaunay
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import (

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.mesh_warp import inverse_map
 
 UPPER_LID_STRIPS = (
     ((247, 30, 29, 27, 28, 56, 190), (246, 161, 160, 159, 158, 157, 173)),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.eyes.eyes import EYE_VERTICES
-from engine.imaging.colour_segmentation import grab_cut
+from engine.imaging.masks.colour_segmentation import grab_cut
 
 EYE_PIXELS = 48
 """Pixels of an eye's width at which it is cut out."""

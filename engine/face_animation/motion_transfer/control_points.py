@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour
 from engine.geometry.rigid import Similarity
-from engine.imaging.delaunay import delaunay
+from engine.imaging.warping.delaunay import delaunay
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.imaging.mesh_warp import inverse_map
-from engine.imaging.poisson import membrane
+from engine.imaging.filling.poisson import membrane
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
 LIP_EROSION_SHARE = 0.1

@@ -20,7 +20,7 @@ from engine.face_animation.mouth.hidden_regions import (
     mouth_triangles,
     soft_polygon,
 )
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, mouth_opening
 
 TEETH_SHOW_FROM = 0.08

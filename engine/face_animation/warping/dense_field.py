@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.face_animation.warping.warp_mesh import WarpMesh
-from engine.imaging.delaunay import delaunay
+from engine.imaging.warping.delaunay import delaunay
 from engine.perception.landmarks import FACE_OVAL
 
 BLUR_KERNELS = 10

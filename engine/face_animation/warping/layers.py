@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.bystanders import own_share
-from engine.imaging.background_plate import background_plate
-from engine.imaging.matting import estimate_layers, reconcile_with_plate
+from engine.imaging.alpha.matting import estimate_layers, reconcile_with_plate
+from engine.imaging.filling.background_plate import background_plate
 from engine.media.image import is_cut_out, over_grey
 from engine.perception.landmarks import FACE_OVAL
 from engine.perception.models import MattingModel

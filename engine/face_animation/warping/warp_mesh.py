@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.imaging.fold_edges import folded_box
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.fold_edges import folded_box
+from engine.imaging.warping.mesh_warp import inverse_map
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarity
-from engine.imaging.delaunay import delaunay
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import LIPS_INNER
 
 CROP_SHAPE = (320, 288)

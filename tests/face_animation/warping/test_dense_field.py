@@ -20,9 +20,9 @@ from engine.face_animation.warping.dense_field import (
     interpolation,
 )
 from engine.face_animation.warping.warp_mesh import WarpMesh
-from engine.imaging.delaunay import delaunay
-from engine.imaging.fold_edges import folded_box
-from engine.imaging.mesh_warp import inverse_map
+from engine.imaging.warping.delaunay import delaunay
+from engine.imaging.warping.fold_edges import folded_box
+from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 
 SHAPE = (260, 220)

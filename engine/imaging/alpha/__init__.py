@@ -1,0 +1,1 @@
+"""Mattes: how far each pixel belongs to what is before."""

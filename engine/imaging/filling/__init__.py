@@ -1,0 +1,1 @@
+"""Holes of pictures, filled."""

@@ -1,0 +1,1 @@
+"""Masks, their pieces and distances, and what colours tell of them."""

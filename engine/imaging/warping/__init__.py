@@ -1,0 +1,1 @@
+"""Pictures on triangles, and how these move."""
