@@ -17,12 +17,12 @@ from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.image import write_image
 from engine.media.video import read_video
-from engine.performances.actor import build_actor
 from engine.performances.catalogue import FPS, POSTER_SIDE, VIDEOS, names, performance, scored, video
-from engine.performances.filming import film
-from engine.performances.lighting import lamps
-from engine.performances.score import SCORES
-from engine.performances.studio import HAIR_LAMPS, PICTURE_SIZE
+from engine.performances.modelling.actor import build_actor
+from engine.performances.rendering.filming import film
+from engine.performances.rendering.lighting import lamps
+from engine.performances.rendering.studio import HAIR_LAMPS, PICTURE_SIZE
+from engine.performances.scores.score import SCORES
 
 CRF = 16
 """H.264 quality: without visible loss, all together below 8 MB."""

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from engine.geometry.surface import triangulate, vertex_normals
-from engine.performances import chart
-from engine.performances.actor import LOWER_ARCH, UPPER_ARCH
-from engine.performances.figure import Figure, build_figure
-from engine.performances.hair import hair_cover
-from engine.performances.shirt import drape, sew_shirt
-from engine.performances.skin import Skin, paint_skin
-from engine.performances.teeth import build_dentition
-from engine.performances.wrinkles import PRESSED_BY, Wrinkles, carve, wrinkle_relief
+from engine.performances.modelling import chart
+from engine.performances.modelling.actor import LOWER_ARCH, UPPER_ARCH
+from engine.performances.modelling.figure import Figure, build_figure
+from engine.performances.modelling.hair import hair_cover
+from engine.performances.modelling.shirt import drape, sew_shirt
+from engine.performances.modelling.skin import Skin, paint_skin
+from engine.performances.modelling.teeth import build_dentition
+from engine.performances.modelling.wrinkles import PRESSED_BY, Wrinkles, carve, wrinkle_relief
 
 
 @pytest.fixture(scope="module")

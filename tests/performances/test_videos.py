@@ -19,13 +19,13 @@ from engine.media.video import probe_video, read_video
 from engine.perception.faces import FaceTracker
 from engine.perception.head_pose import head_pose
 from engine.performances import catalogue, names, performance, poster, video
-from engine.performances.actor import Actor, build_actor, stage
 from engine.performances.catalogue import FPS, POSTER_SIDE
-from engine.performances.figure import Pose
-from engine.performances.filming import MAX_KEY_FRAME_DISTANCE, MAX_POSE_CHANGES, carry, key_frames
-from engine.performances.lighting import lamps
-from engine.performances.score import SCORES
-from engine.performances.studio import HAIR_LAMPS, expose, finish, photograph
+from engine.performances.modelling.actor import Actor, build_actor, stage
+from engine.performances.modelling.figure import Pose
+from engine.performances.rendering.filming import MAX_KEY_FRAME_DISTANCE, MAX_POSE_CHANGES, carry, key_frames
+from engine.performances.rendering.lighting import lamps
+from engine.performances.rendering.studio import HAIR_LAMPS, expose, finish, photograph
+from engine.performances.scores.score import SCORES
 
 MEBIBYTE = 2**20
 

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from engine.performances.eyes import Eyeball
+from engine.performances.modelling.eyes import Eyeball
 from engine.render.rasteriser import rasterise
 
 RIM_OVERLAP = 0.0003

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.actor import Part, Scene
-from engine.performances.chart import smooth_step
-from engine.performances.sight import VisiblePoints
+from engine.performances.modelling.actor import Part, Scene
+from engine.performances.modelling.chart import smooth_step
+from engine.performances.rendering.visibility import VisiblePoints
 from engine.render.light import Lamps, dome, softbox
 
 KEY_BOX = (-40.0, 34.0, 44.0, 52.0)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.surface import triangulate
-from engine.performances.figure import Figure
+from engine.performances.modelling.figure import Figure
 from engine.render.rasteriser import rasterise
 
 NECKLINE_AXIS_DEPTH = 0.012

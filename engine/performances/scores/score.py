@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from engine.performances import delight, distress, gestures, presence, speech
 from engine.performances.catalogue import scored
-from engine.performances.figure import Pose
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores import delight, distress, gestures, presence, speech
 
 PERFORMANCE_SECONDS: Mapping[str, float] = {performance.name: performance.seconds for performance in scored()}
 

@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 
 from engine.geometry.surface import triangulate
-from engine.performances.eyes import CORNEA_RADIUS, EYEBALL_RADIUS, IRIS_RADIUS, build_eyeball, colour_of_eye, profile
-from engine.performances.figure import Figure, Pose, build_figure, pose_figure, rigid_motion
+from engine.performances.modelling.eyes import (
+    CORNEA_RADIUS,
+    EYEBALL_RADIUS,
+    IRIS_RADIUS,
+    build_eyeball,
+    colour_of_eye,
+    profile,
+)
+from engine.performances.modelling.figure import Figure, Pose, build_figure, pose_figure, rigid_motion
 from engine.render.rasteriser import rasterise
 
 SMILE = {f"{unit}{side}": 0.8 for unit in ("mouthSmile", "cheekSquint") for side in ("Left", "Right")}

@@ -20,9 +20,17 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 from engine.geometry.camera import Camera
-from engine.performances.actor import Actor, Scene, stage
-from engine.performances.figure import Pose
-from engine.performances.studio import CAMERA, SAMPLES_PER_SIDE, Exposure, backdrop, expose, finish, parts_seen
+from engine.performances.modelling.actor import Actor, Scene, stage
+from engine.performances.modelling.figure import Pose
+from engine.performances.rendering.studio import (
+    CAMERA,
+    SAMPLES_PER_SIDE,
+    Exposure,
+    backdrop,
+    expose,
+    finish,
+    parts_seen,
+)
 from engine.render.rasteriser import Raster, rasterise
 
 MAX_KEY_FRAME_DISTANCE = 14

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.performances.actor import Scene
+from engine.performances.modelling.actor import Scene
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import Raster, rasterise
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.geometry.surface import triangle_areas, triangulate, vertex_normals
-from engine.performances.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, smooth_step
-from engine.performances.figure import Figure
+from engine.performances.modelling.chart import AXIS_DEPTH, CHART_RADIUS, smooth_curve, smooth_step
+from engine.performances.modelling.figure import Figure
 
 HAIRLINE = [
     *((0.0, 0.8565), (0.018, 0.8575), (0.034, 0.8580), (0.047, 0.8550), (0.057, 0.8465), (0.0635, 0.8360)),

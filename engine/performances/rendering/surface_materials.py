@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.surface import chart_tangents
-from engine.performances import chart
-from engine.performances.actor import Actor, Part, Scene
-from engine.performances.eyes import colour_of_eye
-from engine.performances.shirt import COLLAR_WIDTH
-from engine.performances.sight import VisiblePoints, unit
+from engine.performances.modelling import chart
+from engine.performances.modelling.actor import Actor, Part, Scene
+from engine.performances.modelling.eyes import colour_of_eye
+from engine.performances.modelling.shirt import COLLAR_WIDTH
+from engine.performances.rendering.visibility import VisiblePoints, unit
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.bump import bump
 

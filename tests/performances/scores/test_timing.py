@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from engine.performances.timing import blink, ease, glances, idle_noise, swell
+from engine.performances.scores.timing import blink, ease, glances, idle_noise, swell
 
 
 def test_an_eased_step_starts_and_ends_at_rest() -> None:

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from engine.body.subdivision import Subdivision, catmull_clark
 from engine.body.template import vertex_mask
 from engine.geometry.surface import triangulate, vertex_normals
-from engine.performances import chart
-from engine.performances.brows import RootedHairs, grow_brows, grow_lashes, place_hairs
-from engine.performances.eyes import Eyeball, build_eyeball
-from engine.performances.figure import Figure, Pose, PosedFigure, build_figure, pose_figure
-from engine.performances.hair import Haircut, grow_crop, hair_cover
-from engine.performances.shade import light_through
-from engine.performances.shirt import Shirt, drape, sew_shirt
-from engine.performances.skin import Skin, paint_skin
-from engine.performances.teeth import Arch, Dentition, build_dentition
-from engine.performances.wrinkles import Wrinkles, carve, wrinkle_relief
+from engine.performances.modelling import chart
+from engine.performances.modelling.brows import RootedHairs, grow_brows, grow_lashes, place_hairs
+from engine.performances.modelling.eyes import Eyeball, build_eyeball
+from engine.performances.modelling.figure import Figure, Pose, PosedFigure, build_figure, pose_figure
+from engine.performances.modelling.hair import Haircut, grow_crop, hair_cover
+from engine.performances.modelling.shirt import Shirt, drape, sew_shirt
+from engine.performances.modelling.skin import Skin, paint_skin
+from engine.performances.modelling.teeth import Arch, Dentition, build_dentition
+from engine.performances.modelling.wrinkles import Wrinkles, carve, wrinkle_relief
+from engine.performances.rendering.hair_shading import light_through
 from engine.render.light import Lamps
 
 

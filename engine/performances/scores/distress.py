@@ -7,10 +7,10 @@ between the two strengths is said where it is.
 
 from __future__ import annotations
 
-from engine.performances.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
-from engine.performances.figure import Pose
-from engine.performances.timing import blink, glances, swell
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
+from engine.performances.scores.timing import blink, glances, swell
 
 
 def anger(t: float) -> Pose:

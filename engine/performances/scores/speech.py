@@ -11,10 +11,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from engine.performances.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
-from engine.performances.figure import Pose
-from engine.performances.timing import blink, ease, glances, swell
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores.acting import Units, add, add_both_sides, head_sway, lids, pose, sum_turns
+from engine.performances.scores.timing import blink, ease, glances, swell
 
 MOUTH_SHAPES: Mapping[str, Mapping[str, float]] = {
     "_": {},

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 
-from engine.performances.acting import Units, add, head_sway, lids, pose, sum_turns
 from engine.performances.catalogue import performance
-from engine.performances.figure import Pose
-from engine.performances.timing import blink, ease, glances, idle_noise, swell
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores.acting import Units, add, head_sway, lids, pose, sum_turns
+from engine.performances.scores.timing import blink, ease, glances, idle_noise, swell
 
 
 def happy(t: float) -> Pose:

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
-from engine.performances.actor import Actor, Scene
-from engine.performances.lighting import catchlights, interreflection, lamps
-from engine.performances.matter import materials
-from engine.performances.sight import unit, visible_points
+from engine.performances.modelling.actor import Actor, Scene
+from engine.performances.rendering.lighting import catchlights, interreflection, lamps
+from engine.performances.rendering.surface_materials import materials
+from engine.performances.rendering.visibility import unit, visible_points
 from engine.render.film import box_downsample, develop
 from engine.render.light import Lamps
 from engine.render.rasteriser import Raster

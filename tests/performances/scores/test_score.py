@@ -6,8 +6,8 @@ import pytest
 from engine.body import FACE_UNITS
 from engine.performances import STATES, performance
 from engine.performances.catalogue import FPS, scored
-from engine.performances.figure import Pose
-from engine.performances.score import PERFORMANCE_SECONDS, SCORES
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores.score import PERFORMANCE_SECONDS, SCORES
 
 
 def numbers(pose: Pose) -> np.ndarray:

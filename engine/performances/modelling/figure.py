@@ -16,8 +16,8 @@ from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
-from engine.performances.eyes import EYEBALL_RADIUS, build_eyeball, profile
-from engine.performances.lids import Lids, build_lids
+from engine.performances.modelling.eyes import EYEBALL_RADIUS, build_eyeball, profile
+from engine.performances.modelling.lids import Lids, build_lids
 
 PHENOTYPE = Phenotype(age=0.52, gender=0.86, muscle=0.48, weight=0.5, caucasian=0.7, asian=0.15, african=0.15)
 
@@ -39,7 +39,7 @@ CLOSED_LIPS = {
 """The template's lips stand a little apart: with these units they meet."""
 
 BLINK_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
-"""These units are carried out by `engine.performances.lids`: their weight is the share of the way to a shut eye."""
+"""These units are carried out by `engine.performances.modelling.lids`: their weight is the share of the way to a shut eye."""
 
 NECK_SHARES = {"neck01": 0.12, "neck02": 0.16, "neck03": 0.22, "head": 0.5}
 """How a turn of the head is shared out between the joints."""

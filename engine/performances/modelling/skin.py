@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.brows import BROW_LINE
-from engine.performances.chart import (
+from engine.performances.modelling.brows import BROW_LINE
+from engine.performances.modelling.chart import (
     CHART_SHAPE,
     LEFT,
     TEXELS_PER_METRE,

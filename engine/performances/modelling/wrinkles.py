@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.performances.chart import CHART_SHAPE, curve_coordinates
+from engine.performances.modelling.chart import CHART_SHAPE, curve_coordinates
 
 Curve = list[tuple[float, float]]
 

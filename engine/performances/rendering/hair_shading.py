@@ -7,7 +7,7 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.performances.chart import smooth_step
+from engine.performances.modelling.chart import smooth_step
 from engine.render.light import Lamps
 
 VOXEL_METRES = 0.0016

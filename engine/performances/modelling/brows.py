@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from engine.geometry.surface import triangulate
-from engine.performances.chart import smooth_curve
-from engine.performances.eyes import Eyeball
-from engine.performances.figure import Figure
-from engine.performances.lids import find_rim
+from engine.performances.modelling.chart import smooth_curve
+from engine.performances.modelling.eyes import Eyeball
+from engine.performances.modelling.figure import Figure
+from engine.performances.modelling.lids import find_rim
 
 BROW_LINE = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.8090), (0.0425, 0.8072), (0.0490, 0.8032)]
 """The middle line of the sitter's left brow on the map of the head."""

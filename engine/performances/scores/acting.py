@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from engine.performances.figure import Pose
-from engine.performances.timing import ease, idle_noise
+from engine.performances.modelling.figure import Pose
+from engine.performances.scores.timing import ease, idle_noise
 
 Units = dict[str, float]
 SIDES = ("Left", "Right")

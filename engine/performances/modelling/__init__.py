@@ -1,0 +1,1 @@
+"""The actor: skin, eyes, teeth, hair and shirt."""
