@@ -75,8 +75,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 
 def _prepare() -> None:
-    from engine.motion import check
-    from engine.motion.files import reading  # noqa: F401 - importing them is the preparation
+    from engine.motion import check  # noqa: F401 - importing them is the preparation
+    from engine.motion.files import reading  # noqa: F401
 
 
 KIND = Kind(
