@@ -31,7 +31,7 @@ class Input:
     """Where set, the input may also be the name of an item of that library: the built-in one, or what a user keeps."""
     trimmed_by: str | None = None
     """Where set, the option of this name holds which part of the input is used, [start, end] in seconds: a driver's
-    portion can be named then (`myclip/happy`), which sets it."""
+    moment can be named then (`myclip/happy`), which sets it."""
     spared_by: str | None = None
     """Where set, the option of this name makes the input one that may be left out."""
 

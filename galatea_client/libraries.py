@@ -24,7 +24,7 @@ class Libraries(Requests[J]):
         return [self._read(Driver, one) for one in (await self._call("list_drivers"))["items"]]
 
     async def driver(self, name: str) -> Driver:
-        """A driver; once its `moments_status` is `ready`, with the portions that hold emotions."""
+        """A driver; once its `moments_status` is `ready`, with the moments that hold emotions."""
         return self._read(Driver, await self._call("get_driver", name=name))
 
     async def search_driver(self, name: str) -> Driver:

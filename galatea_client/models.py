@@ -119,7 +119,7 @@ class Kind(Model):
 
 
 class Moment(Model):
-    """A portion of one's own driver that holds an emotion or a gesture: a job's driver as `DRIVER/MOMENT`."""
+    """A moment of one's own driver that holds an emotion or a gesture: a job's driver as `DRIVER/MOMENT`."""
 
     name: str
     state: str

@@ -16,7 +16,7 @@ from service.tables.kept import Kept
 
 
 class MomentOut(BaseModel):
-    """A portion of a driver that holds a state. A job can name it as its driver: `driver/moment`."""
+    """A moment of a driver that holds a state. A job can name it as its driver: `driver/moment`."""
 
     name: str
     state: State
@@ -30,7 +30,7 @@ class MomentOut(BaseModel):
     score: float
     """How sure it is, in [0, 1]."""
     url: str
-    """Where the video is, as a media fragment: players show the portion alone."""
+    """Where the video is, as a media fragment: players show the moment alone."""
     poster: str
     """Where a small picture of it is."""
 
@@ -56,7 +56,7 @@ class DriverOut(BaseModel):
     content_type: str | None = None
     created_at: datetime | None = None
     moments: list[MomentOut] = []
-    """The portions of one's own driver that hold emotions and gestures, in the order of the states, the best first."""
+    """The moments of one's own driver that hold emotions and gestures, in the order of the states, the best first."""
     moments_status: InspectionStatus = "none"
     """How far the search for them is; `none`: there was no search."""
     moments_job: str | None = None

@@ -59,7 +59,7 @@ def _segment(
     context: Context, owner: str, item: Input, option: str, value: str, options: Mapping[str, object]
 ) -> tuple[str, list[float]]:
     if options.get(option) is not None:
-        detail = f"“{item.name}” names a portion of a driver, and “{option}” another: leave one of them out."
+        detail = f"“{item.name}” names a moment of a driver, and “{option}” another: leave one of them out."
         raise Problem(422, "portion_and_trim", detail)
     name, _, segment_name = value.partition("/")
     file_id, segment = driver_segments.segment(context, owner, name, segment_name)

@@ -24,7 +24,7 @@ class InputOut(BaseModel):
     """Where set, the input may also be the name of an item of that library, built-in or one's own: of `performances`
     those that `GET /drivers` lists, or `auto`, by which what fits best is taken; of `motions` those of `GET /motions`."""
     trimmed_by: str | None
-    """Where set, the input may also be a portion of a driver, `name/portion`: the option of this name is set to it."""
+    """Where set, the input may also be a moment of a driver, `name/moment`: the option of this name is set to it."""
     spared_by: str | None
     """Where set, the option of this name makes a required input one that may be left out."""
     corrects: bool

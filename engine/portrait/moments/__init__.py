@@ -38,7 +38,7 @@ def _prepare() -> None:
 
 KIND = Kind(
     name="moments",
-    summary="The portions of a driving video that hold emotions are found and named.",
+    summary="The moments of a driving video that hold emotions are found and named.",
     inputs=(
         Input("driver", "video", "A video of one face that shows several things one after another.", serves_many=True),
     ),

@@ -1227,7 +1227,7 @@ export interface components {
             items: components["schemas"]["LinkOut"][];
             next_cursor: string | null;
         };
-        /** @description A portion of a driver that holds a state. A job can name it as its driver: `driver/moment`. */
+        /** @description A moment of a driver that holds a state. A job can name it as its driver: `driver/moment`. */
         MomentOut: {
             name: string;
             /** @enum {string} */
