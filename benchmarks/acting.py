@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts, draw_in_order
+from engine.face_animation.animation import (
+    ALL_PARTS,
+    FaceAnimation,
+    Parts,
+    RegisteredDriver,
+    RiggedTarget,
+    draw_in_order,
+)
 from engine.face_animation.creases.fine_details import RatioImages, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
@@ -46,7 +53,9 @@ class Acting:
         if self.looked:
             observations, strip = observe_driver(*given), keep_ratio_images(*given)
             residuals = refine_tracking(*given, observations, strip, self.target, self.rig.details, self.options)
-        animation = FaceAnimation(self.target, self.layers, self.rig, *given, self.options, residuals, parts)
+        animation = FaceAnimation(
+            RiggedTarget(self.target, self.layers, self.rig), RegisteredDriver(*given, residuals), self.options, parts
+        )
         ratios = RatioImages(*given, outliers=refined, refined=refined)
         moments = zip(animation.motions(), ratios, strict=True)
         yield from draw_in_order(animation, (moment for moment in moments if moment[0].frame % step == 0))

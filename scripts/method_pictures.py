@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts
+from engine.face_animation.animation import ALL_PARTS, FaceAnimation, Parts, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
@@ -49,11 +49,13 @@ def main() -> None:
     frame = round(SHOWN_SECONDS * track.fps)
 
     def drawn(parts: Parts) -> Picture:
-        animation = FaceAnimation(target, layers, rig, track, neutral, options.acting(), parts=parts)
+        animation = FaceAnimation(
+            RiggedTarget(target, layers, rig), RegisteredDriver(track, neutral), options.acting(), parts=parts
+        )
         motion = next(one for one in animation.motions() if one.frame == frame)
         return animation.draw(motion, ratios[frame])
 
-    animation = FaceAnimation(target, layers, rig, track, neutral, options.acting())
+    animation = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, neutral), options.acting())
     motion = next(one for one in animation.motions() if one.frame == frame)
     moved = rig.mesh.offsets(np.column_stack([motion.offsets, motion.depth]))
 

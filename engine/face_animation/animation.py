@@ -69,40 +69,56 @@ class Window(NamedTuple):
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
 
+@dataclass(frozen=True)
+class RiggedTarget:
+    """The picture with its face, cut into layers, and made ready to move."""
+
+    face: TargetFace
+    layers: Layers
+    rig: Rig
+
+
+@dataclass(frozen=True)
+class RegisteredDriver:
+    """A driver's track on the skin, and its frame that shows what the target shows."""
+
+    track: FaceTrack
+    neutral: int
+    residuals: LandmarkResiduals | None = None
+    """By how much the target's landmarks miss, which is corrected: see `tracking_refinement`."""
+
+
 class FaceAnimation:
     """A target's face ready to act out a driver.
 
     Parameters
     ----------
-    target, layers, rig : the picture with its face, cut into layers, and made ready to move.
-    track, neutral : the driver, registered, and its frame that shows what the target shows.
-    options : how the target follows it. residuals : what is corrected, see `tracking_refinement`.
+    target, driver : who acts, and what is acted out.
+    options : how the target follows the driver.
+    parts : what of the face is animated.
     mouth : what is seen between the lips; by default the driver's mouth.
     keep_alpha : whether the frames of a cut-out target stay transparent.
     """
 
     def __init__(
         self,
-        target: TargetFace,
-        layers: Layers,
-        rig: Rig,
-        track: FaceTrack,
-        neutral: int,
+        target: RiggedTarget,
+        driver: RegisteredDriver,
         options: ActingOptions,
-        residuals: LandmarkResiduals | None = None,
         parts: Parts = ALL_PARTS,
         mouth: MouthInterior | None = None,
         keep_alpha: bool = False,
     ):
-        self._target, self._rig, self._track, self._neutral = target, rig, track, neutral
-        self._options, self._residuals = options, residuals
-        opaque = np.full(target.rgb.shape[:2], 255, np.uint8)
-        self._person = upsample_twice(layers.person if parts.layers else np.dstack([target.rgb, opaque]))
+        face, layers, track, neutral = target.face, target.layers, driver.track, driver.neutral
+        self._target, self._rig, self._track, self._neutral = face, target.rig, track, neutral
+        self._options, self._residuals = options, driver.residuals
+        opaque = np.full(face.rgb.shape[:2], 255, np.uint8)
+        self._person = upsample_twice(layers.person if parts.layers else np.dstack([face.rgb, opaque]))
         self._plate = layers.plate
         self._keep_alpha = layers.transparent and keep_alpha
-        self._eyes = EyesAndLids(target) if parts.eyes else None
-        self._mouth = (mouth or DriverMouth(target, track, neutral)) if parts.hidden else None
-        self._landing = rig.details.origin(track.in_crop(neutral))
+        self._eyes = EyesAndLids(face) if parts.eyes else None
+        self._mouth = (mouth or DriverMouth(face, track, neutral)) if parts.hidden else None
+        self._landing = target.rig.details.origin(track.in_crop(neutral))
         moves = set(options.follow) - {"head"}
         self._creases = min(options.strength, 1.0) if parts.details and moves else 0.0
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from engine.export.encoders import VideoTarget
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
-from engine.face_animation.animation import FaceAnimation
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.stages import analyse_driver, follow_driver, prepare_target
 from engine.face_animation.target_face import TargetFace
@@ -73,7 +73,12 @@ def animate_portrait(
     layers, rig = prepared.layers(), prepared.rig()
     with run.timed("animate"):
         follows_so, keeps_alpha = options.acting(), options.format != "mp4"
-        animation = FaceAnimation(target, layers, rig, track, neutral, follows_so, residuals, keep_alpha=keeps_alpha)
+        animation = FaceAnimation(
+            RiggedTarget(target, layers, rig),
+            RegisteredDriver(track, neutral, residuals),
+            follows_so,
+            keep_alpha=keeps_alpha,
+        )
         _write_animation(animation.frames(performance.ratios), target, track, neutral, options, driver, out, run)
     write_landmarks(out / "landmarks.json", target, track, neutral)
     write_report(

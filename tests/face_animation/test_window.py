@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from made_clip import OPENS
 
-from engine.face_animation.animation import FaceAnimation, Window
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, Window
 from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
@@ -23,7 +23,9 @@ def test_a_window_of_a_frame_is_that_part_of_it(woman_white: Path, mouth_opens: 
     layers = separate_layers(target)
     track = track_driver(mouth_opens, None, OPENS, Limits())
     ratios = keep_ratio_images(track, 0)
-    animation = FaceAnimation(target, layers, rig_target(target, layers), track, 0, options.acting())
+    animation = FaceAnimation(
+        RiggedTarget(target, layers, rig_target(target, layers)), RegisteredDriver(track, 0), options.acting()
+    )
     motion = list(animation.motions())[-1]
     whole = animation.draw(motion, ratios.ratio(motion.frame)).astype(int)
     face = animation.face(motion)

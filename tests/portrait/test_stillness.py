@@ -11,7 +11,7 @@ import pytest
 from made_clip import face, unpacked, write_frames
 from numpy.typing import NDArray
 
-from engine.face_animation.animation import FaceAnimation
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import RatioImages
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
@@ -113,7 +113,9 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     moved = np.zeros(rgb.shape[:2])
     for frame, low, high in zip(
         *(
-            FaceAnimation(target, some, rig, track, 0, options.acting()).frames(RatioImages(track, 0))
+            FaceAnimation(RiggedTarget(target, some, rig), RegisteredDriver(track, 0), options.acting()).frames(
+                RatioImages(track, 0)
+            )
             for some in (layers, black, white)
         ),
         strict=True,

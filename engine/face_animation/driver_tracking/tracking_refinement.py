@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
-from engine.face_animation.animation import FaceAnimation, Window
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, Window
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip
 from engine.face_animation.driver_tracking.landmark_residuals import (
     LandmarkResiduals,
@@ -84,7 +84,9 @@ def refine_tracking(
     frames = observations.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
     layers = single_layer(target)
-    animation = FaceAnimation(target, layers, rig_target(target, layers, details), track, neutral, options)
+    animation = FaceAnimation(
+        RiggedTarget(target, layers, rig_target(target, layers, details)), RegisteredDriver(track, neutral), options
+    )
     motions = [replace(motion, frame=frames[motion.frame]) for motion in animation.carry(some, frames.index(neutral))]
     placed = [animation.face(motion) for motion in motions]
     places = [crop_place(face) for face in placed]

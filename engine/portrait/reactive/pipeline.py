@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.export.encoders import VideoTarget
 from engine.export.still import write_still
 from engine.export.video import VideoWriter
-from engine.face_animation.animation import FaceAnimation, draw_in_order
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
 from engine.face_animation.creases.fine_details import RatioStrip
 from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
 from engine.face_animation.driver_tracking.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
@@ -179,7 +179,9 @@ def _draw(
         for act in acts:
             with run.timed("animate"), ExitStack() as files:
                 track, neutral, ratios = act.performance.track, act.performance.neutral, act.performance.ratios
-                animation = FaceAnimation(target, layers, rig, track, neutral, options.acting())
+                animation = FaceAnimation(
+                    RiggedTarget(target, layers, rig), RegisteredDriver(track, neutral), options.acting()
+                )
                 name = out / clip_name(act.state)
                 clip = files.enter_context(VideoWriter(VideoTarget(name, size, fps, entries=(0,), synthetic=mark)))
                 segments = act.exits.segments()

@@ -13,7 +13,7 @@ from made_face import driver as made_driver
 from made_face import in_crop, opened, placed, smiling
 from numpy.typing import NDArray
 
-from engine.face_animation.animation import FaceAnimation
+from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget
 from engine.face_animation.creases.fine_details import detail_region, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
@@ -136,8 +136,8 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, observations = keep_ratio_images(track, 0), observe_driver(track, 0)
     residuals = refine_tracking(track, 0, observations, ratios, target, rig.details, options.acting())
-    plain = FaceAnimation(target, layers, rig, track, 0, options.acting())
-    better = FaceAnimation(target, layers, rig, track, 0, options.acting(), residuals)
+    plain = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, 0), options.acting())
+    better = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, 0, residuals), options.acting())
     meant = [plain.face(motion) for motion in plain.motions()]
     left = {}
     with FaceTracker(alone=True) as tracker:
