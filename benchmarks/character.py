@@ -4,7 +4,7 @@
 
 Without pictures: all people of the test media. The process is warmed up first; stages are kept, as the service does. "To
 GLB" is everything but the video and the quality, of a revision too: with a joint moved by hand, with a stroke over the labels, with another
-motion. The quality is that of the GLB, read back (`benchmarks.written_character`): "of the mask" is its silhouette, posed
+motion. The quality is that of the GLB, read back (`benchmarks.known_truth.written_character`): "of the mask" is its silhouette, posed
 by `pictured` and drawn by OpenCV, "reported" what the report says; "front" the PSNR against the picture inside the mask;
 "flipped" the share of the pixels in view that show a triangle's back; "stretched" the share of edges that become more than
 three times as long as pictured, the worst moment of all built-in clips. "Off" is, in turn, how far the file's vertices are
@@ -26,9 +26,9 @@ from typing import Any
 import numpy as np
 
 from benchmarks.character_steps import options_for, pictures
+from benchmarks.known_truth.written_character import Written, outline, read_written
 from benchmarks.stretching import stretched
 from benchmarks.tables import machine, table
-from benchmarks.written_character import Written, outline, read_written
 from engine.character import KIND
 from engine.character.measures import picture_camera
 from engine.character.options import CharacterOptions

@@ -26,12 +26,12 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
-from benchmarks.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
-from benchmarks.known_places import places
-from benchmarks.scanned_bodies import read_scan
+from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
+from benchmarks.known_truth.known_places import places
+from benchmarks.known_truth.scanned_bodies import read_scan
+from benchmarks.known_truth.surface_distance import Distances, align, compare, sample_outside
 from benchmarks.shared_media import media
-from benchmarks.surface_distance import Distances, align, compare, sample_outside
 from benchmarks.tables import machine, table
 from benchmarks.truth_sheet import write_truth_sheet
 from engine.character import layers

@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks import portrait_fidelity, portrait_memory, portrait_speed, portrait_steadiness, portrait_turn
+from benchmarks.portrait_figures import fidelity, memory, speed, steadiness, turn
 from benchmarks.tables import machine
 
 TABLES = ("speed", "fidelity", "ablations", "stillness", "lag", "turn", "pair", "memory")
@@ -29,21 +29,21 @@ def main() -> None:
     print(f"Taken on {machine()}")
     for name in TABLES if given.what == "all" else (given.what,):
         if name == "speed":
-            portrait_speed.speed(given.repeats, given.frames)
+            speed.speed(given.repeats, given.frames)
         elif name == "fidelity":
-            portrait_fidelity.fidelity(given.clips, given.pictures)
+            fidelity.fidelity(given.clips, given.pictures)
         elif name == "ablations":
-            portrait_fidelity.ablations(given.clips, given.pictures)
+            fidelity.ablations(given.clips, given.pictures)
         elif name == "stillness":
-            portrait_steadiness.stillness(given.clips)
+            steadiness.stillness(given.clips)
         elif name == "lag":
-            portrait_steadiness.lag(given.clips)
+            steadiness.lag(given.clips)
         elif name == "turn":
-            portrait_turn.turn(given.pictures)
+            turn.turn(given.pictures)
         elif name == "pair":
-            portrait_fidelity.pair(given.pictures)
+            fidelity.pair(given.pictures)
         else:
-            portrait_memory.memory()
+            memory.memory()
         sys.stdout.flush()
 
 

@@ -11,8 +11,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.dressed_template import ARMS_DOWN, Look, dress
-from benchmarks.known_person import KnownPicture, Person, draw_into
+from benchmarks.known_truth.dressed_template import ARMS_DOWN, Look, dress
+from benchmarks.known_truth.known_person import KnownPicture, Person, draw_into
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype
 from engine.body.template import load_rig, load_template

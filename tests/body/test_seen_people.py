@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from PIL import Image
 from trimesh.registration import procrustes
 
-from benchmarks.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_person import PICTURE_SIZE, KnownPicture, draw_into
-from benchmarks.known_places import places
+from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, draw_into
+from benchmarks.known_truth.known_places import places
 from engine.character.figure import Choice, find_figure
 from engine.character.silhouette import cut_out
 from engine.character.stages import fit_template

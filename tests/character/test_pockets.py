@@ -14,9 +14,9 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from benchmarks.character_steps import Woken, wake
-from benchmarks.dressed_template import Look, Turns, dress
-from benchmarks.known_person import PICTURE_SIZE, draw_into
-from benchmarks.known_places import places
+from benchmarks.known_truth.dressed_template import Look, Turns, dress
+from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_places import places
 from engine.body.shape import Phenotype
 from engine.character.figure import Figure
 from engine.character.labels import ARMS, BODY_PARTS

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.dressed_template import ARMS_DOWN, Look, dress
-from benchmarks.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.dressed_template import ARMS_DOWN, Look, dress
+from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
 from engine.body.shape import Phenotype
 from engine.character.figure import Choice, find_figure
 from engine.character.sample import FLOOR, WALL

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.dressed_template import DRESSED_LOOKS, dress
-from benchmarks.known_person import PICTURE_SIZE, draw_into
-from benchmarks.known_places import places
+from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
+from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_places import places
 from engine.body.parts import BODY_PARTS
 from engine.character.face_region import in_profile
 from engine.character.figure import Choice, Figure, find_figure

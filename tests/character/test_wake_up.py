@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from missing import missing
 
-from benchmarks.written_character import outline, read_written
+from benchmarks.known_truth.written_character import outline, read_written
 from engine.character.measures import _odd_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError

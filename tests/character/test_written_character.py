@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from template_character import template_character
 
-from benchmarks.written_character import outline, read_written
+from benchmarks.known_truth.written_character import outline, read_written
 from engine.export.glb import CharacterModel, write_glb
 from engine.geometry.skinning import pose_transforms, skin
 from engine.motion.clip import Clip

@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from benchmarks.known_person import PICTURE_SIZE, draw_into
-from benchmarks.known_places import places
-from benchmarks.scanned_bodies import read_scan
+from benchmarks.known_truth.known_person import PICTURE_SIZE, draw_into
+from benchmarks.known_truth.known_places import places
+from benchmarks.known_truth.scanned_bodies import read_scan
 from engine.perception.body import find_body
 from engine.perception.people import find_people, person_box
 from engine.perception.segmentation import people_confidence

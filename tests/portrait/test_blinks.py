@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.portrait_steadiness import blinks
+from benchmarks.portrait_figures.steadiness import blinks
 from engine.perception.landmarks import MESH_SIZE
 
 UPPER, LOWER = (159, 158, 160, 386, 385, 387), (145, 153, 144, 374, 380, 373)

@@ -55,7 +55,7 @@ def whole(woman: Path) -> TargetFace:
 
 @pytest.fixture(scope="module")
 def scan(media):
-    from benchmarks.head_scan import read_head_scan
+    from benchmarks.known_truth.head_scan import read_head_scan
 
     return read_head_scan(media("scans3d/head_lee_perry_smith/head.obj").parent)
 
@@ -87,7 +87,7 @@ def test_no_face_is_refused_and_says_what_helps(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("yaw", [-90, 90, 180, 135])
 def test_in_profile_or_from_behind_no_face_is_found(scan, yaw: int, tmp_path: Path) -> None:
-    from benchmarks.head_scan import render_head
+    from benchmarks.known_truth.head_scan import render_head
 
     picture, _ = render_head(scan, yaw, (240, 288), zoom=1.5, shoulders=True)
     write_image(tmp_path / "head.png", picture)
@@ -96,7 +96,7 @@ def test_in_profile_or_from_behind_no_face_is_found(scan, yaw: int, tmp_path: Pa
 
 @pytest.mark.parametrize("yaw", [-55, 50])
 def test_a_face_turned_too_far_is_refused_with_its_angle(scan, yaw: int, tmp_path: Path) -> None:
-    from benchmarks.head_scan import render_head
+    from benchmarks.known_truth.head_scan import render_head
 
     picture, _ = render_head(scan, yaw, (240, 288), zoom=1.5, shoulders=True)
     write_image(tmp_path / "head.png", picture)
@@ -107,7 +107,7 @@ def test_a_face_turned_too_far_is_refused_with_its_angle(scan, yaw: int, tmp_pat
 
 @pytest.mark.parametrize(("yaw", "warned"), [(0, False), (-22, True), (25, True)])
 def test_a_slightly_turned_face_is_taken_with_a_warning(scan, yaw: int, warned: bool, tmp_path: Path) -> None:
-    from benchmarks.head_scan import render_head
+    from benchmarks.known_truth.head_scan import render_head
 
     picture, _ = render_head(scan, yaw, (240, 288), zoom=1.5, shoulders=True)
     write_image(tmp_path / "head.png", picture)

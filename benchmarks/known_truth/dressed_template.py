@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.spatial.transform import Rotation
 
-from benchmarks.known_person import Person
+from benchmarks.known_truth.known_person import Person
 from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype, load_shape_space

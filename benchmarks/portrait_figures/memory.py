@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.portrait_speed import PICTURE_SIZE, SMALL_CLIP, portrait
+from benchmarks.portrait_figures.speed import PICTURE_SIZE, SMALL_CLIP, portrait
 from benchmarks.shared_media import ROOT, media
 from benchmarks.tables import table
 from engine.export.encoders import VideoTarget

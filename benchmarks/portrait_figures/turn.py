@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from benchmarks.acting import Acting, read_driver, read_target
 from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
-from benchmarks.head_scan import read_head_scan, render_head
+from benchmarks.known_truth.head_scan import read_head_scan, render_head
 from benchmarks.shared_media import media, tool, write_clip
 from benchmarks.tables import table
 from engine.face_animation.warping.layers import Layers

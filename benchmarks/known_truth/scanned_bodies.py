@@ -11,7 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 from trimesh.visual.material import PBRMaterial
 
-from benchmarks.known_person import Person
+from benchmarks.known_truth.known_person import Person
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.rasteriser import Raster
 
