@@ -164,3 +164,9 @@ def test_a_skeleton_that_is_no_human_is_refused(mesh: SkinnedMesh, tmp_path: Pat
         human_bones([name for name in mesh.skeleton.names if name != "LeftFoot"])
     with pytest.raises(ValueError, match="author"):
         write_vrm(tmp_path / "a.vrm", CharacterModel(mesh), VrmMeta("Person", ()))
+
+
+def test_a_vrm_of_several_levels_of_detail_is_refused(mesh: SkinnedMesh, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="levels of detail"):
+        write_vrm(tmp_path / "a.vrm", CharacterModel(mesh, levels=[mesh]), VrmMeta("Person", ("A. Author",)))
+    assert list(tmp_path.iterdir()) == []
