@@ -5,8 +5,8 @@ import { KindsProvider } from './kind/kinds';
 import { kinds } from './kinds';
 import { Footer } from './widgets/footer';
 import { later, part } from './widgets/lazy';
-import { DraftsHeld } from './studio/draft';
-import { OfferedKinds } from './kind/offered';
+import { DraftsProvider } from './studio/draft';
+import { OfferedKindsProvider } from './kind/offered';
 import { HistoryPage } from './pages/history';
 import { JobPage } from './pages/job';
 import { LostPage } from './pages/lost';
@@ -40,11 +40,11 @@ export function App() {
         {locked && !shared ? (
           <SignInPage onOpen={() => setLocked(false)} />
         ) : (
-          <OfferedKinds guest={shared}>
-            <DraftsHeld>
+          <OfferedKindsProvider guest={shared}>
+            <DraftsProvider>
               <Page route={route} />
-            </DraftsHeld>
-          </OfferedKinds>
+            </DraftsProvider>
+          </OfferedKindsProvider>
         )}
       </main>
       <Footer guest={shared} />

@@ -9,7 +9,7 @@ import { App } from './app';
 import { kinds } from './kinds';
 import { parseRoute } from './route';
 import { language } from './language/strings';
-import { fetched } from './widgets/lazy';
+import { preload } from './widgets/lazy';
 
 document.documentElement.lang = language;
 const root = document.getElementById('app');
@@ -18,5 +18,5 @@ const show = (): void => {
 };
 const route = parseRoute(kinds.all, location.hash, location.pathname);
 // a studio comes with the page around it, not after it; where it does not come, the page says so
-if (route.page === 'studio') fetched(kinds.of(route.kind).loadStudio).then(show, show);
+if (route.page === 'studio') preload(kinds.of(route.kind).loadStudio).then(show, show);
 else show();

@@ -293,7 +293,7 @@ describe('corrections of a character', () => {
     for (const key of ['Shift+ArrowDown', 'ArrowDown', 'Control+z', 'Control+z', 'ArrowRight']) await page.keyboard.press(key);
     await use(page).click();
     await page.getByText('joints are placed by hand.').waitFor();
-    await page.locator('.redo').getByLabel('Motion', { exact: true }).selectOption('Bow');
+    await page.locator('.revise').getByLabel('Motion', { exact: true }).selectOption('Bow');
     const sent = await revision(page);
     expect(sent.options).toEqual({ motion: 'bow' });
     expect(Object.keys(sent.corrections)).toEqual(['joints']);

@@ -165,15 +165,15 @@ describe('the history', () => {
     const fold = shown.locator('summary');
     expect(await fold.textContent()).toBe('2 other versions of “Versions”');
     await fold.click();
-    await expect.poll(() => shown.locator('.others li').allInnerTexts()).toHaveLength(2);
-    const others = await shown.locator('.others a').evaluateAll((links) =>
+    await expect.poll(() => shown.locator('.other-versions li').allInnerTexts()).toHaveLength(2);
+    const others = await shown.locator('.other-versions a').evaluateAll((links) =>
       links.map((link) => [link.getAttribute('href'), link.querySelector('span > span')?.textContent]),
     );
     expect(others.map(([href]) => href)).toEqual([`#/jobs/${second.id}`, `#/jobs/${first.id}`]);
-    const said = await shown.locator('.others li').allTextContents();
+    const said = await shown.locator('.other-versions li').allTextContents();
     expect(said[0]).toContain('Version 2Changed: strength (150%), loop');
     expect(said[1]).toContain('Version 1The first version');
-    expect(await shown.locator('.others p').textContent()).toBe('Shown: version 3 Changed: strength (50%)');
+    expect(await shown.locator('.other-versions p').textContent()).toBe('Shown: version 3 Changed: strength (50%)');
     expect(await works(page).filter({ hasText: 'Between' }).locator('summary').count()).toBe(0);
     await page.getByRole('button', { name: 'Rename: Between' }).click();
     await readable(page);

@@ -81,7 +81,7 @@ describe('a job that succeeds', () => {
     const page = await open(browser, `#/jobs/${done}`, { viewport: { width, height: 900 }, reducedMotion: 'reduce' });
     await loaded(page);
     const buttons = ['All files', 'Share', 'Use in code'].map((name) => page.getByRole('button', { name, exact: true }));
-    const left = page.locator('.left');
+    const left = page.locator('.result-actions');
     const places = () =>
       Promise.all(
         buttons.map(async (button) => {

@@ -10,7 +10,7 @@ export type Job = Schemas['JobOut'];
 /** A kind of job as the service describes it: enough to draw a form. */
 export type KindDescription = Schemas['KindOut'];
 export type InputDescription = Schemas['InputOut'];
-export type JobPage = Schemas['JobPage'];
+export type JobList = Schemas['JobPage'];
 
 const job = (id: string) => ({ path: { job_id: id } });
 
@@ -100,7 +100,7 @@ export const listWorks = (
   size: number,
   cursor: string | null,
   signal?: AbortSignal,
-): Promise<JobPage> =>
+): Promise<JobList> =>
   answer(
     service.GET('/v1/jobs', {
       params: {

@@ -3,7 +3,7 @@
 import { Problem, problemFrom } from '.';
 
 /** Where uploading can be halted and taken up again; one for all files of an order. */
-export class Valve {
+export class PauseControl {
   private shut = false;
   private readonly listeners = new Set<(shut: boolean) => void>();
 
@@ -36,7 +36,7 @@ const RETRIES = [0, 1000, 3000, 5000];
 export async function uploadFile(
   file: File,
   onProgress: (sent: number) => void,
-  valve: Valve,
+  pauseControl: PauseControl,
   signal: AbortSignal,
 ): Promise<string> {
   const { Upload, DetailedError } = await import('tus-js-client');
@@ -59,7 +59,7 @@ export async function uploadFile(
           reject(answer ? problemFrom(answer.getStatus(), answer.getBody()) : new Problem(0, 'unreachable', ''));
         })(),
     });
-    const stopWatching = valve.watch((shut) => (shut ? void upload.abort() : upload.start()));
+    const stopWatching = pauseControl.watch((shut) => (shut ? void upload.abort() : upload.start()));
     signal.addEventListener(
       'abort',
       end(() => {
@@ -71,7 +71,7 @@ export async function uploadFile(
     void upload.findPreviousUploads().then(([before]) => {
       if (signal.aborted) return;
       if (before) upload.resumeFromPreviousUpload(before);
-      if (!valve.closed) upload.start();
+      if (!pauseControl.closed) upload.start();
     });
   });
 }

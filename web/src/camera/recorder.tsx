@@ -1,7 +1,7 @@
 /** A performance of one's own, recorded with the camera. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { Dialog } from '../widgets/dialog';
 import { clock } from '../language/format';
 import { strings } from '../language/strings';
@@ -27,13 +27,13 @@ export default function PerformanceRecorder({ onFile, onClose }: Props) {
   const file = recording.state === 'done' ? recording.file : null;
 
   return (
-    <Dialog title={words.recordTitle} class="snug camera" onClose={onClose}>
+    <Dialog title={words.recordTitle} class="compact camera" onClose={onClose}>
       {trouble ? (
-        <Trouble code={trouble} detail="">
+        <ProblemAlert code={trouble} detail="">
           <button type="button" class="button" onClick={retry}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       ) : (
         <div class="view">
           <Viewfinder

@@ -15,7 +15,7 @@ interface Props {
   children: ComponentChildren;
 }
 
-export function OfferedKinds({ guest, children }: Props) {
+export function OfferedKindsProvider({ guest, children }: Props) {
   const described = useLoaded(async (signal) => (guest ? null : listKinds(signal)), `kinds ${guest}`);
   return <Described.Provider value={described.value}>{children}</Described.Provider>;
 }

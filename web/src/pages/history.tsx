@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import type { Status } from '../api';
 import { Heading } from '../widgets/heading';
 import { SearchField } from '../widgets/search';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { Work } from '../works/work';
 import { useWorks } from '../works/works';
 import { historyLink, MAX_SEARCH_CHARACTERS, replaceAddress, statuses, studioLink } from '../route';
@@ -24,7 +24,7 @@ export function HistoryPage(wanted: Wanted) {
   return (
     <article class="history">
       <Heading text={words.title} />
-      <div class="finding">
+      <div class="history-tools">
         <SearchField
           label={words.search}
           hint={words.searchHint}
@@ -54,7 +54,7 @@ function Works(wanted: Wanted) {
   const settled = jobs !== null && !stale && !problem;
   return (
     <>
-      <p class="unseen" role="status">
+      <p class="visually-hidden" role="status">
         {settled && wanted.words && (jobs.length ? words.found(jobs.length, more !== null) : words.nothingFound(wanted.words))}
       </p>
       {settled && jobs.length === 0 && <Nothing {...wanted} />}
@@ -67,11 +67,11 @@ function Works(wanted: Wanted) {
       )}
       {!jobs && !problem && <div class="works waiting" aria-busy="true" />}
       {problem && (
-        <Trouble code={problem.code} detail={problem.detail}>
+        <ProblemAlert code={problem.code} detail={problem.detail}>
           <button type="button" class="button" onClick={retry}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       )}
       {more && (
         <button type="button" class="button" onClick={() => void more()}>
@@ -113,7 +113,7 @@ function Nothing({ status, words: query }: Wanted) {
 
 function Empty({ title, hint, children }: { title: string; hint?: string; children: ComponentChildren }) {
   return (
-    <section class="nothing">
+    <section class="empty-state">
       <h2>{title}</h2>
       {hint && <p class="hint">{hint}</p>}
       {children}

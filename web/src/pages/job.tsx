@@ -11,7 +11,7 @@ import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
 import { Stages } from '../result/stages';
 import { ConfirmButton } from '../widgets/confirm';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { finished, useJob } from '../api/events';
 import { asProblem } from '../api/loading';
 import { wantsPicture } from '../result/next_step';
@@ -39,8 +39,8 @@ export function JobPage({ id }: { id: string }) {
       </article>
     );
   }
-  if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
-  if (!job) return interrupted ? <Trouble code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
+  if (problem) return <ProblemAlert code={problem.code} detail={problem.detail} />;
+  if (!job) return interrupted ? <ProblemAlert code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
 
   const kind = kinds.of(job.kind);
   const remove = async (): Promise<void> => {
@@ -61,7 +61,7 @@ export function JobPage({ id }: { id: string }) {
         {performance && <span>{kind.performed(performance)}</span>}
       </p>
       <Versions key={job.id} job={job} />
-      <p class="unseen" role="status">
+      <p class="visually-hidden" role="status">
         {finished(job) ? strings.status[job.status] : ''}
       </p>
       {interrupted && !finished(job) && (
@@ -80,14 +80,14 @@ export function JobPage({ id }: { id: string }) {
           onProblem={setFailure}
         />
       )}
-      {failure && <Trouble code={failure.code} detail={failure.detail} />}
+      {failure && <ProblemAlert code={failure.code} detail={failure.detail} />}
       {finished(job) && (
         <footer class="actions">
           <Back to={kind.link} />
           <ConfirmButton
             label={words.remove}
             question={words.removeQuestion}
-            confirmLabel={words.removeYes}
+            confirmLabel={words.removeConfirm}
             onConfirm={() => void remove()}
           />
         </footer>
@@ -123,20 +123,20 @@ function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (p
     }
     case 'failed':
       return (
-        <div class="ended">
+        <div class="job-ended">
           <Picture url={pictureUrl(job, kind)} alt={words.sentAlt} />
-          <Trouble code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''}>
+          <ProblemAlert code={job.error?.code ?? 'internal_error'} detail={job.error?.detail ?? ''}>
             {wantsPicture(job) && (
               <a class="button primary" href={kind.link}>
                 {words.anotherPicture}
               </a>
             )}
-          </Trouble>
+          </ProblemAlert>
         </div>
       );
     case 'canceled':
       return (
-        <div class="ended">
+        <div class="job-ended">
           <Picture url={pictureUrl(job, kind)} alt={words.sentAlt} />
           <p>{words.canceledDetail}</p>
         </div>
@@ -158,12 +158,12 @@ function Running({ job, stages, onProblem }: BodyProps) {
     });
   };
   return (
-    <div class="underway">
-      <figure class="impression">
+    <div class="job-running">
+      <figure class="job-preview">
         {preview ? (
           <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
         ) : (
-          <Picture key="portrait" class="awaiting" url={pictureUrl(job, kind)} alt="" />
+          <Picture key="portrait" class="placeholder" url={pictureUrl(job, kind)} alt="" />
         )}
         <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
       </figure>

@@ -5,7 +5,7 @@ import { closeSession, createKey, getOwnKey, type Key, listKeys, type NewKey, ty
 import { Copyable } from '../widgets/copyable';
 import { Heading } from '../widgets/heading';
 import { ConfirmButton } from '../widgets/confirm';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { ago, count, moment, size } from '../language/format';
 import { useDoing, useLoaded } from '../api/loading';
 import { strings } from '../language/strings';
@@ -27,7 +27,7 @@ export default function KeysPage() {
     <article class="integrators">
       <Heading text={words.title} />
       <p class="lead">{words.lead}</p>
-      {own.problem && <Trouble code={own.problem.code} detail={own.problem.detail} />}
+      {own.problem && <ProblemAlert code={own.problem.code} detail={own.problem.detail} />}
       {own.value && <Own own={own.value} />}
       {own.value && (mayManage ? <All own={own.value.id} /> : <p class="hint">{words.notManager}</p>)}
     </article>
@@ -98,7 +98,7 @@ function All({ own }: { own: string }) {
           })
         }
       />
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
       {made && (
         <section class="panel once" aria-label={words.made(made.name)}>
           <h2>{words.made(made.name)}</h2>
@@ -107,7 +107,7 @@ function All({ own }: { own: string }) {
           <pre tabIndex={0}>{`curl -H 'Authorization: Bearer ${made.token}' ${location.origin}/v1/jobs`}</pre>
         </section>
       )}
-      {all.problem && <Trouble code={all.problem.code} detail={all.problem.detail} />}
+      {all.problem && <ProblemAlert code={all.problem.code} detail={all.problem.detail} />}
       {all.value && all.value.length > 0 && (
         <section class="panel" aria-labelledby="all">
           <h2 id="all">{words.all}</h2>
@@ -131,7 +131,7 @@ function All({ own }: { own: string }) {
                       label={words.revoke}
                       about={key.name}
                       question={words.revokeQuestion(key.name)}
-                      confirmLabel={words.revokeYes}
+                      confirmLabel={words.revokeConfirm}
                       onConfirm={() => void revoke(key)}
                     />
                   )

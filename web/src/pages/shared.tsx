@@ -5,7 +5,7 @@ import { Heading } from '../widgets/heading';
 import { useKinds, useKind } from '../kind/kinds';
 import { part } from '../widgets/lazy';
 import { Player } from '../result/player';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { moment, size } from '../language/format';
 import { useLoaded } from '../api/loading';
 import { strings } from '../language/strings';
@@ -27,7 +27,7 @@ export default function SharedPage({ token }: { token: string }) {
       </article>
     );
   }
-  if (problem) return <Trouble code={problem.code} detail={problem.detail} />;
+  if (problem) return <ProblemAlert code={problem.code} detail={problem.detail} />;
   if (!shared) return <div aria-busy="true" />;
 
   const kind = kinds.of(shared.kind);

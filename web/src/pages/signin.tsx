@@ -3,7 +3,7 @@
 import { useId, useState } from 'preact/hooks';
 import { openSession } from '../api';
 import { Heading } from '../widgets/heading';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { useDoing } from '../api/loading';
 import { strings } from '../language/strings';
 
@@ -37,7 +37,7 @@ export function SignInPage({ onOpen }: { onOpen: () => void }) {
           onInput={({ currentTarget }) => setKey(currentTarget.value)}
         />
       </div>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
       <button type="submit" class="button primary" disabled={doing || !key.trim()}>
         {words.open}
       </button>

@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { listWebhooks, type NewWebhook } from '../api';
 import { Copyable } from '../widgets/copyable';
 import { Heading } from '../widgets/heading';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { useLoaded } from '../api/loading';
 import { strings } from '../language/strings';
 import { DeliveryLog } from '../webhooks/log';
@@ -26,7 +26,7 @@ export default function WebhooksPage() {
     <article class="integrators">
       <Heading text={words.title} />
       <p class="lead">{words.lead}</p>
-      {all.problem && <Trouble code={all.problem.code} detail={all.problem.detail} />}
+      {all.problem && <ProblemAlert code={all.problem.code} detail={all.problem.detail} />}
       {all.value && all.value.length > 0 && (
         <section class="panel" aria-labelledby="endpoints">
           <h2 id="endpoints">{words.endpoints}</h2>

@@ -29,7 +29,7 @@ export function ResultActions({ job, filesOpen, children }: Props) {
   const toggle = (panel: Panel): void =>
     setOpen(open.includes(panel) ? open.filter((one) => one !== panel) : [...open, panel]);
   return (
-    <div class="left">
+    <div class="result-actions">
       <div class="toolbar">
         <div class="actions">{children}</div>
         <div class="actions">
@@ -102,6 +102,6 @@ export function Warnings({ report }: { report: Report | null }) {
 export function ElapsedTime({ job }: { job: Job }) {
   if (!job.started_at || !job.finished_at) return null;
   return (
-    <p class="took">{words.took(duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000))}</p>
+    <p class="elapsed-time">{words.took(duration((Date.parse(job.finished_at) - Date.parse(job.started_at)) / 1000))}</p>
   );
 }

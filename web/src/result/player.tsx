@@ -81,7 +81,7 @@ export function Player(props: Props) {
             onEnded={ended}
             onClick={() => (playing ? leader.current?.pause() : play())}
           />
-          <figcaption class="unseen">{strings.job.result}</figcaption>
+          <figcaption class="visually-hidden">{strings.job.result}</figcaption>
         </figure>
         {shown && (
           <figure class="inset">

@@ -25,7 +25,7 @@ export function Revise({ load, ...given }: Props) {
   }, [proposal]);
   const Corrections = part(load);
   return (
-    <details class="choices redo" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+    <details class="choices revise" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
         <h2>{needed ? words.mend : words.title}</h2>
       </summary>

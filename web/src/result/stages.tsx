@@ -36,7 +36,7 @@ export function Stages({ job, stages }: { job: Job; stages: string[] }) {
           {stages.map((stage) => (
             <li key={stage} class={stage === current ? 'current' : 'done'} aria-current={stage === current && 'step'}>
               {stageName(kinds, job.kind, stage)}
-              <span class="unseen"> {stage === current ? words.stageRunning : words.stageDone}</span>
+              <span class="visually-hidden"> {stage === current ? words.stageRunning : words.stageDone}</span>
             </li>
           ))}
         </ol>

@@ -13,7 +13,7 @@ export function PlayButton({ playing, onPlay }: { playing: boolean; onPlay: () =
       <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
         <path class="solid" d={playing ? 'M7 5h3.5v14H7zM13.5 5H17v14h-3.5z' : 'M8 5v14l11-7z'} />
       </svg>
-      <span class="unseen">{playing ? words.pause : words.play}</span>
+      <span class="visually-hidden">{playing ? words.pause : words.play}</span>
     </button>
   );
 }

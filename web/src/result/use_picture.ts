@@ -3,16 +3,16 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { Job } from '../api';
 import { useKind } from '../kind/kinds';
-import type { Shown } from '../widgets/boxed_picture';
+import type { SizedPicture } from '../widgets/boxed_picture';
 import { pictureUrl } from '../works/names';
 
 /**
  * A picture to work on: the portrait itself, or, where this browser cannot show it (HEIC), the preview in its place.
  * Null while it is loaded; false where there is nothing to show. A preview that was cut out of it cannot stand in for it.
  */
-export function usePicture(job: Job, original: readonly [number, number] | null, isPreviewCropped = false): Shown | false | null {
+export function usePicture(job: Job, original: readonly [number, number] | null, isPreviewCropped = false): SizedPicture | false | null {
   const kind = useKind(job.kind);
-  const [shown, setShown] = useState<Shown | false | null>(null);
+  const [shown, setShown] = useState<SizedPicture | false | null>(null);
   useEffect(() => {
     let current = true;
     const preview = isPreviewCropped ? undefined : job.artifacts['preview.jpg']?.url;

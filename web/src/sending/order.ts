@@ -3,7 +3,7 @@
 import { createJob, type Job } from '../api';
 import type { Kind, Order } from '../kind/kind';
 import { keepPending } from './pending';
-import { uploadFile, type Valve } from '../api/upload';
+import { uploadFile, type PauseControl } from '../api/upload';
 
 export type Sending =
   /** How much has arrived of the file that is this to the order. */
@@ -13,7 +13,7 @@ export async function send(
   order: Order,
   kind: Kind,
   onStep: (step: Sending) => void,
-  valve: Valve,
+  pauseControl: PauseControl,
   signal: AbortSignal,
 ): Promise<Job> {
   const upload = async (file: File, part: string): Promise<string> => {
@@ -22,7 +22,7 @@ export async function send(
     onStep({ step: 'uploading', part, fraction: 0 });
     const progress = (bytes: number): void =>
       onStep({ step: 'uploading', part, fraction: file.size ? bytes / file.size : 1 });
-    const id = await uploadFile(file, progress, valve, signal);
+    const id = await uploadFile(file, progress, pauseControl, signal);
     order.sent[part] = id;
     await keepPending(order);
     return id;

@@ -21,7 +21,7 @@ export function useSending() {
   const kinds = useKinds();
   const [step, setStep] = useState<Sending | null>(null);
   const [problem, setProblem] = useState<Problem | null>(null);
-  const { valve, paused, pause } = usePausing();
+  const { pauseControl, paused, pause } = usePausing();
   const [waiting, setWaiting] = useState<Order | null>(null);
   const order = useRef<Order | null>(null);
   const stopper = useRef<AbortController | null>(null);
@@ -40,7 +40,7 @@ export function useSending() {
     pause(false);
     setStep({ step: 'ordering' });
     void keepPending(next);
-    send(next, kinds.of(next.kind), setStep, valve, signal).then(
+    send(next, kinds.of(next.kind), setStep, pauseControl, signal).then(
       (job) => {
         setStep(null);
         void forgetPending();

@@ -3,7 +3,7 @@
 import { useId, useState } from 'preact/hooks';
 import { createLink, type Job, listLinks, type PublicLink, revokeLink } from '../api';
 import { Copyable } from '../widgets/copyable';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { moment } from '../language/format';
 import type { Kind } from '../kind/kind';
 import { useKind } from '../kind/kinds';
@@ -61,8 +61,8 @@ export default function SharePanel({ job }: { job: Job }) {
           {words.create}
         </button>
       </div>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
-      {links.problem && <Trouble code={links.problem.code} detail={links.problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
+      {links.problem && <ProblemAlert code={links.problem.code} detail={links.problem.detail} />}
       <ul>
         {links.value?.map((link) => (
           <li key={link.id}>

@@ -6,7 +6,7 @@ import { strings } from '../language/strings';
 import { later } from '../widgets/lazy';
 
 const windows = {
-  image: later(() => import('../camera/picture')),
+  image: later(() => import('../camera/picture_capture')),
   video: later(() => import('../camera/recorder')),
 };
 const words = { image: strings.camera.openPicture, video: strings.camera.openRecorder };

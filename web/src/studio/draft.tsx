@@ -7,7 +7,7 @@ type Drafts = Readonly<Record<string, object>>;
 
 const Held = createContext<readonly [Drafts, (change: (known: Drafts) => Drafts) => void]>([{}, () => undefined]);
 
-export function DraftsHeld({ children }: { children: ComponentChildren }) {
+export function DraftsProvider({ children }: { children: ComponentChildren }) {
   const held = useState<Drafts>({});
   return <Held.Provider value={held}>{children}</Held.Provider>;
 }

@@ -5,7 +5,7 @@ import { useOffered } from '../kind/offered';
 
 export function KindLinks({ current }: { current: string }) {
   return (
-    <nav class="making" aria-label={strings.make.label}>
+    <nav class="kind-links" aria-label={strings.make.label}>
       {useOffered().map(({ name, label, link }) => (
         <a key={name} href={link} aria-current={name === current ? 'page' : undefined}>
           {label}

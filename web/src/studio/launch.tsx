@@ -5,7 +5,8 @@ import { useKinds } from '../kind/kinds';
 import type { useSending } from '../sending/use_sending';
 import { strings } from '../language/strings';
 import { SendingBar } from './sending_bar';
-import { Trouble } from '../widgets/trouble';
+import { SubmitRow } from './submit_row';
+import { ProblemAlert } from '../widgets/problem_alert';
 
 const words = strings.studio;
 
@@ -38,23 +39,20 @@ export function Launch({ sending, missing, chosen, label }: Props) {
         </div>
       )}
       {sending.problem && (
-        <Trouble code={sending.problem.code} detail={sending.problem.detail}>
+        <ProblemAlert code={sending.problem.code} detail={sending.problem.detail}>
           <button type="button" class="button" onClick={sending.retry}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       )}
       {sending.step ? (
         <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
       ) : (
-        <div class="go">
-          <p id="missing" class="hint" aria-live="polite">
-            {missing || (chosen && words.chosen(chosen.picture, chosen.performance))}
-          </p>
-          <button type="submit" class="button primary large" disabled={missing !== ''} aria-describedby="missing">
-            {label}
-          </button>
-        </div>
+        <SubmitRow
+          hint={missing || (chosen ? words.chosen(chosen.picture, chosen.performance) : '')}
+          disabled={missing !== ''}
+          label={label}
+        />
       )}
     </div>
   );

@@ -3,22 +3,22 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { later } from '../widgets/lazy';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { strings } from '../language/strings';
 import { useSkeletonLines, useSurroundings, useWideView } from './scene/surroundings';
 import { OrbitView } from './orbit/orbit_view';
 import { peopleOf, standTogether, type HasArtifacts } from './artifacts/people';
 import { type Pose } from './posing/pose';
-import { Posing } from './posing/posing';
+import { PosingView } from './posing/posing_view';
 import type { Stage } from './scene/stage';
 import { type StagedCharacter, useCast, useStage } from './scene/staging';
-import { Tool } from '../stage/tools';
+import { Tool } from '../picture_editor/tools';
 import { mayHaveView, type PictureView, viewOf } from './artifacts/picture_view';
-import { Wall } from './wall/wall';
+import { WallView } from './wall/wall_view';
 import { type PersonChoice, PersonSelect } from './person_select';
 import '../styles/viewer.css';
 
-const Space = later(() => import('./ar/ar_dialog'));
+const ArDialog = later(() => import('./ar/ar_dialog'));
 const words = strings.viewer;
 
 type Mode = 'wall' | 'look' | 'pose' | 'film';
@@ -106,13 +106,13 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
         aria-busy={!shown && !trouble}
       >
         {trouble && !flat && (
-          <Trouble code={trouble} detail={trouble === 'no_webgl' ? words.noWebGL : words.failed}>
+          <ProblemAlert code={trouble} detail={trouble === 'no_webgl' ? words.noWebGL : words.failed}>
             {trouble !== 'no_webgl' && (
               <button type="button" class="button" onClick={retry}>
                 {strings.retry}
               </button>
             )}
-          </Trouble>
+          </ProblemAlert>
         )}
         {!shown && !trouble && <p class="viewer-loading">{words.loading}</p>}
       </div>
@@ -138,7 +138,7 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
           }
         />
       )}
-      {inSpace && <Space job={job} renew={renew} who={who === 'all' ? 0 : who} onClose={() => setInSpace(false)} />}
+      {inSpace && <ArDialog job={job} renew={renew} who={who === 'all' ? 0 : who} onClose={() => setInSpace(false)} />}
     </section>
   );
 }
@@ -169,8 +169,8 @@ function Modes({ stage, cast, people, mode, view, pose, onPose, tools }: ModesPr
   );
   const [one] = cast;
   if (mode === 'pose' && onPose && one) {
-    return <Posing stage={stage} cast={[one]} people={people} start={pose} tools={common} onPose={onPose} />;
+    return <PosingView stage={stage} cast={[one]} people={people} start={pose} tools={common} onPose={onPose} />;
   }
-  if (mode === 'wall' && view) return <Wall stage={stage} cast={cast} view={view} dark={around.dark} tools={common} />;
+  if (mode === 'wall' && view) return <WallView stage={stage} cast={cast} view={view} dark={around.dark} tools={common} />;
   return <OrbitView stage={stage} cast={cast} tools={common} />;
 }

@@ -12,7 +12,7 @@ import {
 } from '../api';
 import { Copyable } from '../widgets/copyable';
 import { ConfirmButton } from '../widgets/confirm';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { ago, moment } from '../language/format';
 import { useDoing } from '../api/loading';
 import { strings } from '../language/strings';
@@ -65,7 +65,7 @@ export function Endpoint({ webhook, onChange }: { webhook: Webhook; onChange: ()
         <ConfirmButton
           label={strings.job.remove}
           question={words.removeQuestion}
-          confirmLabel={strings.job.removeYes}
+          confirmLabel={strings.job.removeConfirm}
           onConfirm={() => act(() => deleteWebhook(webhook.id))}
         />
       </div>
@@ -83,7 +83,7 @@ export function Endpoint({ webhook, onChange }: { webhook: Webhook; onChange: ()
           </button>
         </div>
       )}
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
     </li>
   );
 }

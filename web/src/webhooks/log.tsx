@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { type Delivery, type DeliveryDetail, getDelivery, listDeliveries, replayDelivery } from '../api';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { ago, count, moment } from '../language/format';
 import { useDoing, useLoaded } from '../api/loading';
 import { jobLink } from '../route';
@@ -37,7 +37,7 @@ export function DeliveryLog({ turn }: { turn: number }) {
   return (
     <section class="panel" aria-labelledby="log">
       <h2 id="log">{words.log}</h2>
-      {trouble && <Trouble code={trouble.code} detail={trouble.detail} />}
+      {trouble && <ProblemAlert code={trouble.code} detail={trouble.detail} />}
       {first.value && items.length === 0 && <p class="hint">{words.logEmpty}</p>}
       <ul class="rows">
         {[...items, ...older.filter((delivery) => !known.has(delivery.id))].map((delivery) => (
@@ -83,7 +83,7 @@ function Detail({ delivery, onReplayed }: { delivery: Delivery; onReplayed: () =
     <div class="delivery">
       {value && <Attempts detail={value} />}
       {value && <pre tabIndex={0}>{JSON.stringify(value.data, null, 2)}</pre>}
-      {trouble && <Trouble code={trouble.code} detail={trouble.detail} />}
+      {trouble && <ProblemAlert code={trouble.code} detail={trouble.detail} />}
       <div class="actions">
         <button
           type="button"

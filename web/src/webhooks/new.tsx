@@ -2,7 +2,7 @@
 
 import { useId, useState } from 'preact/hooks';
 import { createWebhook, type NewWebhook, type WebhookEvent } from '../api';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { useDoing } from '../api/loading';
 import { strings } from '../language/strings';
 
@@ -55,7 +55,7 @@ export function NewEndpoint({ onMade }: { onMade: (webhook: NewWebhook) => void 
           ))}
         </div>
       </fieldset>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
       <button type="submit" class="button primary" disabled={doing || !url.trim() || chosen.length === 0}>
         {words.create}
       </button>

@@ -5,14 +5,14 @@ import type { Frame } from '../api';
 import { strings } from '../language/strings';
 
 /** A picture to work on. */
-export interface Shown {
+export interface SizedPicture {
   url: string;
   /** Width and height in the pixels that points and boxes are counted in. */
   size: readonly [number, number];
 }
 
 interface Props {
-  picture: Shown;
+  picture: SizedPicture;
   boxes: readonly Frame[];
   isChosen: (index: number) => boolean;
   nameOf: (index: number) => string;

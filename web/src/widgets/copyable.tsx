@@ -48,7 +48,7 @@ export function Copyable({ label, value, secret = false }: Props) {
           {copied ? strings.copied : strings.copy}
         </button>
       </div>
-      <span class="unseen" role="status">
+      <span class="visually-hidden" role="status">
         {copied ? strings.copied : ''}
       </span>
     </div>

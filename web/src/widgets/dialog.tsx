@@ -24,7 +24,7 @@ export function Dialog({ title, class: name = '', children, onClose }: Props) {
   return (
     <dialog
       ref={dialog}
-      class={`window ${name}`}
+      class={`dialog ${name}`}
       aria-labelledby={heading}
       onCancel={(event) => {
         event.preventDefault(); // the page itself takes the window away

@@ -78,7 +78,7 @@ export function Dropzone({ file, accept, accepts, words, media, onFile, refused,
 
 function Invitation({ words }: { words: Words }) {
   return (
-    <span class="invitation" aria-hidden="true">
+    <span class="prompt" aria-hidden="true">
       <svg viewBox="0 0 24 24" width="28" height="28">
         <path d="M12 16V4m0 0L7 9m5-5 5 5M4 16v3a1 1 0 0 0 1 1h14a1 1 0 0 0 1-1v-3" />
       </svg>
@@ -93,7 +93,7 @@ function Refusal({ id, words }: { id: string; words: Words }) {
   const place = useRef<HTMLSpanElement>(null);
   useEffect(() => place.current?.scrollIntoView({ block: 'nearest' }), []);
   return (
-    <span class="invitation refusal" ref={place}>
+    <span class="prompt wrong-file" ref={place}>
       <strong class="error" role="alert" id={id}>
         {words.wrong}
       </strong>

@@ -12,10 +12,10 @@ interface Props {
 
 export function FileButton({ label, name = label, accept, error, onFile }: Props) {
   return (
-    <label class="button asks-file">
+    <label class="button file-button">
       <input
         type="file"
-        class="unseen"
+        class="visually-hidden"
         accept={accept}
         aria-label={name}
         aria-invalid={error !== undefined}

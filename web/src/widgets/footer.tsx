@@ -14,7 +14,7 @@ const links = [
 /** `guest`: of somebody who was sent a link, and has nothing to do with the service. */
 export function Footer({ guest }: { guest: boolean }) {
   return (
-    <footer class="colophon">
+    <footer class="site-footer">
       <nav aria-label={words.label}>
         {links.filter(({ own }) => !own || !guest).map(({ to, text }) => (
           <a key={to} href={to}>

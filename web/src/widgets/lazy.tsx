@@ -4,13 +4,13 @@ import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Load } from '../kind/kind';
 import { strings } from '../language/strings';
-import { Trouble } from './trouble';
+import { ProblemAlert } from './problem_alert';
 
 /** Parts that have arrived, by what fetched them. */
 const arrived = new WeakMap<object, unknown>();
 
 /** Fetch a part, so that it is there at once when it is shown. */
-export async function fetched<Props>(load: Load<Props>): Promise<ComponentType<Props>> {
+export async function preload<Props>(load: Load<Props>): Promise<ComponentType<Props>> {
   const loaded = (await load()).default;
   arrived.set(load, loaded);
   return loaded;
@@ -22,7 +22,7 @@ export function later<Props extends object>(load: Load<Props>) {
     const [failed, setFailed] = useState(false);
     const fetchPart = (): void => {
       setFailed(false);
-      fetched(load).then(
+      preload(load).then(
         (loaded) => setPart(() => loaded),
         () => setFailed(true),
       );
@@ -32,11 +32,11 @@ export function later<Props extends object>(load: Load<Props>) {
     }, []);
     if (failed) {
       return (
-        <Trouble code="unreachable" detail="">
+        <ProblemAlert code="unreachable" detail="">
           <button type="button" class="button" onClick={fetchPart}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       );
     }
     const Part = part;

@@ -42,7 +42,7 @@ export function SearchField({ label, hint, longest, value, onSearch }: Props) {
         ask(text.trim());
       }}
     >
-      <label class="unseen" for={id}>
+      <label class="visually-hidden" for={id}>
         {label}
       </label>
       <svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true">

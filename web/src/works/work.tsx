@@ -12,7 +12,7 @@ import { strings } from '../language/strings';
 import { useTitle } from './titles';
 import { Details, Poster, State } from './entry';
 import { Rename } from '../widgets/rename';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 
 const words = strings.history;
 
@@ -41,10 +41,10 @@ function Others({ job, number }: { job: Job; number: number }) {
   const kind = useKind(job.kind);
   const [open, setOpen] = useState(false);
   return (
-    <details class="others" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+    <details class="other-versions" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
         {words.others(number)}
-        <span class="unseen"> {words.of(workName(job, kind))}</span>
+        <span class="visually-hidden"> {words.of(workName(job, kind))}</span>
       </summary>
       {open && <Tree job={job} number={number} />}
     </details>
@@ -54,7 +54,7 @@ function Others({ job, number }: { job: Job; number: number }) {
 function Tree({ job, number }: { job: Job; number: number }) {
   const kind = useKind(job.kind);
   const tree = useLoaded((signal) => listRevisions(job.id, signal), `${job.id} ${number}`);
-  if (tree.problem) return <Trouble code={tree.problem.code} detail={tree.problem.detail} />;
+  if (tree.problem) return <ProblemAlert code={tree.problem.code} detail={tree.problem.detail} />;
   if (!tree.value) return <div class="later" aria-busy="true" />;
   const all = tree.value;
   const place = all.findIndex((version) => version.id === job.id);

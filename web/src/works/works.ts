@@ -7,7 +7,7 @@ import { useOffered } from '../kind/offered';
 
 const REFRESH_MS = 4000;
 
-export const everything = { status: null, words: '' };
+export const allWorks = { status: null, words: '' };
 
 export interface WorkList {
   /** Null while the first page is loaded. */

@@ -1,5 +1,5 @@
 import { kinds } from '@web/kinds';
-import { carriedOver } from '@web/kinds/portrait/moods';
+import { carriedOver } from '@web/kinds/portrait/other_moods';
 import { isLoopback } from '@web/share/host';
 import { curlOf, htmlOf, pythonOf } from '@web/share/requests';
 import { execFileSync } from 'node:child_process';

@@ -42,7 +42,7 @@ export interface Choices {
   author: string;
 }
 
-export const usual: Choices = {
+export const defaults: Choices = {
   keep: [],
   camera: 'fixed',
   seconds: 4,
@@ -58,22 +58,22 @@ export const usual: Choices = {
   author: '',
 };
 
-/** The options to send: what differs from the usual, so that the service's own defaults hold elsewhere. */
-export const optionsOf = (choices: Choices): CharacterOptions => changedOptions(usual, choices) as CharacterOptions;
+/** The options to send: what differs from the defaults, so that the service's own defaults hold elsewhere. */
+export const optionsOf = (choices: Choices): CharacterOptions => changedOptions(defaults, choices) as CharacterOptions;
 
-/** The options that tell one choice from another; null where the usual is wanted again. */
+/** The options that tell one choice from another; null where the default is wanted again. */
 export function changedOptions(before: Choices, now: Choices): { [Name in keyof CharacterOptions]?: unknown } {
   const keep = bodyParts.filter((part) => now.keep.includes(part));
   const kept = bodyParts.filter((part) => before.keep.includes(part));
   return {
     ...(keep.join() !== kept.join() && { keep: keep.length ? keep : null }),
-    ...(now.camera !== before.camera && { camera: now.camera === usual.camera ? null : now.camera }),
-    ...(now.seconds !== before.seconds && { seconds: now.seconds === usual.seconds ? null : now.seconds }),
+    ...(now.camera !== before.camera && { camera: now.camera === defaults.camera ? null : now.camera }),
+    ...(now.seconds !== before.seconds && { seconds: now.seconds === defaults.seconds ? null : now.seconds }),
     ...(now.size?.join() !== before.size?.join() && { size: now.size }),
-    ...(now.rate !== before.rate && { fps: now.rate === usual.rate ? null : now.rate }),
-    ...(now.format !== before.format && { format: now.format === usual.format ? null : now.format }),
-    ...(now.back !== before.back && { back_texture: now.back === usual.back ? null : now.back }),
-    ...(now.triangles !== before.triangles && { triangles: now.triangles === usual.triangles ? null : now.triangles }),
+    ...(now.rate !== before.rate && { fps: now.rate === defaults.rate ? null : now.rate }),
+    ...(now.format !== before.format && { format: now.format === defaults.format ? null : now.format }),
+    ...(now.back !== before.back && { back_texture: now.back === defaults.back ? null : now.back }),
+    ...(now.triangles !== before.triangles && { triangles: now.triangles === defaults.triangles ? null : now.triangles }),
     ...(now.levels !== before.levels && { levels: now.levels || null }),
     ...(now.partial !== before.partial && { partial: now.partial || null }),
     ...(now.lit !== before.lit && { lit: now.lit || null }),
@@ -87,18 +87,18 @@ export function choicesOf(options: CharacterOptions): Choices {
   const kept = new Set((options.keep ?? []).flatMap((name) => both[name] ?? [name as BodyPart]));
   return {
     keep: bodyParts.filter((part) => kept.has(part)),
-    camera: options.camera ?? usual.camera,
-    seconds: options.seconds ?? usual.seconds,
-    size: options.size ?? usual.size,
-    rate: options.fps ?? usual.rate,
-    format: options.format ?? usual.format,
-    back: options.back_texture ?? usual.back,
-    triangles: options.triangles ?? usual.triangles,
-    levels: options.levels ?? usual.levels,
-    partial: options.partial ?? usual.partial,
-    lit: options.lit ?? usual.lit,
-    vrm: options.vrm ?? usual.vrm,
-    author: options.vrm_author ?? usual.author,
+    camera: options.camera ?? defaults.camera,
+    seconds: options.seconds ?? defaults.seconds,
+    size: options.size ?? defaults.size,
+    rate: options.fps ?? defaults.rate,
+    format: options.format ?? defaults.format,
+    back: options.back_texture ?? defaults.back,
+    triangles: options.triangles ?? defaults.triangles,
+    levels: options.levels ?? defaults.levels,
+    partial: options.partial ?? defaults.partial,
+    lit: options.lit ?? defaults.lit,
+    vrm: options.vrm ?? defaults.vrm,
+    author: options.vrm_author ?? defaults.author,
   };
 }
 
@@ -157,7 +157,7 @@ export function VideoFields({ value, onChange }: Props) {
         />
       </div>
       <SizeField value={value.size} own={words.sizeOwn} onChange={(size) => onChange({ size })} />
-      <RateField value={value.rate} onChange={(rate) => onChange({ rate: rate ?? usual.rate })} />
+      <RateField value={value.rate} onChange={(rate) => onChange({ rate: rate ?? defaults.rate })} />
       <FormatField value={value.format} onChange={(format) => onChange({ format })} />
     </>
   );

@@ -1,13 +1,13 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
 import type { CharacterOptions, MotionJoints } from './types';
-import { CharacterFields, type Choices, KeepField, optionsOf, usual, VideoFields } from './choices';
-import { Motions } from './motion/motion_picker';
+import { CharacterFields, type Choices, KeepField, optionsOf, defaults, VideoFields } from './choices';
+import { MotionPicker } from './motion/motion_picker';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { PicturePanel } from '../../studio/picture_panel';
-import { Recent } from '../../works/recent';
+import { RecentWorks } from '../../works/recent_works';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { isMotion, isPicture } from '../../studio/media_types';
@@ -37,7 +37,7 @@ interface Draft {
 }
 
 const EMPTY_DRAFT: Draft = {
-  ...{ photo: null, motion: { by: 'name', name: DEFAULT_MOTION }, joints: {}, clip: null, choices: usual },
+  ...{ photo: null, motion: { by: 'name', name: DEFAULT_MOTION }, joints: {}, clip: null, choices: defaults },
 };
 
 export default function CharacterStudio({ kind }: StudioProps) {
@@ -107,7 +107,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
         <section class="panel" aria-labelledby="motion-title">
           <h2 id="motion-title">{words.motion}</h2>
           <p class="hint">{words.motionHint}</p>
-          <Motions
+          <MotionPicker
             chosen={motion}
             onChoose={move}
             refused={refused.motion === true}
@@ -127,7 +127,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
           </details>
         </section>
       </StudioForm>
-      <Recent />
+      <RecentWorks />
     </>
   );
 }

@@ -7,7 +7,7 @@ import { useDraft } from '../../studio/draft';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { useDescriptions } from '../../kind/offered';
 import { useRefusals } from '../../studio/refusals';
-import { Recent } from '../../works/recent';
+import { RecentWorks } from '../../works/recent_works';
 import type { Kind, StudioProps } from '../../kind/kind';
 import { OptionFields, type Options } from './fields';
 import { InputField } from './input';
@@ -31,7 +31,7 @@ export default function GenericStudio({ kind }: StudioProps) {
   return (
     <>
       {description ? <Form kind={kind} description={description} /> : <p>{words.notOffered}</p>}
-      <Recent />
+      <RecentWorks />
     </>
   );
 }

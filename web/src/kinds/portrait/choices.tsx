@@ -16,12 +16,12 @@ export interface Choices {
   loop: boolean;
 }
 
-export const usual: Choices = { strength: 1, follow: parts, sound: false, loop: false };
+export const defaults: Choices = { strength: 1, follow: parts, sound: false, loop: false };
 
-/** The options to send: what differs from the usual, so that the service's own defaults hold elsewhere. */
+/** The options to send: what differs from the defaults, so that the service's own defaults hold elsewhere. */
 export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions {
   return {
-    ...(choices.strength !== usual.strength && { strength: choices.strength }),
+    ...(choices.strength !== defaults.strength && { strength: choices.strength }),
     ...(choices.follow.length < parts.length && { follow: [...choices.follow] }),
     ...(choices.sound && hasSound && { sound: true }),
     ...(choices.loop && { loop: true }),
@@ -31,10 +31,10 @@ export function optionsOf(choices: Choices, hasSound: boolean): PortraitOptions 
 /** What a job was made with. */
 export function choicesOf(options: PortraitOptions): Choices {
   return {
-    strength: options.strength ?? usual.strength,
-    follow: options.follow ? parts.filter((part) => options.follow?.includes(part)) : usual.follow,
-    sound: options.sound ?? usual.sound,
-    loop: options.loop ?? usual.loop,
+    strength: options.strength ?? defaults.strength,
+    follow: options.follow ? parts.filter((part) => options.follow?.includes(part)) : defaults.follow,
+    sound: options.sound ?? defaults.sound,
+    loop: options.loop ?? defaults.loop,
   };
 }
 

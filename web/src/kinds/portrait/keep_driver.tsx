@@ -10,7 +10,7 @@ import { usePausing } from '../../sending/pausing';
 import { strings } from '../../language/strings';
 import { GIVEN_UP, uploadFile } from '../../api/upload';
 import { SendingBar } from '../../studio/sending_bar';
-import { Trouble } from '../../widgets/trouble';
+import { ProblemAlert } from '../../widgets/problem_alert';
 
 interface Props {
   file: File;
@@ -27,7 +27,7 @@ const words = strings.studio;
 
 export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
-  const { valve, paused, pause } = usePausing();
+  const { pauseControl, paused, pause } = usePausing();
   const [problem, setProblem] = useState<Problem | null>(null);
   const stopper = useRef<AbortController | null>(null);
   const arrived = useRef<string | null>(null);
@@ -45,7 +45,7 @@ export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
     onKeeping(true);
     try {
       const progress = (bytes: number): void => setStep({ step: 'uploading', part: 'video', fraction: file.size ? bytes / file.size : 1 });
-      arrived.current ??= await uploadFile(file, progress, valve, signal);
+      arrived.current ??= await uploadFile(file, progress, pauseControl, signal);
       setStep({ step: 'ordering' });
       const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);
       onKept(signal.aborted ? null : name);
@@ -69,7 +69,7 @@ export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
         </button>
       )}
       <p class="hint">{words.keepHint}</p>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
     </div>
   );
 }

@@ -2,7 +2,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { strings } from '../../language/strings';
-import { Trouble } from '../../widgets/trouble';
+import { ProblemAlert } from '../../widgets/problem_alert';
 
 const words = strings.job;
 
@@ -20,7 +20,7 @@ interface Props {
   poster: string | undefined;
 }
 
-export function Living({ profile, poster }: Props) {
+export function ReactivePlayer({ profile, poster }: Props) {
   const place = useRef<HTMLDivElement>(null);
   const portrait = useRef<ReactivePortrait | null>(null);
   const [states, setStates] = useState<string[]>([]);
@@ -52,10 +52,10 @@ export function Living({ profile, poster }: Props) {
   }, [profile]);
 
   return (
-    <figure class="living">
+    <figure class="reactive-player">
       <div ref={place} />
       <figcaption>
-        {failed ? <Trouble code="profile_unplayable" detail={words.livingFailed} /> : <p>{words.living}</p>}
+        {failed ? <ProblemAlert code="profile_unplayable" detail={words.livingFailed} /> : <p>{words.living}</p>}
         <div class="actions">
           {states.map((one) => (
             <button

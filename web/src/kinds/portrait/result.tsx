@@ -8,8 +8,8 @@ import type { ResultProps } from '../../kind/kind';
 import { performanceUrl } from './drivers';
 import { strings } from '../../language/strings';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
-import { Living } from './reactive_player';
-import { Moods } from './moods';
+import { ReactivePlayer } from './reactive_player';
+import { Moods } from './other_moods';
 import { Player } from '../../result/player';
 
 const words = strings.job;
@@ -31,7 +31,7 @@ export default function PortraitResult({ job }: ResultProps) {
   return (
     <div class="result">
       {profile ? (
-        <Living profile={profile.url} poster={job.artifacts['poster.jpg']?.url} />
+        <ReactivePlayer profile={profile.url} poster={job.artifacts['poster.jpg']?.url} />
       ) : found ? (
         <Animation job={job} artifact={found[1]} chosen={report.value?.inputs.driver_chosen ?? null} />
       ) : (

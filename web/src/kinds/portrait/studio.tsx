@@ -2,14 +2,14 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { listDrivers } from '../../api';
-import { type Choices, FoldedChoices, optionsOf, usual as defaults } from './choices';
+import { type Choices, FoldedChoices, optionsOf, defaults } from './choices';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { Performances } from './performances';
 import { StudioForm, useStudioTitle } from '../../studio/form';
 import { PicturePanel } from '../../studio/picture_panel';
-import { Recent } from '../../works/recent';
-import { Trouble } from '../../widgets/trouble';
+import { RecentWorks } from '../../works/recent_works';
+import { ProblemAlert } from '../../widgets/problem_alert';
 import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { useLoaded } from '../../api/loading';
@@ -118,11 +118,11 @@ export default function PortraitStudio({ kind }: StudioProps) {
           <h2 id="performance-title">{words.performance}</h2>
           <p class="hint">{words.performanceHint}</p>
           {drivers.problem && (
-            <Trouble code={drivers.problem.code} detail={drivers.problem.detail}>
+            <ProblemAlert code={drivers.problem.code} detail={drivers.problem.detail}>
               <button type="button" class="button" onClick={drivers.reload}>
                 {strings.retry}
               </button>
-            </Trouble>
+            </ProblemAlert>
           )}
           <Performances
             drivers={drivers.value ?? []}
@@ -137,7 +137,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
           <FoldedChoices value={choices} mayHaveSound={hasSound} onChange={(choices) => change({ choices })} />
         </section>
       </StudioForm>
-      <Recent />
+      <RecentWorks />
     </>
   );
 }

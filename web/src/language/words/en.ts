@@ -16,7 +16,7 @@ const english = {
   make: { label: 'What to make' },
 
   recent: {
-    title: 'Recent',
+    title: 'RecentWorks',
     empty: 'What you make will appear here.',
     all: 'Show all',
   },

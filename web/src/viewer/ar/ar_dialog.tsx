@@ -4,7 +4,7 @@ import '@google/model-viewer';
 import type { ModelViewerElement } from '@google/model-viewer';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { getSkeleton } from '../artifacts/skeleton';
-import { Trouble } from '../../widgets/trouble';
+import { ProblemAlert } from '../../widgets/problem_alert';
 import { Dialog } from '../../widgets/dialog';
 import { useLoaded } from '../../api/loading';
 import { strings } from '../../language/strings';
@@ -25,7 +25,7 @@ interface Props {
   onClose: () => void;
 }
 
-export default function Space({ job, renew, who: first, onClose }: Props) {
+export default function ArDialog({ job, renew, who: first, onClose }: Props) {
   // links are open for a while only, and what shows AR fetches the file by itself, late: give it fresh ones
   const fresh = useLoaded(renew, 'fresh links');
   const [who, setWho] = useState(first);
@@ -82,13 +82,13 @@ export default function Space({ job, renew, who: first, onClose }: Props) {
         />
       )}
       <div ref={place} class="viewer-room" aria-busy={state === 'loading'} />
-      {state === 'failed' && <Trouble code="character_unreadable" detail={words.failed} />}
+      {state === 'failed' && <ProblemAlert code="character_unreadable" detail={words.failed} />}
       {fresh.problem && (
-        <Trouble code={fresh.problem.code} detail={fresh.problem.detail}>
+        <ProblemAlert code={fresh.problem.code} detail={fresh.problem.detail}>
           <button type="button" class="button" onClick={fresh.reload}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       )}
       <p role="status">{said[state]}</p>
       {state === 'ready' && (

@@ -10,7 +10,7 @@ import { placeOf } from '../posing/inverse_kinematics';
 import { Playback } from './playback';
 import type { Stage } from '../scene/stage';
 import type { StagedCharacter } from '../scene/staging';
-import { Tool } from '../../stage/tools';
+import { Tool } from '../../picture_editor/tools';
 
 const words = strings.viewer;
 /** Metres from the joints to the outline of the body. */
@@ -70,10 +70,6 @@ export function OrbitView({ stage, cast, tools }: Props) {
 
   return (
     <>
-      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
-        {tools}
-        <Tool label={words.reset} onUse={() => resetView(stage, cast, clip)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
-      </div>
       {lead?.clip(clip) && (
         <Transport
           time={time}
@@ -96,6 +92,10 @@ export function OrbitView({ stage, cast, tools }: Props) {
           </select>
         </Transport>
       )}
+      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
+        {tools}
+        <Tool label={words.reset} onUse={() => resetView(stage, cast, clip)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
+      </div>
       <p class="viewer-help">{words.help}</p>
     </>
   );

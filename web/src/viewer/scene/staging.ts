@@ -14,7 +14,7 @@ export interface StagedCharacter {
   rise: number;
 }
 
-export interface Shown {
+export interface LoadedStage {
   stage: Stage;
   skeleton: Skeleton | null;
   people: readonly CharacterFiles[];
@@ -23,14 +23,14 @@ export interface Shown {
 }
 
 export interface Staged {
-  shown: Shown | null;
+  shown: LoadedStage | null;
   /** Why nothing is shown. */
   trouble: 'no_webgl' | 'character_unreadable' | null;
   retry: () => void;
 }
 
 export function useStage(place: RefObject<HTMLElement | null>, job: HasArtifacts): Staged {
-  const [shown, setShown] = useState<Shown | null>(null);
+  const [shown, setShown] = useState<LoadedStage | null>(null);
   const [trouble, setTrouble] = useState<Staged['trouble']>(null);
   const [turn, setTurn] = useState(0);
   // links are signed anew whenever the job is told of: the files are the same until their paths are others
@@ -88,7 +88,7 @@ export function useStage(place: RefObject<HTMLElement | null>, job: HasArtifacts
 }
 
 /** Those on the stage, and nobody else. */
-export function useCast(shown: Shown | null, cast: readonly StagedCharacter[]): void {
+export function useCast(shown: LoadedStage | null, cast: readonly StagedCharacter[]): void {
   useEffect(() => {
     if (!shown) return;
     const { scene } = shown.stage;

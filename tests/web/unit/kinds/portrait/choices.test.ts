@@ -1,11 +1,11 @@
 import type { PortraitOptions } from '@web/kinds/portrait/types';
-import { choicesOf, optionsOf, usual } from '@web/kinds/portrait/choices';
-import { revisionOptions, sameFrames, wishesOf } from '@web/kinds/portrait/corrections/changes';
+import { choicesOf, optionsOf, defaults } from '@web/kinds/portrait/choices';
+import { revisionOptions, sameFrames, draftOf } from '@web/kinds/portrait/corrections/changes';
 import { describe, expect, it } from 'vitest';
 
 describe('options', () => {
-  it('sends only what differs from the usual', () => {
-    expect(optionsOf(usual, true)).toEqual({});
+  it('sends only what differs from the defaults', () => {
+    expect(optionsOf(defaults, true)).toEqual({});
     expect(optionsOf({ strength: 0.5, follow: ['eyes', 'head'], sound: true, loop: true }, true)).toEqual({
       strength: 0.5,
       follow: ['eyes', 'head'],
@@ -15,7 +15,7 @@ describe('options', () => {
   });
 
   it('shows what a job was made with, in the order of the page', () => {
-    expect(choicesOf({})).toEqual(usual);
+    expect(choicesOf({})).toEqual(defaults);
     expect(choicesOf({ strength: 0.5, follow: ['head', 'eyes'], sound: true, loop: true })).toEqual({
       strength: 0.5,
       follow: ['eyes', 'head'],
@@ -26,7 +26,7 @@ describe('options', () => {
 
   it('takes back to the default what a revision no longer wants', () => {
     const nothing = { strength: null, follow: null, sound: null, loop: null, neutral_frame: null };
-    expect(revisionOptions(wishesOf({}))).toEqual({
+    expect(revisionOptions(draftOf({}))).toEqual({
       ...{ ...nothing, trim: null, driver_face_index: null, head_3d: null },
       ...{ face_index: null, crop: null, size: null, fps: null, format: null, landmarks: null },
     });
@@ -38,22 +38,22 @@ describe('options', () => {
       ...{ trim: [1.5, 4], driver_face_index: 1, head_3d: false },
       ...{ face_index: 1, crop: 'bust', size: [512, 512], fps: 25, format: 'webm', landmarks: [[1, 2]] },
     };
-    expect(revisionOptions(wishesOf(made))).toEqual(made);
+    expect(revisionOptions(draftOf(made))).toEqual(made);
   });
 
   it('uses a performance from its beginning where only an end is said', () => {
-    expect(revisionOptions({ ...wishesOf({}), trim: [null, 3] }).trim).toEqual([0, 3]);
+    expect(revisionOptions({ ...draftOf({}), trim: [null, 3] }).trim).toEqual([0, 3]);
   });
 
   it('knows when frames of the performance have other numbers', () => {
-    const wishes = wishesOf({ trim: [1, 4] });
-    expect(sameFrames(wishes, { ...wishesOf({ trim: [1, 4] }), strength: 0.5 })).toBe(true);
-    expect(sameFrames(wishes, { ...wishes, trim: [2, 4] })).toBe(false);
-    expect(sameFrames(wishes, { ...wishes, rate: 25 })).toBe(false);
-    expect(sameFrames(wishes, { ...wishes, driverFace: 1 })).toBe(false);
+    const draft = draftOf({ trim: [1, 4] });
+    expect(sameFrames(draft, { ...draftOf({ trim: [1, 4] }), strength: 0.5 })).toBe(true);
+    expect(sameFrames(draft, { ...draft, trim: [2, 4] })).toBe(false);
+    expect(sameFrames(draft, { ...draft, rate: 25 })).toBe(false);
+    expect(sameFrames(draft, { ...draft, driverFace: 1 })).toBe(false);
   });
 
   it('asks for no sound of a performance that has none', () => {
-    expect(optionsOf({ ...usual, sound: true }, false)).toEqual({});
+    expect(optionsOf({ ...defaults, sound: true }, false)).toEqual({});
   });
 });

@@ -12,9 +12,9 @@ import type { Joints } from '../joints/skeleton';
 import type { LabelStroke, MaskStroke } from '../masks/strokes';
 
 /** What is kept of a job: the file that it had before. */
-export type Held = { by: 'held'; input: string };
+export type GivenInput = { by: 'held'; input: string };
 
-export interface Wishes extends Choices {
+export interface RevisionDraft extends Choices {
   /** Which of the people found, counted from the largest; null where that is asked. */
   person: number | 'all' | null;
   /** Where the person is looked for; null for the whole picture. */
@@ -24,31 +24,31 @@ export interface Wishes extends Choices {
   mask: readonly MaskStroke[];
   labels: readonly LabelStroke[];
   /** Files in place of what is found; strokes are painted over them. */
-  maskFile: File | Held | null;
-  labelsFile: File | Held | null;
-  motion: Motion | Held;
+  maskFile: File | GivenInput | null;
+  labelsFile: File | GivenInput | null;
+  motion: Motion | GivenInput;
   motionJoints: MotionJoints;
   /** Which of the motion's animations; null for the first in which something moves. */
   motionClip: string | null;
   pose: Pose;
 }
 
-/** What of the wishes is files to be sent, and their ids once they are. */
+/** What of the draft is files to be sent, and their ids once they are. */
 export const fileParts = ['motion', 'mask', 'labels'] as const;
 export type Sent = { [Part in (typeof fileParts)[number]]?: string };
 
 /** The file to be sent for a part; null where there is none. */
-export function fileOf(wishes: Wishes, part: keyof Sent): File | null {
-  const { motion, maskFile, labelsFile } = wishes;
+export function fileOf(draft: RevisionDraft, part: keyof Sent): File | null {
+  const { motion, maskFile, labelsFile } = draft;
   if (part === 'motion') return motion.by === 'file' ? motion.file : null;
   const file = part === 'mask' ? maskFile : labelsFile;
   return file instanceof File ? file : null;
 }
 
 /** What a job was made with. */
-export function wishesOf(job: Job): Wishes {
+export function draftOf(job: Job): RevisionDraft {
   const made = characterOptions(job);
-  const held = (name: string): Held | null => {
+  const held = (name: string): GivenInput | null => {
     const input = job.inputs[name];
     return typeof input === 'string' ? { by: 'held', input } : null;
   };
@@ -72,21 +72,21 @@ export function wishesOf(job: Job): Wishes {
  * Somebody else in the picture: what was put right of the one before is no longer wanted. A box stands for whoever is chosen;
  * they are again once it is taken away.
  */
-export const another = (who: { person: number | 'all' } | { box: Frame | null }): Partial<Wishes> => ({
+export const forPerson = (who: { person: number | 'all' } | { box: Frame | null }): Partial<RevisionDraft> => ({
   ...('person' in who ? { person: who.person, box: null } : who),
   ...{ joints: {}, mask: [], labels: [], maskFile: null, labelsFile: null, pose: {} },
 });
 
 /** Whether all of the people are wanted. */
-export const isEverybody = ({ person, box }: Wishes): boolean => person === 'all' && !box;
+export const isEverybody = ({ person, box }: RevisionDraft): boolean => person === 'all' && !box;
 
 /** A box holds one person: beside it there is a number, of whoever is chosen when it goes. */
-const indexOf = ({ person, box }: Wishes): Wishes['person'] => (box && typeof person !== 'number' ? 0 : person);
+const indexOf = ({ person, box }: RevisionDraft): RevisionDraft['person'] => (box && typeof person !== 'number' ? 0 : person);
 
 const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.stringify(b);
 
 /** `sent`: the ids of the files that were sent. */
-export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterChanges {
+export function changesOf(before: RevisionDraft, now: RevisionDraft, sent: Sent): CharacterChanges {
   const filled = <T extends object>(value: T): T | null => (Object.keys(value).length ? value : null);
   const { motion } = now;
   const renamed = motion.by === 'name' && !same(before.motion, motion);
@@ -112,13 +112,13 @@ export function changesOf(before: Wishes, now: Wishes, sent: Sent): CharacterCha
   return { corrections, options } as CharacterChanges;
 }
 
-export const isChanged = (before: Wishes, now: Wishes): boolean => {
+export const isChanged = (before: RevisionDraft, now: RevisionDraft): boolean => {
   const { corrections, options } = changesOf(before, now, {});
   return fileParts.some((part) => fileOf(now, part)) || Object.keys({ ...corrections, ...options }).length > 0;
 };
 
 /** The job's own notes, with the name of its new motion; nothing where it has none. */
-export function notesFor(job: Job, { motion }: Wishes): { metadata?: Job['metadata'] } {
+export function notesFor(job: Job, { motion }: RevisionDraft): { metadata?: Job['metadata'] } {
   const name = motion.by === 'file' ? stem(motion.file.name) : motion.by === 'kept' ? motion.name : null;
   return name === null ? {} : { metadata: { ...job.metadata, motion: plain(name) } };
 }

@@ -8,15 +8,16 @@ import { getSkeleton } from '../../../viewer/artifacts/skeleton';
 import { later } from '../../../widgets/lazy';
 import type { CorrectionsProps } from '../../../kind/kind';
 import { SendingBar } from '../../../studio/sending_bar';
+import { SubmitRow } from '../../../studio/submit_row';
 import { usePicture } from '../../../result/use_picture';
 import { randomKey } from '../../../api/idempotency';
 import { useLoaded } from '../../../api/loading';
 import { mayRepeat } from '../../../result/next_step';
 import { strings } from '../../../language/strings';
-import { another, isChanged, isEverybody, type Wishes, wishesOf } from './changes';
+import { forPerson, isChanged, isEverybody, type RevisionDraft, draftOf } from './changes';
 import { CharacterFields, KeepField, VideoFields } from '../choices';
 import { MotionField } from '../motion/motion_field';
-import { Paintings } from '../masks/masks_field';
+import { MasksField } from '../masks/masks_field';
 import { People } from '../people/people_picture';
 import { useRevision } from './use_revision';
 import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from '../joints/skeleton';
@@ -25,12 +26,12 @@ import '../../../styles/corrections.css';
 import '../../../styles/character.css';
 
 const JointEditor = later(() => import('../joints/joint_editor'));
-const FrameEditor = later(() => import('../people/box_editor'));
+const BoxEditor = later(() => import('../people/box_editor'));
 const words = characterWords.correct;
 
 export default function CharacterPanel({ job, proposal, onProposalTaken, onProblem }: CorrectionsProps) {
-  const before = useMemo(() => wishesOf(job), [job.id]);
-  const [wishes, setWishes] = useState<Wishes>(before);
+  const before = useMemo(() => draftOf(job), [job.id]);
+  const [draft, setWishes] = useState<RevisionDraft>(before);
   const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
   const key = useRef(randomKey());
   const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id).value;
@@ -39,7 +40,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
   const people = report?.inputs.people ?? foundPeople(job);
   const mendable = job.error?.correctable ?? [];
 
-  const wish = (part: Partial<Wishes>): void => {
+  const wish = (part: Partial<RevisionDraft>): void => {
     key.current = randomKey(); // another wish is another order
     setWishes((known) => ({ ...known, ...part }));
   };
@@ -49,26 +50,26 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
     const pose = proposal.pose as Pose; // from the viewer: it is to be made
     onProposalTaken();
     wish({ pose });
-    sending.send(before, { ...wishes, pose }); // whatever else is wished for comes along
+    sending.send(before, { ...draft, pose }); // whatever else is wished for comes along
   }, [proposal]);
 
-  const again = isChanged(before, wishes) || mayRepeat(job);
+  const again = isChanged(before, draft) || mayRepeat(job);
   /** Whether the person is still the one that the job found. */
-  const samePerson = wishes.person === before.person && JSON.stringify(wishes.box) === JSON.stringify(before.box);
-  const together = isEverybody(wishes);
+  const samePerson = draft.person === before.person && JSON.stringify(draft.box) === JSON.stringify(before.box);
+  const together = isEverybody(draft);
   /** Whether there is an outline to be put right, or one was wanting. */
   const outlined = 'mask.png' in job.artifacts || mendable.some((name) => /^(mask|label)/.test(name));
   const found = useMemo<Joints | null>(
     () => (skeleton && samePerson && !together ? jointsOf(skeleton) : null),
     [skeleton, samePerson, together],
   );
-  const placed = Object.keys(wishes.joints).length;
-  const shown = found || placed ? { ...found, ...wishes.joints } : null;
+  const placed = Object.keys(draft.joints).length;
+  const shown = found || placed ? { ...found, ...draft.joints } : null;
   const start = useMemo<Joints | null>(() => {
     if (!picture) return null;
-    const box = wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : undefined);
-    return { ...(found ?? skeletonIn(box ?? middleOf(picture.size))), ...wishes.joints };
-  }, [picture, found, wishes.joints, wishes.box, wishes.person, report]);
+    const box = draft.box ?? (typeof draft.person === 'number' ? people[draft.person] : undefined);
+    return { ...(found ?? skeletonIn(box ?? middleOf(picture.size))), ...draft.joints };
+  }, [picture, found, draft.joints, draft.box, draft.person, report]);
 
   const jointsHint = (): string => {
     if (placed) return words.jointsPlaced(placed);
@@ -79,7 +80,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
       class="corrections character"
       onSubmit={(event) => {
         event.preventDefault();
-        sending.send(before, wishes);
+        sending.send(before, draft);
       }}
     >
       <section class="panel" aria-label={words.person}>
@@ -88,10 +89,10 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
           <People
             picture={picture}
             people={people}
-            chosen={wishes.box ? null : wishes.person}
-            box={wishes.box}
+            chosen={draft.box ? null : draft.person}
+            box={draft.box}
             joints={shown}
-            onChoose={(person) => wish(another({ person }))}
+            onChoose={(person) => wish(forPerson({ person }))}
           />
         )}
         {picture === false && <p class="hint">{words.noPicture}</p>}
@@ -124,29 +125,29 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
               {words.box}
             </button>
           )}
-          {wishes.box && (
-            <button type="button" class="button quiet" onClick={() => wish(another({ box: null }))}>
+          {draft.box && (
+            <button type="button" class="button quiet" onClick={() => wish(forPerson({ box: null }))}>
               {words.boxBack}
             </button>
           )}
         </div>
-        <p class="hint">{wishes.box ? words.boxPlaced : words.boxHint}</p>
+        <p class="hint">{draft.box ? words.boxPlaced : words.boxHint}</p>
       </section>
       <section class="panel" aria-label={words.move}>
         <h3>{words.move}</h3>
         <MotionField
           job={job}
-          value={wishes.motion}
+          value={draft.motion}
           before={before.motion}
-          joints={wishes.motionJoints}
-          clip={wishes.motionClip}
+          joints={draft.motionJoints}
+          clip={draft.motionClip}
           onChange={wish}
         />
-        <KeepField value={wishes} onChange={wish} />
-        {Object.keys(wishes.pose).length > 0 && (
+        <KeepField value={draft} onChange={wish} />
+        {Object.keys(draft.pose).length > 0 && (
           <div class="actions">
             <p class="hint" role="status">
-              {words.posed(Object.keys(wishes.pose).length)} {together && words.posedAll}
+              {words.posed(Object.keys(draft.pose).length)} {together && words.posedAll}
             </p>
             <button type="button" class="button quiet" onClick={() => wish({ pose: {} })}>
               {words.poseBack}
@@ -156,17 +157,17 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
       </section>
       <section class="panel framing" aria-label={words.video}>
         <h3>{words.video}</h3>
-        <VideoFields value={wishes} onChange={wish} />
+        <VideoFields value={draft} onChange={wish} />
       </section>
       <section class="panel framing" aria-label={words.character}>
         <h3>{words.character}</h3>
-        <CharacterFields value={wishes} onChange={wish} />
+        <CharacterFields value={draft} onChange={wish} />
       </section>
       {picture && samePerson && !together && outlined && (
-        <Paintings
+        <MasksField
           job={job}
           picture={picture}
-          wishes={wishes}
+          draft={draft}
           onPaint={wish}
         />
       )}
@@ -174,18 +175,8 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
         {sending.step ? (
           <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
         ) : (
-          <button
-            type="submit"
-            class="button primary large"
-            disabled={sending.busy || !again}
-            aria-describedby="unchanged"
-          >
-            {strings.redo.send}
-          </button>
+          <SubmitRow hint={again ? '' : strings.redo.unchanged} disabled={sending.busy || !again} label={strings.redo.send} />
         )}
-        <p id="unchanged" class="hint" aria-live="polite">
-          {again ? '' : strings.redo.unchanged}
-        </p>
       </div>
       {editing === 'joints' && picture && start && (
         <JointEditor
@@ -195,19 +186,19 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
           found={found !== null || placed > 0}
           onDone={(joints) => {
             setEditing(null);
-            wish({ joints: placedJoints(joints, found, wishes.joints, picture.size) });
+            wish({ joints: placedJoints(joints, found, draft.joints, picture.size) });
           }}
           onClose={() => setEditing(null)}
         />
       )}
       {editing === 'box' && picture && (
-        <FrameEditor
+        <BoxEditor
           url={picture.url}
           size={picture.size}
-          start={wishes.box ?? (typeof wishes.person === 'number' ? people[wishes.person] : null) ?? middleOf(picture.size)}
+          start={draft.box ?? (typeof draft.person === 'number' ? people[draft.person] : null) ?? middleOf(picture.size)}
           onDone={(box) => {
             setEditing(null);
-            wish(another({ box }));
+            wish(forPerson({ box }));
           }}
           onClose={() => setEditing(null)}
         />

@@ -7,14 +7,14 @@ import type { Sending } from '../../../sending/order';
 import { usePausing } from '../../../sending/pausing';
 import { jobLink } from '../../../route';
 import { GIVEN_UP, uploadFile } from '../../../api/upload';
-import { changesOf, fileOf, fileParts, isChanged, notesFor, type Sent, type Wishes } from './changes';
+import { changesOf, fileOf, fileParts, isChanged, notesFor, type Sent, type RevisionDraft } from './changes';
 
 type Part = keyof Sent;
 
 export function useRevision(job: Job, key: { current: string }, onProblem: (problem: Problem | null) => void) {
   const [busy, setBusy] = useState(false);
   const [step, setStep] = useState<Sending | null>(null);
-  const { valve, paused, pause } = usePausing();
+  const { pauseControl, paused, pause } = usePausing();
   const stopper = useRef<AbortController | null>(null);
   /** What has arrived need not be sent again. */
   const arrived = useRef(new Map<File, string>());
@@ -25,25 +25,25 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
     if (known) return known;
     const progress = (sent: number): void => setStep({ step: 'uploading', part, fraction: file.size ? sent / file.size : 1 });
     progress(0);
-    const id = await uploadFile(file, progress, valve, signal);
+    const id = await uploadFile(file, progress, pauseControl, signal);
     arrived.current.set(file, id);
     return id;
   };
-  const send = async (before: Wishes, wishes: Wishes): Promise<void> => {
+  const send = async (before: RevisionDraft, draft: RevisionDraft): Promise<void> => {
     const { signal } = (stopper.current = new AbortController());
-    if (!isChanged(before, wishes) && job.status === 'succeeded') return;
+    if (!isChanged(before, draft) && job.status === 'succeeded') return;
     setBusy(true);
     pause(false);
     onProblem(null);
     try {
       const sent: Sent = {};
       for (const part of fileParts) {
-        const file = fileOf(wishes, part);
+        const file = fileOf(draft, part);
         if (file) sent[part] = await upload(part, file, signal);
       }
       setStep(null);
-      const changes = changesOf(before, wishes, sent);
-      const revised = await reviseJob(job.id, { ...changes, ...notesFor(job, wishes) }, key.current);
+      const changes = changesOf(before, draft, sent);
+      const revised = await reviseJob(job.id, { ...changes, ...notesFor(job, draft) }, key.current);
       location.hash = jobLink(revised.id);
     } catch (error) {
       if (signal.aborted) arrived.current.clear(); // what had arrived is gone
@@ -58,6 +58,6 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
     step,
     pause,
     stop: () => stopper.current?.abort(GIVEN_UP),
-    send: (before: Wishes, wishes: Wishes) => void send(before, wishes),
+    send: (before: RevisionDraft, draft: RevisionDraft) => void send(before, draft),
   };
 }

@@ -2,14 +2,14 @@
 
 import { useId, useMemo, useState } from 'preact/hooks';
 import { Checkbox } from '../../../widgets/checkbox';
-import { act, arrows, useEditing, zoomKeys } from '../../../stage/editing';
-import { EditorDialog } from '../../../stage/editor';
-import { Lens } from '../../../stage/lens';
-import { boxAround, middle, moved, resized } from '../../../stage/moving';
-import { boxOf, grown, inside, nearest, type Point } from '../../../stage/place';
-import { type Drag, Surface, type Touch } from '../../../stage/surface';
-import { Tool } from '../../../stage/tools';
-import { around } from '../../../stage/view';
+import { act, arrows, useEditing, zoomKeys } from '../../../picture_editor/editing';
+import { EditorDialog } from '../../../picture_editor/editor_dialog';
+import { Magnifier } from '../../../picture_editor/magnifier';
+import { boxAround, middle, moved, resized } from '../../../picture_editor/transforms';
+import { boxOf, grown, inside, nearest, type Point } from '../../../picture_editor/geometry';
+import { type Drag, Surface, type Touch } from '../../../picture_editor/surface';
+import { Tool } from '../../../picture_editor/tools';
+import { around } from '../../../picture_editor/view';
 import { isDetail, type Joints, labelOf, sharesOf, swapped } from './skeleton';
 import { SkeletonDrawing } from './skeleton_drawing';
 import { words as characterWords } from '../words';
@@ -149,10 +149,10 @@ export default function JointEditor({ url, size, start, found, onDone, onClose }
         over={
           hand &&
           watched && (
-            <Lens at={watched} scale={scale} hand={hand}>
+            <Magnifier at={watched} scale={scale} hand={hand}>
               {image}
               {drawing}
-            </Lens>
+            </Magnifier>
           )
         }
       >

@@ -2,7 +2,7 @@
 
 import type { Frame } from '../../../api';
 import type { Skeleton } from '../../../viewer/artifacts/skeleton';
-import type { Point } from '../../../stage/place';
+import type { Point } from '../../../picture_editor/geometry';
 import { words as characterWords } from '../words';
 
 /** Places by name, in pixels of the picture. */

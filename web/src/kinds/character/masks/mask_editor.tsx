@@ -1,18 +1,18 @@
-/** Painting over what was cut out, or over the parts of the body: a window of its own over the page. */
+/** MaskOverlay over what was cut out, or over the parts of the body: a window of its own over the page. */
 
 import { useId, useState } from 'preact/hooks';
 import type { BodyPart } from '../types';
 import { Checkbox } from '../../../widgets/checkbox';
-import { act, arrows, useEditing, zoomKeys } from '../../../stage/editing';
-import { EditorDialog } from '../../../stage/editor';
-import type { Point } from '../../../stage/place';
-import { type Drag, Surface, type Touch } from '../../../stage/surface';
-import { Tool } from '../../../stage/tools';
+import { act, arrows, useEditing, zoomKeys } from '../../../picture_editor/editing';
+import { EditorDialog } from '../../../picture_editor/editor_dialog';
+import type { Point } from '../../../picture_editor/geometry';
+import { type Drag, Surface, type Touch } from '../../../picture_editor/surface';
+import { Tool } from '../../../picture_editor/tools';
 import { bodyParts } from '../choices';
-import { Painting } from './mask_overlay';
+import { MaskOverlay } from './mask_overlay';
 import { type LabelStroke, type MaskStroke, partColours, radii, simplified } from './strokes';
 import { words as characterWords } from '../words';
-import '../../../styles/painter.css';
+import '../../../styles/mask_editor.css';
 
 const words = characterWords.painter;
 
@@ -38,7 +38,7 @@ interface Props {
   onClose: () => void;
 }
 
-export default function Painter({ url, size, what, mask, labels, fresh, onDone, onClose }: Props) {
+export default function MaskEditor({ url, size, what, mask, labels, fresh, onDone, onClose }: Props) {
   const start: readonly AnyStroke[] = fresh[what];
   const { history, advance, state: strokes, change, view, setView, zoom } = useEditing(size, start);
   const range = radii(size);
@@ -155,7 +155,7 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
       onDone={() => onDone(strokes.map(simplified))}
     >
       <Surface
-        class={carrying ? 'painter carrying' : 'painter'}
+        class={carrying ? 'mask-editor panning' : 'mask-editor'}
         size={size}
         view={view}
         label={words.stage}
@@ -165,10 +165,10 @@ export default function Painter({ url, size, what, mask, labels, fresh, onDone, 
         onView={setView}
         onKey={key}
       >
-        <Painting url={url} size={size} what={coloured ? what : null} mask={mask} labels={labels} strokes={shown} />
+        <MaskOverlay url={url} size={size} what={coloured ? what : null} mask={mask} labels={labels} strokes={shown} />
         {brush && !carrying && <circle class={down ? 'brush down' : 'brush'} cx={brush[0]} cy={brush[1]} r={radius} />}
       </Surface>
-      <p class="unseen" role="status">
+      <p class="visually-hidden" role="status">
         {down ? words.down : brush ? words.up : ''}
       </p>
     </EditorDialog>

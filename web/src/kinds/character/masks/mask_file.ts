@@ -6,13 +6,13 @@ import { partColours } from './strokes';
 export type Painted = 'mask' | 'labels';
 export type Size = readonly [width: number, height: number];
 /** Why a file cannot be taken: this browser cannot read it, or it has another size. */
-export type Misfit = { why: 'unreadable' } | { why: 'size'; size: Size };
+export type MaskFault = { why: 'unreadable' } | { why: 'size'; size: Size };
 
 /** Pixels of a preview's longer side, at most. */
 const LARGEST = 1280;
 
 /** Nothing where the file is as large as one of `sizes`. */
-export async function misfitOf(file: File, sizes: readonly Size[]): Promise<Misfit | null> {
+export async function faultOf(file: File, sizes: readonly Size[]): Promise<MaskFault | null> {
   const size = await sizeOf(file).catch(() => null);
   if (!size) return { why: 'unreadable' };
   return sizes.some(([width, height]) => width === size[0] && height === size[1]) ? null : { why: 'size', size };

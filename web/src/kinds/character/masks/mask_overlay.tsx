@@ -14,7 +14,7 @@ interface Props {
   strokes: { mask: readonly MaskStroke[]; labels: readonly LabelStroke[] };
 }
 
-export function Painting({ url, size, what, mask, labels, strokes }: Props) {
+export function MaskOverlay({ url, size, what, mask, labels, strokes }: Props) {
   const id = useId();
   const [width, height] = size;
   const place = { x: -0.5, y: -0.5, width, height, preserveAspectRatio: 'none' };

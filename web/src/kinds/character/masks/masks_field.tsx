@@ -3,31 +3,31 @@
 import { useEffect, useId, useState } from 'preact/hooks';
 import type { Job } from '../../../api';
 import { characterOptions } from '../types';
-import type { Shown } from '../../../widgets/boxed_picture';
+import type { SizedPicture } from '../../../widgets/boxed_picture';
 import { FileButton } from '../../../widgets/file_button';
 import { later } from '../../../widgets/lazy';
 import { maskTypes } from '../../../studio/media_types';
-import type { Wishes } from '../corrections/changes';
-import { type Misfit, misfitOf, type Painted, previewOf, sizeOf } from './mask_file';
-import { Painting } from './mask_overlay';
+import type { RevisionDraft } from '../corrections/changes';
+import { type MaskFault, faultOf, type Painted, previewOf, sizeOf } from './mask_file';
+import { MaskOverlay } from './mask_overlay';
 import { words as characterWords } from '../words';
-import '../../../styles/painter.css';
+import '../../../styles/mask_editor.css';
 
-const Painter = later(() => import('./mask_editor'));
+const MaskEditor = later(() => import('./mask_editor'));
 const words = characterWords.correct;
 
 interface Props {
   job: Job;
-  picture: Shown;
-  wishes: Wishes;
-  onPaint: (painted: Partial<Pick<Wishes, 'mask' | 'labels' | 'maskFile' | 'labelsFile'>>) => void;
+  picture: SizedPicture;
+  draft: RevisionDraft;
+  onPaint: (painted: Partial<Pick<RevisionDraft, 'mask' | 'labels' | 'maskFile' | 'labelsFile'>>) => void;
 }
 
 const fileNames = { mask: 'maskFile', labels: 'labelsFile' } as const;
 
-export function Paintings({ job, picture, wishes, onPaint }: Props) {
+export function MasksField({ job, picture, draft, onPaint }: Props) {
   const [what, setWhat] = useState<Painted | null>(null);
-  const { mask, labels, maskFile, labelsFile } = wishes;
+  const { mask, labels, maskFile, labelsFile } = draft;
   const found = job.artifacts['mask.png']?.url ?? null;
   // a file that was only just chosen shows what is read in it; what the job had is in its mask and labels already
   const shown = {
@@ -52,17 +52,17 @@ export function Paintings({ job, picture, wishes, onPaint }: Props) {
   };
   const [width, height] = picture.size;
   return (
-    <section class="panel paintings" aria-label={words.paint}>
+    <section class="panel masks" aria-label={words.paint}>
       <h3>{words.paint}</h3>
       {(['mask', 'labels'] as const).map((of) => {
-        const file = wishes[fileNames[of]];
-        const painted = wishes[of].length > 0;
+        const file = draft[fileNames[of]];
+        const painted = draft[of].length > 0;
         const ready = shown.mask !== null && shown[of] !== null;
         return (
           <div key={of} class="painted">
             <div class="boxed" style={{ aspectRatio: `${width} / ${height}`, '--aspect': width / height }}>
               <svg viewBox={`-0.5 -0.5 ${width} ${height}`} aria-hidden="true">
-                <Painting {...shown} what={shown[of] === null ? null : of} strokes={fresh} />
+                <MaskOverlay {...shown} what={shown[of] === null ? null : of} strokes={fresh} />
               </svg>
             </div>
             <p class="hint" role="status">
@@ -94,7 +94,7 @@ export function Paintings({ job, picture, wishes, onPaint }: Props) {
         );
       })}
       {what && shown.mask !== null && shown.labels !== null && (
-        <Painter
+        <MaskEditor
           {...shown}
           what={what}
           mask={shown.mask}
@@ -123,7 +123,7 @@ function FromFile({ name, sizes, onFile }: FromFileProps) {
   const [refused, setRefused] = useState<string | null>(null);
   const take = async (file: File): Promise<void> => {
     const allowed = await sizes();
-    const misfit = await misfitOf(file, allowed);
+    const misfit = await faultOf(file, allowed);
     setRefused(misfit && whyNot(file, misfit, allowed));
     if (!misfit) onFile(file);
   };
@@ -145,14 +145,14 @@ function FromFile({ name, sizes, onFile }: FromFileProps) {
   );
 }
 
-function whyNot(file: File, misfit: Misfit, allowed: (readonly [number, number])[]): string {
+function whyNot(file: File, misfit: MaskFault, allowed: (readonly [number, number])[]): string {
   if (misfit.why === 'unreadable') return words.fileUnreadable(file.name);
   const told = [...new Set(allowed.map(([width, height]) => words.pixels(width, height)))];
   return words.fileSize(file.name, words.pixels(...misfit.size), told.join(words.or));
 }
 
 /** Where a picture is of what is read in a file; null without one, and until it is read. */
-function useRead(given: Wishes['maskFile'], what: Painted): string | null {
+function useRead(given: RevisionDraft['maskFile'], what: Painted): string | null {
   const file = given instanceof File ? given : null;
   const [url, setUrl] = useState<string | null>(null);
   useEffect(() => {

@@ -1,7 +1,7 @@
 /** Strokes of a brush over the picture: as they are drawn, and as they are sent. */
 
 import type { BodyPart, Stroke } from '../types';
-import { type Point, toSegment } from '../../../stage/place';
+import { type Point, toSegment } from '../../../picture_editor/geometry';
 
 export type MaskStroke = Stroke & { person: boolean };
 export type LabelStroke = Stroke & { part: BodyPart };

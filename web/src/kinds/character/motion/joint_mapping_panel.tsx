@@ -2,13 +2,13 @@
 
 import { useEffect, useId, useState } from 'preact/hooks';
 import type { MotionDetails, MotionJoints } from '../types';
-import { Trouble } from '../../../widgets/trouble';
+import { ProblemAlert } from '../../../widgets/problem_alert';
 import { useLoaded } from '../../../api/loading';
 import { strings } from '../../../language/strings';
 import { detailsOf, keyOf, type OwnMotion } from './motion_details';
 import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './joint_mapping';
 import { words as characterWords } from '../words';
-import '../../../styles/jointmap.css';
+import '../../../styles/joint_mapping.css';
 
 const words = characterWords.motionJoints;
 const inHands: readonly Group[] = ['leftFingers', 'rightFingers'];
@@ -28,13 +28,13 @@ interface Props {
 }
 
 /** Open from the beginning where it is wanted, or known that something is wanting. */
-export function JointMap({ motion, known = null, wanted = false, ...chosen }: Props) {
+export function JointMappingPanel({ motion, known = null, wanted = false, ...chosen }: Props) {
   const wanting = wanted || (known !== null && missing(known.mapping, {}).length > 0);
   const [open, setOpen] = useState(wanting);
   useEffect(() => setOpen(wanting), [keyOf(motion)]);
   const changes = Object.keys(chosen.value).length + (chosen.clip === null ? 0 : 1);
   return (
-    <details class="jointmap" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
+    <details class="joint-mapping" open={open} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
         {words.title} {changes > 0 && <span class="chip">{words.changed(changes)}</span>}
       </summary>
@@ -50,11 +50,11 @@ function Look({ motion, known, ...chosen }: Omit<Props, 'wanted'>) {
   );
   if (problem) {
     return (
-      <Trouble code={problem.code} detail={problem.detail}>
+      <ProblemAlert code={problem.code} detail={problem.detail}>
         <button type="button" class="button" onClick={reload}>
           {strings.retry}
         </button>
-      </Trouble>
+      </ProblemAlert>
     );
   }
   if (!details) {
@@ -93,7 +93,7 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
     </fieldset>
   );
   return (
-    <div class="jointmap-body">
+    <div class="joint-mapping-body">
       {clips.length > 1 && (
         <div class="field">
           <label for={clipId}>{words.clip}</label>
@@ -113,13 +113,13 @@ function Table({ details: { joints, mapping, clips = [] }, value, onChange, clip
         </div>
       )}
       <p class="hint">{words.hint}</p>
-      <p class={wanting.length ? 'wanting' : 'unseen'} role="status">
+      <p class={wanting.length ? 'wanting' : 'visually-hidden'} role="status">
         {wanting.length ? words.wanting(wanting.map(jointName).join(', ')) : ''}
       </p>
-      <div class="jointmap-groups">{names.filter((name) => !inHands.includes(name)).map(group)}</div>
-      <details class="jointmap" open={fingers} onToggle={({ currentTarget }) => setFingers(currentTarget.open)}>
+      <div class="joint-mapping-groups">{names.filter((name) => !inHands.includes(name)).map(group)}</div>
+      <details class="joint-mapping" open={fingers} onToggle={({ currentTarget }) => setFingers(currentTarget.open)}>
         <summary>{words.hands}</summary>
-        {fingers && <div class="jointmap-groups">{inHands.map(group)}</div>}
+        {fingers && <div class="joint-mapping-groups">{inHands.map(group)}</div>}
       </details>
       {Object.keys(value).length > 0 && (
         <div class="actions">
@@ -146,7 +146,7 @@ function Row({ joint, offered, prefix, mover, changed, onChange }: RowProps) {
   const id = useId();
   const wanting = mover === null && required.includes(joint);
   return (
-    <div class={`jointmap-row ${changed ? 'changed' : ''} ${wanting ? 'wanting' : ''}`}>
+    <div class={`joint-mapping-row ${changed ? 'changed' : ''} ${wanting ? 'wanting' : ''}`}>
       <label for={id}>{jointName(joint)}</label>
       <select
         id={id}

@@ -13,7 +13,7 @@ interface Props {
   onRefused: () => void;
 }
 
-export function MotionDrop({ file, onFile, refused, onRefused }: Props) {
+export function MotionDropzone({ file, onFile, refused, onRefused }: Props) {
   return (
     <Dropzone
       media="motion"

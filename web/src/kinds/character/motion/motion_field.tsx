@@ -8,9 +8,9 @@ import { useLoaded } from '../../../api/loading';
 import { isFileId, isUrl } from '../../../works/inputs';
 import { motionName } from './motion_names';
 import { plain } from '../../../language/strings';
-import { type Held, type Wishes, wishesOf } from '../corrections/changes';
-import { JointMap } from './joint_mapping_panel';
-import { MotionDrop } from './motion_dropzone';
+import { type GivenInput, type RevisionDraft, draftOf } from '../corrections/changes';
+import { JointMappingPanel } from './joint_mapping_panel';
+import { MotionDropzone } from './motion_dropzone';
 import { detailsIn, motionNames } from './motion_picker';
 import { words as characterWords } from '../words';
 
@@ -20,12 +20,12 @@ const wanted = ['motion_joints', 'motion_clip'];
 
 interface Props {
   job: Job;
-  value: Wishes['motion'];
+  value: RevisionDraft['motion'];
   /** What the job moved by before. */
-  before: Wishes['motion'];
+  before: RevisionDraft['motion'];
   joints: MotionJoints;
-  clip: Wishes['motionClip'];
-  onChange: (wishes: Partial<Wishes>) => void;
+  clip: RevisionDraft['motionClip'];
+  onChange: (draft: Partial<RevisionDraft>) => void;
 }
 
 export function MotionField({ job, value, before, joints, clip, onChange }: Props) {
@@ -33,8 +33,8 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
   const [refused, setRefused] = useState(false);
   const kept = (useLoaded(listOwnMotions, 'motions').value ?? []).filter(canMove);
   const held = before.by === 'held' ? before : null;
-  const made = wishesOf(job);
-  const choose = (motion: Wishes['motion'], refused = false): void => {
+  const made = draftOf(job);
+  const choose = (motion: RevisionDraft['motion'], refused = false): void => {
     setRefused(refused);
     onChange({
       motion,
@@ -75,14 +75,14 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
           )}
         </select>
       </div>
-      <MotionDrop
+      <MotionDropzone
         file={value.by === 'file' ? value.file : null}
         onFile={(file) => choose({ by: 'file', file })}
         refused={refused}
         onRefused={() => choose(before, true)}
       />
       {value.by !== 'name' && (
-        <JointMap
+        <JointMappingPanel
           motion={value}
           known={known}
           wanted={value.by === 'held' && wanted.some((name) => job.error?.correctable?.includes(name))}
@@ -96,7 +96,7 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
   );
 }
 
-const nameOf = ({ input }: Held): string =>
+const nameOf = ({ input }: GivenInput): string =>
   isUrl(input) || isFileId(input) ? words.heldMotion : plain(input);
 
 /** What the error of a job that could not map its motion lists; what was said by hand is among it, so that it tells nothing then. */

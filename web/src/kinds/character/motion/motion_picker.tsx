@@ -9,8 +9,8 @@ import { useLoaded } from '../../../api/loading';
 import { DEFAULT_MOTION, motionName } from './motion_names';
 import type { Motion } from '../order';
 import { plain } from '../../../language/strings';
-import { JointMap } from './joint_mapping_panel';
-import { MotionDrop } from './motion_dropzone';
+import { JointMappingPanel } from './joint_mapping_panel';
+import { MotionDropzone } from './motion_dropzone';
 import { words as characterWords } from '../words';
 import '../../../styles/motions.css';
 
@@ -54,7 +54,7 @@ export const detailsIn = (kept: readonly KeptMotion[], name: string): MotionDeta
   return joints.length ? { joints, mapping, clips } : null;
 };
 
-export function Motions({ chosen, onChoose, refused, onRefused, joints, onJoints, clip, onClip }: Props) {
+export function MotionPicker({ chosen, onChoose, refused, onRefused, joints, onJoints, clip, onClip }: Props) {
   const own = useLoaded(listOwnMotions, 'motions');
   const all = own.value ?? [];
   const kept = all.filter(canMove);
@@ -111,14 +111,14 @@ export function Motions({ chosen, onChoose, refused, onRefused, joints, onJoints
         }}
       />
       <h3>{words.ownMotion}</h3>
-      <MotionDrop
+      <MotionDropzone
         file={chosen.by === 'file' ? chosen.file : null}
         onFile={(file) => onChoose({ by: 'file', file })}
         refused={refused}
         onRefused={onRefused}
       />
       {!refused && chosen.by !== 'name' && (
-        <JointMap motion={chosen} known={known} value={joints} onChange={onJoints} clip={clip} onClip={onClip} />
+        <JointMappingPanel motion={chosen} known={known} value={joints} onChange={onJoints} clip={clip} onClip={onClip} />
       )}
     </>
   );

@@ -2,10 +2,10 @@
 
 import { useId } from 'preact/hooks';
 import type { Frame } from '../../../api';
-import { act, arrows, useEditing, zoomKeys } from '../../../stage/editing';
-import { EditorDialog } from '../../../stage/editor';
-import { inside, type Point } from '../../../stage/place';
-import { type Drag, Surface, type Touch } from '../../../stage/surface';
+import { act, arrows, useEditing, zoomKeys } from '../../../picture_editor/editing';
+import { EditorDialog } from '../../../picture_editor/editor_dialog';
+import { inside, type Point } from '../../../picture_editor/geometry';
+import { type Drag, Surface, type Touch } from '../../../picture_editor/surface';
 import { enlarged, frameBetween, movedFrame, rounded } from './boxes';
 import { words as characterWords } from '../words';
 
@@ -22,7 +22,7 @@ interface Props {
   onClose: () => void;
 }
 
-export default function FrameEditor({ url, size, start, onDone, onClose }: Props) {
+export default function BoxEditor({ url, size, start, onDone, onClose }: Props) {
   const { history, advance, state: frame, change, view, setView, zoom } = useEditing(size, start);
   const help = useId();
   const [x, y, width, height] = frame;
@@ -81,7 +81,7 @@ export default function FrameEditor({ url, size, start, onDone, onClose }: Props
           [y, y + height].map((cy) => <path key={`${cx} ${cy}`} class="handle" d={`M${cx} ${cy}h0`} />),
         )}
       </Surface>
-      <p class="unseen" role="status">
+      <p class="visually-hidden" role="status">
         {words.box(told[2], told[3], told[0], told[1])}
       </p>
     </EditorDialog>

@@ -1,7 +1,7 @@
 /** Frames within a picture. */
 
 import type { Frame } from '../../../api';
-import type { Point } from '../../../stage/place';
+import type { Point } from '../../../picture_editor/geometry';
 
 type Size = readonly [width: number, height: number];
 

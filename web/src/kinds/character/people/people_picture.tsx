@@ -1,7 +1,7 @@
 /** The picture with who was found in it: one is chosen by a click, or all of them. */
 
 import type { Frame } from '../../../api';
-import { BoxedPicture, type Shown } from '../../../widgets/boxed_picture';
+import { BoxedPicture, type SizedPicture } from '../../../widgets/boxed_picture';
 import { SkeletonDrawing } from '../joints/skeleton_drawing';
 import { isDetail, type Joints } from '../joints/skeleton';
 import { words as characterWords } from '../words';
@@ -9,7 +9,7 @@ import { words as characterWords } from '../words';
 const words = characterWords.correct;
 
 interface Props {
-  picture: Shown;
+  picture: SizedPicture;
   people: readonly Frame[];
   /** Null where nobody is yet, or a box stands for them. */
   chosen: number | 'all' | null;

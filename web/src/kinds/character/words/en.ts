@@ -273,7 +273,7 @@ const english = {
   painter: {
     maskTitle: 'Paint the mask',
     labelsTitle: 'Paint the body parts',
-    stage: 'Painting on the picture',
+    stage: 'MaskOverlay on the picture',
     tools: 'Brush',
     paints: 'Paints',
     add: 'Add to the person',

@@ -1,10 +1,10 @@
 /** What a revision asks for. */
 
 import type { PortraitChanges, PortraitOptions } from '../types';
-import { type Choices, choicesOf, parts, usual } from '../choices';
+import { type Choices, choicesOf, parts, defaults } from '../choices';
 import type { Format, Size } from '../../../studio/video_fields';
 
-export interface Wishes extends Choices {
+export interface RevisionDraft extends Choices {
   /** The performer's frame that shows what the picture shows; null where it is to be found. */
   neutral: number | null;
   /** Seconds of the performance from which and up to which it is used; null for its own beginning and end. */
@@ -25,7 +25,7 @@ export interface Wishes extends Choices {
 }
 
 /** What a job was made with. */
-export const wishesOf = (made: PortraitOptions): Wishes => ({
+export const draftOf = (made: PortraitOptions): RevisionDraft => ({
   ...choicesOf(made),
   neutral: made.neutral_frame ?? null,
   trim: made.trim ?? [null, null],
@@ -40,25 +40,25 @@ export const wishesOf = (made: PortraitOptions): Wishes => ({
 });
 
 /** Whether the same is seen of the performance, by the same numbers: what makes a frame of it the calm one. */
-export const sameFrames = (one: Wishes, other: Wishes): boolean =>
+export const sameFrames = (one: RevisionDraft, other: RevisionDraft): boolean =>
   one.driverFace === other.driverFace && one.rate === other.rate && one.trim.every((second, index) => second === other.trim[index]);
 
 /** The options of a revision: null where the default is wanted, whatever the job had. */
-export function revisionOptions(wishes: Wishes): PortraitChanges {
+export function revisionOptions(draft: RevisionDraft): PortraitChanges {
   return {
-    strength: wishes.strength === usual.strength ? null : wishes.strength,
-    follow: wishes.follow.length === parts.length ? null : [...wishes.follow],
-    sound: wishes.sound || null,
-    loop: wishes.loop || null,
-    neutral_frame: wishes.neutral,
-    trim: wishes.trim[1] === null ? null : [wishes.trim[0] ?? 0, wishes.trim[1]],
-    driver_face_index: wishes.driverFace || null,
-    head_3d: wishes.solid ? null : false,
-    face_index: wishes.face || null,
-    crop: wishes.crop === 'none' ? null : wishes.crop,
-    size: wishes.size,
-    fps: wishes.rate,
-    format: wishes.format === 'mp4' ? null : wishes.format,
-    landmarks: wishes.landmarks,
+    strength: draft.strength === defaults.strength ? null : draft.strength,
+    follow: draft.follow.length === parts.length ? null : [...draft.follow],
+    sound: draft.sound || null,
+    loop: draft.loop || null,
+    neutral_frame: draft.neutral,
+    trim: draft.trim[1] === null ? null : [draft.trim[0] ?? 0, draft.trim[1]],
+    driver_face_index: draft.driverFace || null,
+    head_3d: draft.solid ? null : false,
+    face_index: draft.face || null,
+    crop: draft.crop === 'none' ? null : draft.crop,
+    size: draft.size,
+    fps: draft.rate,
+    format: draft.format === 'mp4' ? null : draft.format,
+    landmarks: draft.landmarks,
   };
 }

@@ -8,6 +8,7 @@ import type { CorrectionsProps } from '../../../kind/kind';
 import { ChoiceFields } from '../choices';
 import { later } from '../../../widgets/lazy';
 import { SelectField } from '../../../widgets/select';
+import { SubmitRow } from '../../../studio/submit_row';
 import { FormatField, RateField, SizeField } from '../../../studio/video_fields';
 import { randomKey } from '../../../api/idempotency';
 import type { Points } from '../landmarks/scheme';
@@ -18,21 +19,21 @@ import { mayRepeat } from '../../../result/next_step';
 import { AUTO, performanceUrl } from '../drivers';
 import { jobLink } from '../../../route';
 import { strings } from '../../../language/strings';
-import { revisionOptions, sameFrames, type Wishes, wishesOf } from './changes';
+import { revisionOptions, sameFrames, type RevisionDraft, draftOf } from './changes';
 import { NeutralFrame } from './neutral';
 import { DriverFaceField, TrimField } from './performance';
 import { usePicture } from '../../../result/use_picture';
 import { FaceChoice } from './picture';
 import '../../../styles/corrections.css';
 
-const LandmarkEditor = later(() => import('../landmarks/editor'));
+const LandmarkEditor = later(() => import('../landmarks/landmark_editor'));
 const words = strings.redo;
 const crops = ['none', 'bust', 'face'] as const;
 
 export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
   const made = portraitOptions(job);
-  const asMade = useMemo(() => wishesOf(made), [job.id]);
-  const [wishes, setWishes] = useState<Wishes>(asMade);
+  const asMade = useMemo(() => draftOf(made), [job.id]);
+  const [draft, setWishes] = useState<RevisionDraft>(asMade);
   const [editing, setEditing] = useState(false);
   const [sending, setSending] = useState(false);
   const key = useRef(randomKey());
@@ -44,15 +45,15 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
 
   /** Where the editor begins: with what was placed, with what was found for this face, or in this face's box. */
   const before = useMemo<Points | null>(() => {
-    if (wishes.landmarks) return wishes.landmarks;
-    if (wishes.face === (made.face_index ?? 0)) return found?.landmarks ?? null;
-    const box = faces[wishes.face];
+    if (draft.landmarks) return draft.landmarks;
+    if (draft.face === (made.face_index ?? 0)) return found?.landmarks ?? null;
+    const box = faces[draft.face];
     return box ? faceInBox(box) : null;
-  }, [wishes.landmarks, wishes.face, found, report]);
+  }, [draft.landmarks, draft.face, found, report]);
 
-  const again = mayRepeat(job) || JSON.stringify(revisionOptions(wishes)) !== JSON.stringify(revisionOptions(asMade));
+  const again = mayRepeat(job) || JSON.stringify(revisionOptions(draft)) !== JSON.stringify(revisionOptions(asMade));
 
-  const wish = (part: Partial<Wishes>): void => {
+  const wish = (part: Partial<RevisionDraft>): void => {
     key.current = randomKey(); // another wish is another order
     setWishes((known) => {
       const next = { ...known, ...part };
@@ -77,7 +78,7 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
   };
 
   const hint = (): string => {
-    if (wishes.landmarks) return words.landmarksPlaced;
+    if (draft.landmarks) return words.landmarksPlaced;
     if (faces.length > 1) return words.faces(faces.length);
     return mayPlace ? words.placeHint : words.landmarksHint;
   };
@@ -87,7 +88,7 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
       class="corrections"
       onSubmit={(event) => {
         event.preventDefault();
-        void send(revisionOptions(wishes));
+        void send(revisionOptions(draft));
       }}
     >
       <section class="panel" aria-label={words.picture}>
@@ -95,9 +96,9 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
         {picture && (
           <FaceChoice
             picture={picture}
-            faces={wishes.landmarks ? [] : faces}
-            chosen={wishes.face}
-            landmarks={wishes.landmarks ?? (wishes.face === (made.face_index ?? 0) ? (found?.landmarks ?? null) : null)}
+            faces={draft.landmarks ? [] : faces}
+            chosen={draft.face}
+            landmarks={draft.landmarks ?? (draft.face === (made.face_index ?? 0) ? (found?.landmarks ?? null) : null)}
             onChoose={(face) => wish({ face, landmarks: null })}
           />
         )}
@@ -105,10 +106,10 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
         <div class="actions">
           {picture && (
             <button type="button" class={mayPlace ? 'button primary' : 'button'} onClick={() => setEditing(true)}>
-              {mayPlace && !wishes.landmarks ? words.place : words.landmarks}
+              {mayPlace && !draft.landmarks ? words.place : words.landmarks}
             </button>
           )}
-          {wishes.landmarks && (
+          {draft.landmarks && (
             <button type="button" class="button quiet" onClick={() => wish({ landmarks: null })}>
               {words.landmarksBack}
             </button>
@@ -120,10 +121,10 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
       </section>
       <section class="panel" aria-label={words.motion}>
         <h3>{words.motion}</h3>
-        <ChoiceFields value={wishes} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
+        <ChoiceFields value={draft} mayHaveSound={isFileId(job.inputs.driver)} onChange={wish} />
         <div class="field">
           <div class="checks">
-            <Checkbox label={words.solid} checked={wishes.solid} onChange={(solid) => wish({ solid })} />
+            <Checkbox label={words.solid} checked={draft.solid} onChange={(solid) => wish({ solid })} />
           </div>
           <small>{words.solidHint}</small>
         </div>
@@ -131,18 +132,18 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
           <>
             <DriverFaceField
               faces={Math.max(report?.inputs.driver_faces?.length ?? 1, asMade.driverFace + 1)}
-              value={wishes.driverFace}
+              value={draft.driverFace}
               onChange={(driverFace) => wish({ driverFace })}
             />
-            <TrimField value={wishes.trim} onChange={(trim) => wish({ trim })} />
+            <TrimField value={draft.trim} onChange={(trim) => wish({ trim })} />
           </>
         )}
-        {job.inputs.driver && sameFrames(wishes, asMade) && (
+        {job.inputs.driver && sameFrames(draft, asMade) && (
           <NeutralFrame
             video={performanceUrl(job, report?.inputs.driver_chosen)}
             report={made.reactive ? null : report} // a profile's counts the frames of all its states
             start={made.trim?.[0] ?? 0}
-            value={wishes.neutral}
+            value={draft.neutral}
             onChange={(neutral) => wish({ neutral })}
           />
         )}
@@ -151,22 +152,17 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
         <h3>{words.framing}</h3>
         <SelectField
           label={words.crop}
-          value={wishes.crop}
+          value={draft.crop}
           choices={crops}
           nameOf={(crop) => words.crops[crop]}
           onChange={(crop) => wish({ crop })}
         />
-        <SizeField value={wishes.size} own={words.sizeOwn} onChange={(size) => wish({ size })} />
-        <RateField value={wishes.rate} own={words.rateOwn} onChange={(rate) => wish({ rate })} />
-        {!made.reactive && <FormatField value={wishes.format} onChange={(format) => wish({ format })} />}
+        <SizeField value={draft.size} own={words.sizeOwn} onChange={(size) => wish({ size })} />
+        <RateField value={draft.rate} own={words.rateOwn} onChange={(rate) => wish({ rate })} />
+        {!made.reactive && <FormatField value={draft.format} onChange={(format) => wish({ format })} />}
       </section>
       <div class="launch">
-        <button type="submit" class="button primary large" disabled={sending || !again} aria-describedby="unchanged">
-          {words.send}
-        </button>
-        <p id="unchanged" class="hint" aria-live="polite">
-          {again ? '' : words.unchanged}
-        </p>
+        <SubmitRow hint={again ? '' : words.unchanged} disabled={sending || !again} label={words.send} />
       </div>
       {editing && picture && (
         <LandmarkEditor

@@ -2,15 +2,15 @@
 
 import { useId } from 'preact/hooks';
 import { strings } from '../../../language/strings';
-import type { Wishes } from './changes';
+import type { RevisionDraft } from './changes';
 
 const words = strings.redo;
 /** Seconds that a part has, at least. */
 const SHORTEST = 0.1;
 
 interface TrimProps {
-  value: Wishes['trim'];
-  onChange: (trim: Wishes['trim']) => void;
+  value: RevisionDraft['trim'];
+  onChange: (trim: RevisionDraft['trim']) => void;
 }
 
 export function TrimField({ value: [start, end], onChange }: TrimProps) {

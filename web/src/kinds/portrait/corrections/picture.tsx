@@ -1,14 +1,14 @@
 /** The portrait with what was found in it; where it shows several faces, one is chosen by a click. */
 
 import type { PortraitReport } from '../types';
-import { BoxedPicture, type Shown } from '../../../widgets/boxed_picture';
+import { BoxedPicture, type SizedPicture } from '../../../widgets/boxed_picture';
 import { lines, type Points } from '../landmarks/scheme';
 import { strings } from '../../../language/strings';
 
 const words = strings.redo;
 
 interface Props {
-  picture: Shown;
+  picture: SizedPicture;
   faces: PortraitReport['inputs']['faces'];
   chosen: number;
   landmarks: Points | null;

@@ -1,6 +1,6 @@
 /** What a gesture takes hold of: which landmarks, and by how much. */
 
-import { type Point, toSegment } from '../../../stage/place';
+import { type Point, toSegment } from '../../../picture_editor/geometry';
 import { type Feature, lines, membersOf, POINTS, steps } from './scheme';
 
 /** What moves: the whole face, a feature of it, or one of a feature's points. */

@@ -1,6 +1,6 @@
 /** The 68 points of the iBUG scheme, grouped by the features that they outline. */
 
-import type { Point } from '../../../stage/place';
+import type { Point } from '../../../picture_editor/geometry';
 
 export type Points = readonly Point[];
 

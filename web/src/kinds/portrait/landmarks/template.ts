@@ -1,6 +1,6 @@
 /** A face to begin with where none was found. */
 
-import type { Point } from '../../../stage/place';
+import type { Point } from '../../../picture_editor/geometry';
 
 /** The engine's canonical face as seen from the front: the origin between the eyes, the distance of the eyes 1. */
 export const canonical: readonly Point[] = [

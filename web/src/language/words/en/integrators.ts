@@ -43,7 +43,7 @@ export const integrators = {
     revoked: 'Revoked',
     revoke: 'Revoke',
     revokeQuestion: (name: string) => `Revoke “${name}”? Programs that use it will be refused.`,
-    revokeYes: 'Revoke it',
+    revokeConfirm: 'Revoke it',
   },
 
   webhooks: {

@@ -1,5 +1,5 @@
 import { fewer, outline, simplified } from '@web/kinds/character/masks/strokes';
-import { toSegment } from '@web/stage/place';
+import { toSegment } from '@web/picture_editor/geometry';
 import { describe, expect, it } from 'vitest';
 
 describe('a stroke', () => {

@@ -1,7 +1,7 @@
 import { nearestFeature, shares } from '@web/kinds/portrait/landmarks/moving';
 import { facePlaced } from '@web/kinds/portrait/landmarks/template';
-import { boxAround, middle, moved, resized } from '@web/stage/moving';
-import { nearest, type Point } from '@web/stage/place';
+import { boxAround, middle, moved, resized } from '@web/picture_editor/transforms';
+import { nearest, type Point } from '@web/picture_editor/geometry';
 import { describe, expect, it } from 'vitest';
 
 const points = facePlaced(600, 800);

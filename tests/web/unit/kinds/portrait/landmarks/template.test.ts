@@ -1,5 +1,5 @@
 import { faceInBox, facePlaced } from '@web/kinds/portrait/landmarks/template';
-import { boxAround } from '@web/stage/moving';
+import { boxAround } from '@web/picture_editor/transforms';
 import { describe, expect, it } from 'vitest';
 
 describe('the face to begin with', () => {

@@ -2,7 +2,7 @@
 
 import { useReducer, useState } from 'preact/hooks';
 import { begun, type History, step, type Step } from './history';
-import type { Point } from './place';
+import type { Point } from './geometry';
 import { historyKey } from './tools';
 import { type View, whole, zoomed } from './view';
 

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { Dialog } from '../widgets/dialog';
 import type { History, Step } from './history';
 import { HistoryTools, StageFooter, ZoomTools } from './tools';
-import '../styles/stage.css';
+import '../styles/picture_editor.css';
 
 interface Props<State> {
   title: string;
@@ -29,13 +29,13 @@ export function EditorDialog<State>(props: Props<State>) {
   const [stage, said] = children;
   return (
     <Dialog title={title} onClose={props.onClose}>
-      <div class="stage-tools" role="toolbar" aria-label={toolsLabel}>
+      <div class="picture-editor-tools" role="toolbar" aria-label={toolsLabel}>
         {tools}
         <ZoomTools onZoom={onZoom} />
         <HistoryTools history={history} advance={advance} />
       </div>
       {stage}
-      <p class="stage-help" id={help.id}>
+      <p class="picture-editor-help" id={help.id}>
         {help.text} <span class="keys">{help.keys}</span>
       </p>
       {said}

@@ -1,6 +1,6 @@
 /** Which part of the picture is seen. */
 
-import type { Box, Point } from './place';
+import type { Box, Point } from './geometry';
 
 export type View = Box;
 

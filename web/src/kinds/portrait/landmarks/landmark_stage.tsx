@@ -1,12 +1,12 @@
 /** Where the points are dragged: by feature, one by one, or the whole face; with a lens over what moves. */
 
 import { useState } from 'preact/hooks';
-import { Lens } from '../../../stage/lens';
-import { boxAround, middle, moved, resized } from '../../../stage/moving';
-import { grown, inside, nearest, type Point } from '../../../stage/place';
-import { type Drag, Surface, type Touch } from '../../../stage/surface';
-import type { View } from '../../../stage/view';
-import { Drawing } from './drawing';
+import { Magnifier } from '../../../picture_editor/magnifier';
+import { boxAround, middle, moved, resized } from '../../../picture_editor/transforms';
+import { grown, inside, nearest, type Point } from '../../../picture_editor/geometry';
+import { type Drag, Surface, type Touch } from '../../../picture_editor/surface';
+import type { View } from '../../../picture_editor/view';
+import { LandmarkDrawing } from './landmark_drawing';
 import { nearestFeature, type Selection, shares } from './moving';
 import { lineOf, type Points } from './scheme';
 
@@ -29,7 +29,7 @@ interface Props {
   onKey: (event: KeyboardEvent) => void;
 }
 
-export function Stage(props: Props) {
+export function LandmarkStage(props: Props) {
   const { url, size, points, selection, soft, view } = props;
   const [width, height] = size;
   const [scale, setScale] = useState(1);
@@ -82,7 +82,7 @@ export function Stage(props: Props) {
     };
   };
 
-  const drawing = <Drawing url={url} width={width} height={height} points={points} share={share} chosen={chosen} />;
+  const drawing = <LandmarkDrawing url={url} width={width} height={height} points={points} share={share} chosen={chosen} />;
   const watched = chosen === null ? null : points[chosen];
   return (
     <Surface
@@ -98,9 +98,9 @@ export function Stage(props: Props) {
       over={
         hand &&
         watched && (
-          <Lens at={watched} scale={scale} hand={hand}>
+          <Magnifier at={watched} scale={scale} hand={hand}>
             {drawing}
-          </Lens>
+          </Magnifier>
         )
       }
     >

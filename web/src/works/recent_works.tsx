@@ -1,14 +1,14 @@
 /** The latest works, each with its poster. */
 
-import { everything, useWorks } from './works';
+import { allWorks, useWorks } from './works';
 import { historyLink } from '../route';
 import { strings } from '../language/strings';
 import { Entry } from './entry';
 
 const MAX_RECENT = 6;
 
-export function Recent() {
-  const { jobs, more } = useWorks(MAX_RECENT, everything);
+export function RecentWorks() {
+  const { jobs, more } = useWorks(MAX_RECENT, allWorks);
   if (!jobs) return null;
   return (
     <section class="recent" aria-labelledby="recent-title">

@@ -1,6 +1,6 @@
 /** What a gesture does to points, each of which has a share in it, 0 to 1. */
 
-import { type Box, boxOf, type Point } from './place';
+import { type Box, boxOf, type Point } from './geometry';
 
 export const moved = (points: readonly Point[], share: readonly number[], dx: number, dy: number): Point[] =>
   points.map(([x, y], index) => [x + dx * (share[index] ?? 0), y + dy * (share[index] ?? 0)]);

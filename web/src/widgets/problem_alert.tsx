@@ -10,10 +10,10 @@ interface Props {
   children?: ComponentChildren;
 }
 
-export function Trouble({ code, detail, children }: Props) {
+export function ProblemAlert({ code, detail, children }: Props) {
   const { all } = useKinds();
   return (
-    <div class="trouble" role="alert">
+    <div class="problem" role="alert">
       <strong>{failureTitle(all, code)}</strong>
       <p>{failureRemedy(code, detail)}</p>
       {children && <div class="actions">{children}</div>}

@@ -1,7 +1,7 @@
 /** A picture taken with the camera: of one's face, or of somebody whole. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { Trouble } from '../widgets/trouble';
+import { ProblemAlert } from '../widgets/problem_alert';
 import { Dialog } from '../widgets/dialog';
 import { strings } from '../language/strings';
 import { useCamera } from './stream';
@@ -19,7 +19,7 @@ interface Props {
   onClose: () => void;
 }
 
-export default function PictureCamera({ of, onFile, onClose }: Props) {
+export default function PictureCapture({ of, onFile, onClose }: Props) {
   const { stream, trouble, retry } = useCamera(WANTED[of], false);
   const video = useRef<HTMLVideoElement>(null);
   const [ready, setReady] = useState(false);
@@ -31,13 +31,13 @@ export default function PictureCamera({ of, onFile, onClose }: Props) {
     if (file) setTaken({ file, url: URL.createObjectURL(file) });
   };
   return (
-    <Dialog title={words.pictureTitle} class="snug camera" onClose={onClose}>
+    <Dialog title={words.pictureTitle} class="compact camera" onClose={onClose}>
       {trouble ? (
-        <Trouble code={trouble} detail="">
+        <ProblemAlert code={trouble} detail="">
           <button type="button" class="button" onClick={retry}>
             {strings.retry}
           </button>
-        </Trouble>
+        </ProblemAlert>
       ) : (
         <div class="view">
           <Viewfinder stream={stream} video={video} guide={!taken && of === 'face'} onReady={() => setReady(true)} />

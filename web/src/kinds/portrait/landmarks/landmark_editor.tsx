@@ -1,15 +1,15 @@
 /** The landmarks of a picture, to be put right by hand: a window of its own over the page. */
 
 import { useId, useMemo, useState } from 'preact/hooks';
-import { act, arrows, useEditing } from '../../../stage/editing';
-import { EditorDialog } from '../../../stage/editor';
-import { boxAround, middle, moved, resized } from '../../../stage/moving';
-import { Tool } from '../../../stage/tools';
-import { around } from '../../../stage/view';
+import { act, arrows, useEditing } from '../../../picture_editor/editing';
+import { EditorDialog } from '../../../picture_editor/editor_dialog';
+import { boxAround, middle, moved, resized } from '../../../picture_editor/transforms';
+import { Tool } from '../../../picture_editor/tools';
+import { around } from '../../../picture_editor/view';
 import { strings } from '../../../language/strings';
 import { type Selection, shares } from './moving';
 import { type Feature, features, membersOf, type Points } from './scheme';
-import { Stage } from './stage';
+import { LandmarkStage } from './landmark_stage';
 import { facePlaced } from './template';
 
 const words = strings.landmarks;
@@ -128,7 +128,7 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
       onClose={onClose}
       onDone={() => onDone(points)}
     >
-      <Stage
+      <LandmarkStage
         url={url}
         size={size}
         points={points}
@@ -143,7 +143,7 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
         onPoints={(changed) => advance({ type: 'change', state: changed })}
         onKey={key}
       />
-      <p class="unseen" role="status">
+      <p class="visually-hidden" role="status">
         {said}
       </p>
     </EditorDialog>

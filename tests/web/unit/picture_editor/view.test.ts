@@ -1,5 +1,5 @@
-import type { Point } from '@web/stage/place';
-import { around, whole, zoomed } from '@web/stage/view';
+import type { Point } from '@web/picture_editor/geometry';
+import { around, whole, zoomed } from '@web/picture_editor/view';
 import { describe, expect, it } from 'vitest';
 
 const close = (a: readonly Point[], b: readonly Point[]): void =>

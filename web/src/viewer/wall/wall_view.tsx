@@ -14,7 +14,7 @@ import { ContactShadow } from '../scene/shadow';
 import type { Stage } from '../scene/stage';
 import type { StagedCharacter } from '../scene/staging';
 import { StepOut } from './step_out';
-import { Tool } from '../../stage/tools';
+import { Tool } from '../../picture_editor/tools';
 import type { PictureView } from '../artifacts/picture_view';
 import { VisitorCamera } from './visitor_camera';
 
@@ -33,7 +33,7 @@ interface Props {
   tools: ComponentChildren;
 }
 
-export function Wall({ stage, cast, view, dark, tools }: Props) {
+export function WallView({ stage, cast, view, dark, tools }: Props) {
   const hanging = useMemo(() => hang(view.camera), [view]);
   const stepOut = useRef<StepOut | null>(null);
   const takeOff = useRef<(() => void) | null>(null);
@@ -112,13 +112,12 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
 
   return (
     <>
-      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
-        {tools}
-        <Tool label={words.reset} onUse={() => visitor.current?.comeBack()} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
-      </div>
       <div class="controls">
         <PlayButton playing={playing} onPlay={() => act((steps) => steps.set(!playing))} />
-        <button type="button" class="button" onClick={() => {
+        <button
+          type="button"
+          class="button"
+          onClick={() => {
             act((steps) => steps.restart(false));
             setOut(false);
           }}
@@ -130,6 +129,10 @@ export function Wall({ stage, cast, view, dark, tools }: Props) {
             {words.headset}
           </button>
         )}
+      </div>
+      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
+        {tools}
+        <Tool label={words.reset} onUse={() => visitor.current?.comeBack()} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
       </div>
       {refused && <p role="alert">{words.headsetFailed}</p>}
       <p class="viewer-help">{out ? words.wallOut : words.wallHelp}</p>

@@ -1,6 +1,6 @@
 /** The picture with the points and their lines over it, in the picture's own pixels. */
 
-import type { Point } from '../../../stage/place';
+import type { Point } from '../../../picture_editor/geometry';
 import { lines } from './scheme';
 
 interface Props {
@@ -14,7 +14,7 @@ interface Props {
   chosen: number | null;
 }
 
-export function Drawing({ url, width, height, points, share, chosen }: Props) {
+export function LandmarkDrawing({ url, width, height, points, share, chosen }: Props) {
   return (
     <>
       <image href={url} x="-0.5" y="-0.5" width={width} height={height} preserveAspectRatio="none" />

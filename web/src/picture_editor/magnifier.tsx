@@ -1,7 +1,7 @@
 /** Shows a place of the picture from near while it is covered by a hand; it stands where the hand is not. */
 
 import type { ComponentChildren } from 'preact';
-import type { Point } from './place';
+import type { Point } from './geometry';
 
 /** How much nearer the lens shows what the stage shows, and its width on the screen. */
 const NEARER = 2.5;
@@ -16,11 +16,11 @@ interface Props {
   children: ComponentChildren;
 }
 
-export function Lens({ at: [x, y], scale, hand, children }: Props) {
+export function Magnifier({ at: [x, y], scale, hand, children }: Props) {
   const width = PIXELS / scale / NEARER;
   return (
     <svg
-      class={`lens ${hand === 'left' ? 'right' : 'left'}`}
+      class={`magnifier ${hand === 'left' ? 'right' : 'left'}`}
       viewBox={`${x - width / 2} ${y - width / 2} ${width} ${width}`}
       aria-hidden="true"
     >

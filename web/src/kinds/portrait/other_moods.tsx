@@ -11,7 +11,7 @@ import { pictureName } from '../../works/names';
 import { jobLink } from '../../route';
 import { strings } from '../../language/strings';
 import { labelOf } from './performance_card';
-import { Trouble } from '../../widgets/trouble';
+import { ProblemAlert } from '../../widgets/problem_alert';
 
 /** What belongs to the picture and the video, and so goes along; the rest is of the performance. */
 const KEPT = ['size', 'fps', 'format', 'face_index', 'strength', 'follow', 'head_3d', 'crop', 'loop', 'landmarks'] as const;
@@ -49,7 +49,7 @@ export function Moods({ job }: { job: Job }) {
           </button>
         ))}
       </div>
-      {problem && <Trouble code={problem.code} detail={problem.detail} />}
+      {problem && <ProblemAlert code={problem.code} detail={problem.detail} />}
     </section>
   );
 }

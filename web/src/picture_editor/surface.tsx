@@ -2,7 +2,7 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
-import type { Point } from './place';
+import type { Point } from './geometry';
 import { kept, panned, type View, whole, zoomed } from './view';
 
 /** How near, in pixels of the screen, a finger or pointer has to come. */
@@ -143,7 +143,7 @@ export function Surface(props: Props) {
 
   return (
     <div
-      class={`stage ${props.class ?? ''}`}
+      class={`picture-editor ${props.class ?? ''}`}
       role="application"
       tabIndex={0}
       aria-label={props.label}

@@ -2,8 +2,8 @@
 
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { begun, type History, type Step, step } from '../../stage/history';
-import { HistoryTools, historyKey, Tool } from '../../stage/tools';
+import { begun, type History, type Step, step } from '../../picture_editor/history';
+import { HistoryTools, historyKey, Tool } from '../../picture_editor/tools';
 import { strings } from '../../language/strings';
 import { turnable } from './handles';
 import { resetView } from '../orbit/orbit_view';
@@ -31,7 +31,7 @@ interface Props {
   onPose: (pose: Record<string, Degrees>) => void;
 }
 
-export function Posing({ stage, cast, people, start, tools, onPose }: Props) {
+export function PosingView({ stage, cast, people, start, tools, onPose }: Props) {
   const [{ character }] = cast;
   const [history, setHistory] = useState<History<Pose>>(() => begun(start));
   const [bone, setBone] = useState('Head');
@@ -79,12 +79,7 @@ export function Posing({ stage, cast, people, start, tools, onPose }: Props) {
 
   return (
     <>
-      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
-        <HistoryTools history={history} advance={advance} />
-        {tools}
-        <Tool label={words.reset} onUse={() => resetView(stage, cast)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
-      </div>
-      <fieldset class="viewer-turns">
+      <fieldset class="viewer-rotations">
         <label class="inline">
           <span>{words.bone}</span>
           <select value={bone} onChange={({ currentTarget: { value } }) => setBone(value)}>
@@ -111,6 +106,11 @@ export function Posing({ stage, cast, people, start, tools, onPose }: Props) {
           </label>
         ))}
       </fieldset>
+      <div class="viewer-tools" role="toolbar" aria-label={words.tools}>
+        <HistoryTools history={history} advance={advance} />
+        {tools}
+        <Tool label={words.reset} onUse={() => resetView(stage, cast)} icon="M4 12 12 5l8 7M7 10v9h10v-9" />
+      </div>
       <p class="viewer-help">
         {words.poseHelp} {people > 1 && <strong>{words.poseForAll(people)}</strong>}
       </p>

@@ -1,6 +1,6 @@
 import type { Points } from '@web/kinds/portrait/landmarks/scheme';
 import { canonical, facePlaced } from '@web/kinds/portrait/landmarks/template';
-import { begun, canRedo, canUndo, type History, step } from '@web/stage/history';
+import { begun, canRedo, canUndo, type History, step } from '@web/picture_editor/history';
 import { describe, expect, it } from 'vitest';
 
 const points = facePlaced(600, 800);
