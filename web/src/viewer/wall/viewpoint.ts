@@ -10,6 +10,8 @@ const ALL_FILLS = 0.94;
 /** Metres: more than people are tall, and than they are wide. */
 const PERSON_HEIGHT = 1.9;
 const PERSON_WIDTH = PERSON_HEIGHT / 2;
+/** Metres from the middle of somebody who walks to the foot that is ahead. */
+const STRIDE = 0.4;
 
 /** What a camera sees: degrees from top to bottom, and its width by its height. */
 export interface Lens {
@@ -31,9 +33,10 @@ export function pictureView(hanging: Hanging, lens: Lens): Viewpoint {
 
 /** As near as it goes with all of the picture in sight, its frame among it, and everybody who stands before it at these places. */
 export function roomView(hanging: Hanging, people: readonly Vector3[], lens: Lens): Viewpoint {
-  const bodies = people.flatMap(({ x, z }) =>
-    [-1, 1].flatMap((side) => [0, PERSON_HEIGHT].map((y) => new Vector3(x + (side * PERSON_WIDTH) / 2, y, z))),
-  );
+  const bodies = people.flatMap(({ x, z }) => {
+    const sides = [x - PERSON_WIDTH / 2, x + PERSON_WIDTH / 2];
+    return sides.flatMap((side) => [new Vector3(side, 0, z + STRIDE), new Vector3(side, PERSON_HEIGHT, z)]);
+  });
   const from = nearest([...corners(hanging, FRAME_WIDTH), ...bodies], lens, ALL_FILLS);
   return { from, at: from.clone().setZ(Math.max(hanging.plane, ...people.map(({ z }) => z))) };
 }

@@ -6,6 +6,9 @@ import type { Performer, Stage } from '../scene/stage';
 import type { StepOut } from './step_out';
 import { pictureView, roomView } from './viewpoint';
 
+/** Share of their way at which the visitor has stepped back: before them, or their feet would leave the view. */
+const STEPPED_BACK = 0.5;
+
 export class VisitorCamera implements Performer {
   private readonly stop = new AbortController();
   private led = true;
@@ -29,7 +32,7 @@ export class VisitorCamera implements Performer {
     this.way = way;
     const { camera } = this.stage;
     const [first, last] = [pictureView(this.hanging, camera), roomView(this.hanging, this.stepOut.ends, camera)];
-    const share = MathUtils.smoothstep(way, 0, 0.8);
+    const share = MathUtils.smoothstep(way, 0, STEPPED_BACK);
     this.stage.look(first.from.lerp(last.from, share), first.at.lerp(last.at, share));
     return false;
   }

@@ -25,7 +25,8 @@ describe.each(Object.entries(hangings))('before %s', (_what, hanging) => {
     [bottom - FRAME_WIDTH, top + FRAME_WIDTH].map((y) => new Vector3(x, y, plane)),
   );
   const people = [new Vector3(0.2, 0, 1.4), new Vector3(-0.5, 0, 1.1)];
-  const bodies = people.flatMap(({ x, z }) => [0, 1.8].map((y) => new Vector3(x, y, z)));
+  // from head to the foot that is ahead
+  const bodies = people.flatMap(({ x, z }) => [new Vector3(x, 1.8, z), new Vector3(x, 0, z + 0.35)]);
 
   it.each([2.85, 1.9, 1.3, 0.6])('all of it is seen, and in the end those who came out of it: %d as wide as high', (aspect) => {
     const lens = { fov: FOV, aspect };
