@@ -50,7 +50,7 @@ export function ConfirmButton({ label, about, question, confirmLabel, onConfirm 
         {confirmLabel}
       </button>
       <button type="button" class="button" ref={cancel} onClick={() => setAsking(false)}>
-        {strings.keep}
+        {strings.cancel}
       </button>
     </div>
   );

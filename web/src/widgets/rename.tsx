@@ -98,7 +98,7 @@ export function Rename({ name, label, longest, onRename, children }: Props) {
           {words.save}
         </button>
         <button type="button" class="button small" onClick={leave}>
-          {strings.keep}
+          {strings.cancel}
         </button>
       </div>
       {problem && (

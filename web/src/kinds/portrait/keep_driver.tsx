@@ -25,7 +25,7 @@ interface Props {
 
 const words = strings.studio;
 
-export function Keep({ file, taken, disabled, onKeeping, onKept }: Props) {
+export function KeepDriver({ file, taken, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
   const { pauseControl, paused, pause } = usePausing();
   const [problem, setProblem] = useState<Problem | null>(null);

@@ -19,7 +19,7 @@ const KEPT = ['size', 'fps', 'format', 'face_index', 'strength', 'follow', 'head
 export const carriedOver = (options: PortraitOptions): PortraitOptions =>
   Object.fromEntries(KEPT.filter((name) => name in options).map((name) => [name, options[name]]));
 
-export function Moods({ job }: { job: Job }) {
+export function OtherMoods({ job }: { job: Job }) {
   const drivers = useLoaded(listDrivers, 'drivers').value ?? [];
   const kind = useKind(job.kind);
   const { doing, problem, attempt } = useDoing();

@@ -9,7 +9,7 @@ import { plain, strings } from '../../language/strings';
 import { Capture } from '../../studio/capture';
 import { Card, shownOf, SymbolCard, symbols } from './performance_card';
 import { Dropzone } from '../../widgets/dropzone';
-import { Keep } from './keep_driver';
+import { KeepDriver } from './keep_driver';
 import { KeptList } from '../../studio/kept_list';
 
 interface Props {
@@ -122,7 +122,7 @@ export function Performances({ drivers, chosen, onChoose, refused, onRefused, se
         onRefused={onRefused}
       />
       {chosen?.by === 'file' && (
-        <Keep
+        <KeepDriver
           file={chosen.file}
           taken={drivers.map((driver) => driver.name)}
           disabled={sending}

@@ -9,7 +9,7 @@ import { performanceUrl } from './drivers';
 import { strings } from '../../language/strings';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { ReactivePlayer } from './reactive_player';
-import { Moods } from './other_moods';
+import { OtherMoods } from './other_moods';
 import { Player } from '../../result/player';
 
 const words = strings.job;
@@ -44,7 +44,7 @@ export default function PortraitResult({ job }: ResultProps) {
           </a>
         )}
       </ResultActions>
-      {!profile && <Moods job={job} />}
+      {!profile && <OtherMoods job={job} />}
       <Warnings report={report.value} />
       <ElapsedTime job={job} />
     </div>

@@ -40,7 +40,7 @@ const english = {
 
   retry: 'Try again',
   close: 'Close',
-  keep: 'Cancel',
+  cancel: 'Cancel',
   copy: 'Copy',
   copied: 'Copied',
   reveal: 'Show',
