@@ -40,16 +40,17 @@ export function useSending() {
     pause(false);
     setStep({ step: 'ordering' });
     void keepPending(next);
+    // it is forgotten before the page says how it went: a page that is left then offers nothing to go on with
     send(next, kinds.of(next.kind), setStep, pauseControl, signal).then(
-      (job) => {
+      async (job) => {
+        await forgetPending();
         setStep(null);
-        void forgetPending();
         if (!signal.aborted) location.hash = jobLink(job.id);
       },
-      (error: unknown) => {
-        setStep(null);
+      async (error: unknown) => {
         const problem = asProblem(error);
-        if (signal.reason === GIVEN_UP || isRefusal(problem)) void forgetPending();
+        if (signal.reason === GIVEN_UP || isRefusal(problem)) await forgetPending();
+        setStep(null);
         if (!signal.aborted) setProblem(problem);
       },
     );
