@@ -4,7 +4,7 @@ import { defineConfig } from 'vitest/config';
 // The tests stand in ../tests/web; what they import by name is installed here.
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 const installed = (name: string): [string, string] => [name, here(`node_modules/${name}`)];
-const alias = { ...Object.fromEntries(['playwright-core', 'standardwebhooks', 'three', 'vite'].map(installed)), '@web': here('src') };
+const alias = { ...Object.fromEntries(['playwright-core', 'standardwebhooks', 'three', 'typescript', 'vite'].map(installed)), '@web': here('src') };
 const root = here('../tests/web');
 
 export default defineConfig({

@@ -3,7 +3,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { launch } from './browser';
 import { address } from './own_service';
-import { open } from './page';
+import { nothingToResume, open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -37,7 +37,7 @@ describe('help', () => {
   it.each(['', '#/character', '#/history', '#/keys', '#/webhooks', '#/nonsense'])('is at hand on the page %s', async (hash) => {
     const page = await open(browser, hash);
     const links = page.getByRole('navigation', { name: 'About Galatea' }).getByRole('link');
-    expect(await links.allInnerTexts()).toEqual(['Help', 'API reference', 'OpenAPI', 'Responsible use', 'Licences']);
+    await expect.poll(() => links.allInnerTexts()).toEqual(['Help', 'API reference', 'OpenAPI', 'Responsible use', 'Licences']);
   });
 
   it('is of no reference for programs where somebody was sent a link', async () => {
@@ -54,8 +54,9 @@ describe('help', () => {
     const heading = page.getByRole('heading', { level: 1, name: 'Using the page' });
     await heading.waitFor();
     const topics = page.getByRole('navigation', { name: 'Help' });
-    expect(await topics.getByRole('link').first().innerText()).toBe('Using the page');
-    expect((await topics.boundingBox())!.y).toBeGreaterThan((await heading.boundingBox())!.y);
+    await expect.poll(() => topics.getByRole('link').first().innerText()).toBe('Using the page');
+    const below = async (): Promise<number> => (await topics.boundingBox())!.y - (await heading.boundingBox())!.y;
+    await expect.poll(below).toBeGreaterThan(0);
     await page.getByRole('link', { name: 'Back to the page' }).click();
     await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
   });
@@ -87,8 +88,7 @@ describe('an upload that the service refuses', () => {
     await page.getByRole('button', { name: 'Bring it to life' }).click();
     await page.getByText('Send a JPEG.').waitFor();
     await page.reload();
-    await page.getByRole('radio', { name: 'Happy', exact: true, checked: true }).waitFor({ state: 'attached' });
-    expect(await page.getByRole('button', { name: 'Resume upload' }).count()).toBe(0);
+    await nothingToResume(page);
     expectComplaint(answered(415));
   });
 });

@@ -26,7 +26,8 @@ export async function readable(page: Page): Promise<void> {
         found.set(`${id} at ${width} ${colorScheme}`, nodes.map((node) => `${node.html} ${node.any[0]?.message ?? ''}`));
       }
     }
-    expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), `${width}`).toBeLessThanOrEqual(0);
+    const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    await expect.poll(overflow, { message: `pixels beyond ${width}` }).toBeLessThanOrEqual(0);
   }
   expect(Object.fromEntries(found)).toEqual({});
 }

@@ -57,12 +57,12 @@ describe('the camera', () => {
     await page.getByRole('button', { name: 'Take the picture' }).click();
     await page.getByRole('button', { name: 'Use this picture' }).click();
     await page.getByLabel('Portrait: My picture.jpg. Choose another').waitFor();
-    expect(await page.evaluate(() => document.activeElement?.textContent)).toContain('Take a picture');
+    await expect.poll(() => page.evaluate(() => document.activeElement?.textContent)).toContain('Take a picture');
 
     await page.getByRole('button', { name: 'Record yourself' }).click();
     await page.getByRole('button', { name: 'Record', exact: true }).click();
     await page.getByText('Recording.', { exact: true }).waitFor();
-    await page.getByText('0:02 / 3:00').waitFor();
+    await page.getByText(/^0:(0[2-9]|[1-5]\d) \/ 3:00$/).waitFor();
     await page.getByRole('button', { name: 'Stop recording' }).click();
     await page.getByLabel('Your recording').waitFor();
     await page.getByRole('button', { name: 'Use this recording' }).click();
@@ -86,7 +86,7 @@ describe('the camera', () => {
     await page.getByRole('button', { name: 'Take a picture' }).click();
     const alert = page.getByRole('alert');
     await alert.waitFor();
-    expect(await alert.innerText()).toMatch(/Connect a camera|Allow this page/);
+    await expect.poll(() => alert.innerText()).toMatch(/Connect a camera|Allow this page/);
     await page.keyboard.press('Escape');
     await alert.waitFor({ state: 'detached' });
   });

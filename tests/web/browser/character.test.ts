@@ -6,6 +6,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint, unanswered } from './complaints';
 import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { inPython, samplePeople, samplePerson } from './media';
 import { address, finished } from './own_service';
 import { ask, jobOf, open, orderCharacter } from './page';
@@ -99,9 +100,9 @@ describe('ordering a character', () => {
     const making = page.getByRole('navigation', { name: 'What to make' });
     await making.getByRole('link', { name: 'Character' }).click();
     await page.getByRole('heading', { name: 'Let a person walk out of their picture' }).waitFor();
-    expect(new URL(page.url()).hash).toBe('#/character');
-    expect(await page.getByRole('radio').count()).toBe(8);
-    expect(await start(page).isDisabled()).toBe(true);
+    await page.waitForURL((url) => url.hash === '#/character');
+    await expect.poll(() => page.getByRole('radio').count()).toBe(8);
+    await expect.poll(() => start(page).isDisabled()).toBe(true);
     await making.getByRole('link', { name: 'Portrait' }).click();
     await page.getByRole('heading', { name: 'Bring a portrait to life' }).waitFor();
   });
@@ -152,7 +153,7 @@ describe('ordering a character', () => {
     await expect.poll(() => video.evaluate((film: HTMLVideoElement) => Math.max(film.videoWidth, film.videoHeight))).toBe(512);
 
     for (const [label, choice] of choices) {
-      expect(await page.getByLabel(label).locator('option:checked').textContent()).toBe(choice);
+      await expect.poll(() => page.getByLabel(label).locator('option:checked').textContent()).toBe(choice);
     }
     await page.getByLabel('Frames per second').selectOption('50');
     await page.getByLabel('File format').selectOption('MP4');
@@ -191,8 +192,7 @@ describe('ordering a character', () => {
       data.items.add(new File(['HIERARCHY\n'], 'cartwheel.bvh'));
       document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
     });
-    await page.getByLabel('Motion: cartwheel.bvh. Choose another').waitFor({ state: 'attached' });
-    expect(await page.locator('input[type=radio]:checked').count()).toBe(0);
+    await lacks(page.locator('input[type=radio]:checked'), page.getByLabel('Motion: cartwheel.bvh. Choose another'));
   });
 
   it('goes on after the page was loaded anew, on the page of portraits too', async () => {
@@ -241,7 +241,7 @@ describe('a finished character', () => {
       ]);
       expect(download.suggestedFilename()).toBe(file);
     }
-    expect(await page.getByRole('link', { name: 'VRM' }).count()).toBe(0); // it was not asked for
+    await lacks(page.getByRole('link', { name: 'VRM' }), page.getByRole('link', { name: 'USDZ for iPhone' })); // it was not asked for
     await page.getByText('Share', { exact: true }).click();
     await page.getByRole('button', { name: 'Create link' }).click();
     const link = await page.getByRole('textbox', { name: 'Link' }).inputValue();
@@ -261,11 +261,11 @@ describe('a finished character', () => {
     const page = await openStill(browser, '#/character', { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     await page.getByText('Options').click();
-    expect(await overflow()).toBeLessThanOrEqual(0);
+    await expect.poll(() => overflow()).toBeLessThanOrEqual(0);
     await page.goto(`${address}/#/jobs/${done}`);
     await page.getByText('Edit and make again').click();
     await page.getByRole('button', { name: 'Paint the mask' }).waitFor();
-    expect(await overflow()).toBeLessThanOrEqual(0);
+    await expect.poll(() => overflow()).toBeLessThanOrEqual(0);
   });
 });
 
@@ -280,7 +280,7 @@ describe('corrections of a character', () => {
 
   it('move a joint by a drag and another by the keyboard, change the motion, and make it again', async () => {
     const page = await corrections();
-    expect(await again(page).isDisabled()).toBe(true); // nothing is changed yet
+    await expect.poll(() => again(page).isDisabled()).toBe(true); // nothing is changed yet
     const before = await skeleton(done);
     const [x, y] = before.LeftWrist!.place;
     await page.getByRole('button', { name: 'Move the joints' }).click();
@@ -381,24 +381,23 @@ describe('corrections of a character', () => {
     await touch('touchStart', b, c);
     await touch('touchMove', a, d);
     await touch('touchEnd');
-    expect(await width()).toBeLessThan(before);
+    await expect.poll(() => width()).toBeLessThan(before);
     const near = await view();
-    expect(await undo.isDisabled()).toBe(true);
+    await expect.poll(() => undo.isDisabled()).toBe(true);
     await touch('touchStart', a);
     await touch('touchMove', b);
     await touch('touchEnd');
     await expect.poll(() => undo.isEnabled()).toBe(true);
-    expect(await view()).toBe(near);
+    await expect.poll(() => view()).toBe(near);
   });
 
   it('choose somebody else by a click, or everybody; who was chosen before a box is again after it', async () => {
     const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, size: [240, 320], joints: { LeftElbow: [300, 270] } });
     const page = await corrections(id);
     await page.getByText('2 people were found.').waitFor();
-    const other = page.getByRole('button', { name: 'Person 2 of 2' });
-    await other.click();
-    expect(await other.getAttribute('aria-pressed')).toBe('true');
-    expect(await page.getByRole('button', { name: 'Paint the mask' }).count()).toBe(0); // that is another's outline
+    await page.getByRole('button', { name: 'Person 2 of 2' }).click();
+    const chosenNow = page.getByRole('button', { name: 'Person 2 of 2', pressed: true });
+    await lacks(page.getByRole('button', { name: 'Paint the mask' }), chosenNow); // that is another's outline
     const request = await revised(page);
     // what was put right of the one is not the other's
     expect(request.postDataJSON()).toEqual({ corrections: { person_index: 1, joints: null }, options: {} });
@@ -406,7 +405,8 @@ describe('corrections of a character', () => {
 
     const everybody = await corrections(id);
     await everybody.getByRole('button', { name: 'Everyone' }).click();
-    expect(await everybody.getByRole('button', { name: /joints/ }).count()).toBe(0); // joints are somebody's
+    const all = everybody.getByRole('button', { name: 'Everyone', pressed: true });
+    await lacks(everybody.getByRole('button', { name: /joints/ }), all); // joints are somebody's
     const together = await revised(everybody);
     expect(together.postDataJSON().corrections).toEqual({ person_index: 'all', joints: null });
     await accepted(together);
@@ -416,10 +416,9 @@ describe('corrections of a character', () => {
     await boxed.getByRole('button', { name: 'Person 2 of 2' }).click();
     await boxed.getByRole('button', { name: 'Select the person' }).click();
     await use(boxed).click();
-    await boxed.getByText('The person was selected by hand.').waitFor();
-    expect(await chosen.count()).toBe(0);
+    await lacks(chosen, boxed.getByText('The person was selected by hand.'));
     await boxed.getByRole('button', { name: 'Search the whole picture' }).click();
-    expect(await chosen.getAttribute('aria-label')).toBe('Person 2 of 2');
+    await expect.poll(() => chosen.getAttribute('aria-label')).toBe('Person 2 of 2');
   });
 
   it('frame the person', async () => {
@@ -444,13 +443,13 @@ describe('corrections of a character', () => {
     const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('No person was found', { exact: true }).waitFor({ timeout: LONG });
     await page.getByText('Correct and try again').click();
-    expect(await page.getByRole('button', { name: 'Make it again' }).isDisabled()).toBe(true); // the same would fail again
+    await expect.poll(() => page.getByRole('button', { name: 'Make it again' }).isDisabled()).toBe(true); // the same would fail again
     await page.getByRole('img', { name: 'The uploaded picture' }).last().waitFor();
     await page.getByRole('button', { name: 'Place the joints by hand' }).click();
     await stage(page).focus();
     for (const key of ['ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
     await page.getByLabel('Whole skeleton').uncheck();
-    expect(await stage(page).getByRole('button').count()).toBe(12);
+    await expect.poll(() => stage(page).getByRole('button').count()).toBe(12);
     await use(page).click();
     await page.getByText('12 joints are placed by hand.').waitFor();
     const sent = await revision(page);

@@ -8,6 +8,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { inPython, media, samplePerson } from './media';
 import { address } from './own_service';
 import { ask } from './page';
@@ -91,12 +92,12 @@ describe('the joints of a motion', () => {
   it('of a file are looked into before anything is ordered; what is as found is not sent', async () => {
     const before = await checks();
     const page = await openStill(browser, '#/character');
-    expect(await table(page).count()).toBe(0); // our own clips know their joints
+    await lacks(table(page), page.getByRole('radio', { name: 'Walk', exact: true })); // our own clips know their joints
     await page.getByLabel(/Drop a picture/).setInputFiles(person);
     await page.getByLabel(/Drop a BVH/).setInputFiles(swing);
     await table(page).click();
     await mover(page, 'Left upper arm').waitFor({ timeout: LONG });
-    expect(await mover(page, 'Left upper arm').inputValue()).toBe('LeftArm');
+    await expect.poll(() => mover(page, 'Left upper arm').inputValue()).toBe('LeftArm');
     await expect.poll(checks, { timeout: LONG }).toBe(before); // the look leaves nothing behind
     await mover(page, 'Left upper arm').selectOption('LeftForeArm');
     await mover(page, 'Neck').selectOption('None');
@@ -138,7 +139,7 @@ describe('the joints of a motion', () => {
     await table(page).click();
     const animation = page.getByRole('combobox', { name: 'Animation', exact: true });
     await animation.waitFor({ timeout: LONG });
-    expect(await animation.locator('option').allInnerTexts()).toEqual(['First animated one', 'Idle', 'Run', 'TPose', 'Walk']);
+    await expect.poll(() => animation.locator('option').allInnerTexts()).toEqual(['First animated one', 'Idle', 'Run', 'TPose', 'Walk']);
     await animation.selectOption('Run');
     const [request] = await Promise.all([
       page.waitForRequest(isOrder),
@@ -154,9 +155,9 @@ describe('the joints of a motion', () => {
     const page = await openStill(browser, `#/jobs/${id}`);
     await page.getByText('The motion is not of a person', { exact: true }).waitFor({ timeout: LONG });
     await wanting(page).filter({ hasText: 'Left thigh' }).waitFor();
-    expect(await mover(page, 'Hips').inputValue()).toBe('Hips');
+    await expect.poll(() => mover(page, 'Hips').inputValue()).toBe('Hips');
     await mover(page, 'Left thigh').selectOption('Tail');
-    expect(await wanting(page).innerText()).not.toContain('Left thigh');
+    await expect.poll(() => wanting(page).innerText()).not.toContain('Left thigh');
     const request = await revised(page);
     expect(request.postDataJSON().corrections).toEqual({ motion_joints: { LeftUpLeg: 'Tail' } });
     await accepted(request);

@@ -8,6 +8,7 @@ import { complaints } from './complaints';
 import { accepted, revised } from './character_kit';
 import { launch } from './browser';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { faceless, inPython, portrait } from './media';
 import { ask, jobOf, open, order, played } from './page';
 
@@ -70,11 +71,12 @@ describe('corrections by hand', () => {
     await page.getByText('2 faces were found.').waitFor();
     const other = page.getByRole('button', { name: 'Face 2 of 2' });
     await other.click();
-    expect(await other.getAttribute('aria-pressed')).toBe('true');
+    await expect.poll(() => other.getAttribute('aria-pressed')).toBe('true');
     await page.getByRole('button', { name: 'Make it again' }).click();
     await page.waitForURL((url) => !url.hash.endsWith(done));
     await played(page);
-    expect(Math.min(...xs((await landmarks(jobOf(page))).landmarks))).toBeGreaterThan(border);
+    const id = jobOf(page);
+    expect(Math.min(...xs((await landmarks(id)).landmarks))).toBeGreaterThan(border);
   });
 
   it('use a part of the performance, whose calm frame is then found by itself, and make another kind of video', async () => {
@@ -89,12 +91,12 @@ describe('corrections by hand', () => {
     await calm.waitFor({ state: 'detached' });
     await page.getByRole('button', { name: 'Make it again' }).click();
     const to = page.getByRole('spinbutton', { name: 'To' });
-    expect(await to.evaluate((input: HTMLInputElement) => input.validity.valueMissing)).toBe(true);
+    await expect.poll(() => to.evaluate((input: HTMLInputElement) => input.validity.valueMissing)).toBe(true);
     await to.fill('1.25');
     await page.keyboard.press('Tab');
     await page.getByLabel('Frames per second').selectOption('25');
     await page.getByLabel('File format').selectOption('WebM');
-    expect(await page.getByLabel('Face in the video').count()).toBe(0); // it shows one face alone
+    await lacks(page.getByLabel('Face in the video'), page.getByLabel('File format')); // it shows one face alone
     const request = await revised(page);
     const { options } = request.postDataJSON();
     expect(Object.fromEntries(Object.entries(options).filter(([, value]) => value !== null))).toEqual({
@@ -160,7 +162,7 @@ describe('corrections by hand', () => {
     await page.getByText('Correct and try again').click({ timeout: LONG });
     const again = page.getByRole('button', { name: 'Make it again' });
     await again.waitFor();
-    expect(await again.isDisabled()).toBe(true); // the same would fail again
+    await expect.poll(() => again.isDisabled()).toBe(true); // the same would fail again
     await page.getByRole('button', { name: 'Place the face by hand' }).click();
     await stage(page).focus();
     for (const key of ['+', '+', 'ArrowUp', ']', '[']) await page.keyboard.press(key);

@@ -2,6 +2,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { launch } from './browser';
+import { lacks } from './lacks';
 import { portrait } from './media';
 import { address } from './own_service';
 import { open, played } from './page';
@@ -32,10 +33,10 @@ describe('whoever comes for the first time', () => {
       addEventListener('click', (event) => event.detail > 0 && counted.clicks++, true);
     });
     await page.getByRole('radio', { name: 'Happy', exact: true, checked: true }).waitFor({ state: 'attached' });
-    for (const one of [hopper(page), start(page)]) expect(await inSight(one)).toBe(true);
+    for (const one of [hopper(page), start(page)]) await expect.poll(() => inSight(one)).toBe(true);
     await hopper(page).click();
     await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
-    expect(await page.evaluate(() => scrollY)).toBe(0);
+    await expect.poll(() => page.evaluate(() => scrollY)).toBe(0);
     await start(page).click();
     await played(page);
     const clicks = await page.evaluate(() => (window as unknown as { clicks: number }).clicks);
@@ -56,7 +57,7 @@ describe('whoever comes for the first time', () => {
     const page = await open(browser, '', { reducedMotion: 'reduce' });
     await page.getByRole('radio', { name: 'Happy', exact: true }).waitFor({ state: 'attached' });
     await page.waitForFunction(() => (document.querySelector('video')?.readyState ?? 0) > 1);
-    expect(await page.evaluate(() => document.querySelector('video')?.paused)).toBe(true);
+    await expect.poll(() => page.evaluate(() => document.querySelector('video')?.paused)).toBe(true);
     await page.getByRole('button', { name: 'Play' }).click();
     await moving(page);
   });
@@ -69,7 +70,7 @@ describe('whoever comes for the first time', () => {
     const before = [...(await places()), await height()];
     await hopper(page).click();
     await page.getByLabel('Portrait: Grace Hopper.jpg. Choose another').waitFor({ state: 'attached' });
-    expect([...(await places()), await height()]).toEqual(before);
+    await expect.poll(async () => [...(await places()), await height()]).toEqual(before);
   });
 });
 
@@ -85,8 +86,8 @@ describe('a file that cannot be taken', () => {
       await page.getByLabel(/grace_hopper.jpg. Choose another/).setInputFiles(notes);
       await refusal.waitFor();
       await expect.poll(() => inSight(refusal)).toBe(true);
-      expect(await page.getByLabel(/grace_hopper.jpg/).count()).toBe(0);
-      expect(await launch.isDisabled()).toBe(true);
+      await lacks(page.getByLabel(/grace_hopper.jpg/), refusal);
+      await expect.poll(() => launch.isDisabled()).toBe(true);
       await page.locator('.samples button').first().click();
       await refusal.waitFor({ state: 'detached' });
       await page.waitForFunction(() => document.querySelector<HTMLButtonElement>('.launch [type=submit]')?.disabled === false);
@@ -98,7 +99,7 @@ describe('a file that cannot be taken', () => {
       });
       await refusal.waitFor();
       await expect.poll(() => inSight(refusal)).toBe(true);
-      expect(await launch.isDisabled()).toBe(true);
+      await expect.poll(() => launch.isDisabled()).toBe(true);
       await page.close();
     }
   });
@@ -109,7 +110,7 @@ describe('a file that cannot be taken', () => {
     await page.getByText('Grace hopper · Happy').waitFor();
     await page.getByLabel(/Drop a video/).setInputFiles(notes);
     await page.getByRole('alert').filter({ hasText: 'This is not a video.' }).waitFor();
-    expect(await start(page).isDisabled()).toBe(true);
+    await expect.poll(() => start(page).isDisabled()).toBe(true);
     await page.locator('form').getByText('Happy', { exact: true }).click();
     await page.getByText('Grace hopper · Happy').waitFor();
     await page.getByRole('link', { name: 'Character', exact: true }).click();
@@ -117,7 +118,7 @@ describe('a file that cannot be taken', () => {
     await page.getByText('Grace hopper · Walk').waitFor();
     await page.getByLabel(/Drop a BVH/).setInputFiles(notes);
     await page.getByRole('alert').filter({ hasText: 'This is not a motion file.' }).waitFor();
-    expect(await page.locator('.launch [type=submit]').isDisabled()).toBe(true);
+    await expect.poll(() => page.locator('.launch [type=submit]').isDisabled()).toBe(true);
     await page.locator('form').getByText('Walk', { exact: true }).click();
     await page.getByText('Grace hopper · Walk').waitFor();
   });
@@ -134,13 +135,14 @@ describe('a file that cannot be taken', () => {
     await wrongVideo.waitFor();
     await page.getByLabel(/Drop a picture/).setInputFiles(portrait);
     await wrongVideo.waitFor();
-    expect([await happy.isChecked(), await start(page).isDisabled()]).toEqual([false, true]);
+    await expect.poll(() => happy.isChecked()).toBe(false);
+    await expect.poll(() => start(page).isDisabled()).toBe(true);
 
     await page.getByRole('link', { name: 'Character', exact: true }).click();
     await page.getByRole('heading', { name: 'Portrait' }).waitFor({ state: 'detached' });
     await page.getByRole('link', { name: 'Portrait', exact: true }).click();
     await wrongVideo.waitFor();
-    expect(await happy.isChecked()).toBe(false);
+    await expect.poll(() => happy.isChecked()).toBe(false);
   });
 });
 
@@ -154,7 +156,7 @@ describe('what was chosen', () => {
     await page.getByRole('link', { name: 'Keys', exact: true }).click();
     await page.getByRole('link', { name: 'Galatea' }).click();
     await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
-    expect(await page.getByRole('radio', { name: 'Surprise' }).isChecked()).toBe(true);
+    await expect.poll(() => page.getByRole('radio', { name: 'Surprise' }).isChecked()).toBe(true);
     await page.getByRole('link', { name: 'Character', exact: true }).click();
     await page.getByLabel('Picture: grace_hopper.jpg. Choose another').waitFor({ state: 'attached' });
   });

@@ -61,7 +61,7 @@ describe('a kind without a folder of its own', () => {
     await titled(page, 'Tiny').waitFor();
     await page.getByText('Measures a picture.').waitFor();
     const start = page.getByRole('button', { name: 'Start' });
-    expect(await start.isDisabled()).toBe(true);
+    await expect.poll(() => start.isDisabled()).toBe(true);
     await page.getByText('Choose first: Image.').waitFor();
     await chooseImage(page);
     await page.getByRole('region', { name: 'Driver' }).getByLabel('Or by name').selectOption({ label: 'Happy' });
@@ -78,7 +78,7 @@ describe('a kind without a folder of its own', () => {
     expect(job.inputs).toMatchObject({ driver: 'happy' });
     const film = page.locator('.result video');
     await film.waitFor({ state: 'attached' });
-    expect(await film.getAttribute('src')).toMatch(/animation\.mp4/);
+    await expect.poll(() => film.getAttribute('src')).toMatch(/animation\.mp4/);
     await page.locator('.result').getByRole('link', { name: 'animation.mp4' }).waitFor();
 
     await page.getByRole('button', { name: 'Share', exact: true }).click();
@@ -91,8 +91,8 @@ describe('a kind without a folder of its own', () => {
     const guest = await opened(new URL(link).hash);
     await titled(guest, 'A result: Tiny').waitFor();
     await guest.locator('article video').first().waitFor({ state: 'attached' });
-    expect(await guest.locator('article video').count()).toBe(1); // its animation, and that once
-    expect(await guest.getByRole('article').getByRole('link').allTextContents()).toEqual(['animation.mp4', 'preview.jpg']);
+    await expect.poll(() => guest.locator('article video').count()).toBe(1); // its animation, and that once
+    await expect.poll(() => guest.getByRole('article').getByRole('link').allTextContents()).toEqual(['animation.mp4', 'preview.jpg']);
   });
 });
 
@@ -128,7 +128,7 @@ export default (props: StudioProps) => <><p>Toys are made here.</p><GenericStudi
     const page = await opened('#/toy', join(copy, 'web/dist'));
     await titled(page, 'A toy').waitFor();
     await page.getByText('Toys are made here.').waitFor();
-    expect(await makers(page).allTextContents()).toEqual(['A toy']);
+    await expect.poll(() => makers(page).allTextContents()).toEqual(['A toy']);
     await chooseImage(page);
     await page.getByRole('button', { name: 'Start' }).click();
     await page.getByRole('status').getByText('Done', { exact: true }).waitFor({ state: 'attached', timeout: LONG });

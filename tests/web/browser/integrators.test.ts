@@ -6,6 +6,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { launch } from './browser';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { address, finished } from './own_service';
 import { open } from './page';
 
@@ -48,8 +49,7 @@ describe('keys', () => {
     const token = await page.getByLabel('Key', { exact: true }).inputValue();
     expect(await (await service('/v1/key', token)).json()).toMatchObject({ name: 'Picture shop', scopes: ['read', 'submit'] });
     await page.reload();
-    await page.getByText('Picture shop', { exact: true }).waitFor();
-    expect(await page.getByText(token).count()).toBe(0);
+    await lacks(page.getByText(token), page.getByText('Picture shop', { exact: true }));
     await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
     await page.getByRole('button', { name: 'Cancel' }).click();
     await page.getByRole('button', { name: 'Revoke: Picture shop' }).click();
@@ -86,7 +86,7 @@ describe('webhooks', () => {
     await added.getByRole('button', { name: 'Signing secret', exact: true }).click();
     await added.getByRole('button', { name: 'Rotate secret' }).click();
     await added.getByText('The previous secret stays valid until').waitFor();
-    expect((await added.getByRole('textbox', { name: 'Signing secret', exact: true }).inputValue()) === secret).toBe(false);
+    await expect.poll(() => added.getByRole('textbox', { name: 'Signing secret', exact: true }).inputValue()).not.toBe(secret);
   });
 
   it('refuse addresses of the network, in plain words', async () => {
@@ -109,13 +109,14 @@ describe('a link', () => {
     await other.goto(link);
     await other.getByRole('heading', { name: 'A portrait brought to life' }).waitFor();
     await other.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
-    expect(await other.getByLabel('The portrait, acting out').evaluate((video: HTMLVideoElement) => video.muted)).toBe(true);
+    const film = other.getByLabel('The portrait, acting out');
+    await expect.poll(() => film.evaluate((video: HTMLVideoElement) => video.muted)).toBe(true);
     const still = await browser.newPage({ reducedMotion: 'reduce' });
     await still.goto(link);
     await still.getByRole('region', { name: 'Result' }).getByRole('button', { name: 'Play' }).waitFor();
     await still.waitForFunction(() => (document.querySelector('video')?.readyState ?? 0) > 1);
-    expect(await still.locator('video').evaluate((video: HTMLVideoElement) => video.paused)).toBe(true);
-    expect(await other.getByRole('banner').getByRole('navigation').count()).toBe(0);
+    await expect.poll(() => still.locator('video').evaluate((video: HTMLVideoElement) => video.paused)).toBe(true);
+    await lacks(other.getByRole('banner').getByRole('navigation'), other.getByRole('banner'));
     await page.getByRole('button', { name: 'Revoke' }).click();
     await page.getByRole('button', { name: 'Revoke' }).waitFor({ state: 'detached' });
     await other.reload();

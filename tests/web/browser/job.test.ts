@@ -3,6 +3,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint, unanswered } from './complaints';
 import { launch } from './browser';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { faceless } from './media';
 import { address, finished } from './own_service';
 import { ask, open, openRunning, order } from './page';
@@ -23,23 +24,24 @@ describe('a job that succeeds', () => {
     const page = await openRunning(browser);
     await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: LONG });
     await page.getByRole('img', { name: 'A first frame of the result' }).waitFor();
-    expect(await page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
-    await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
-    expect(await page.getByRole('progressbar').count()).toBe(0);
+    await expect.poll(() => page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
+    const result = page.getByRole('region', { name: 'Result and performance' });
+    await result.waitFor({ timeout: LONG });
+    await lacks(page.getByRole('progressbar'), result);
     await page.getByText('Done', { exact: true }).first().waitFor();
   });
 
   it('plays both in step', async () => {
     const page = await open(browser, `#/jobs/${done}`, { reducedMotion: 'reduce' });
     await loaded(page);
-    expect(await times(page)).toEqual([0, 0]); // reduced motion: nothing moves by itself
+    await expect.poll(() => times(page)).toEqual([0, 0]); // reduced motion: nothing moves by itself
     await page.getByRole('button', { name: 'Play' }).click();
     await page.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 1);
     await page.getByRole('button', { name: 'Pause' }).click();
     await inStep(page);
     await page.getByLabel('Position').fill('0.4');
     await inStep(page);
-    expect((await times(page))[0]).toBeCloseTo(0.4, 1);
+    await expect.poll(async () => (await times(page))[0]).toBeCloseTo(0.4, 1);
   });
 
   it('gives the video and all files', async () => {
@@ -71,10 +73,10 @@ describe('a job that succeeds', () => {
     const page = await open(browser, `#/jobs/${done}`, { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
     await loaded(page);
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-    expect(await overflow()).toBeLessThanOrEqual(0);
+    await expect.poll(() => overflow()).toBeLessThanOrEqual(0);
     await page.getByRole('link', { name: 'Make another' }).click();
     await page.getByRole('radio').first().waitFor({ state: 'attached' });
-    expect(await overflow()).toBeLessThanOrEqual(0);
+    await expect.poll(() => overflow()).toBeLessThanOrEqual(0);
   });
 
   it.each([390, 1280])('has one row of what can be done, which stays where it is whatever opens, %i pixels wide', async (width) => {
@@ -94,7 +96,7 @@ describe('a job that succeeds', () => {
     await page.getByRole('button', { name: 'Create link' }).waitFor();
     const copy = page.getByRole('button', { name: /^Copy: / }).first();
     await copy.waitFor();
-    expect(await places()).toEqual(before);
+    await expect.poll(() => places()).toEqual(before);
 
     const [inner, around, code] = [copy, page.locator('.snippet').first(), page.locator('.snippet pre').first()].map((one) => one.boundingBox());
     const [button, snippet, text] = [(await inner)!, (await around)!, (await code)!];
@@ -134,16 +136,17 @@ describe('a job that does not', () => {
     const alert = page.getByRole('alert');
     await alert.getByText('No face was found', { exact: true }).waitFor({ timeout: LONG });
     const job = (await (await fetch(`${address}/v1/jobs/${id}`)).json()) as { error: { detail: string } };
-    expect(await alert.innerText()).toContain(job.error.detail);
+    await expect.poll(() => alert.innerText()).toContain(job.error.detail);
     await alert.getByRole('link', { name: 'Choose another picture' }).waitFor();
-    expect(await page.getByRole('button', { name: 'Make it again' }).count()).toBe(0); // until it is asked for
+    const closed = page.getByText('Correct and try again');
+    await lacks(page.getByRole('button', { name: 'Make it again' }), closed); // until it is asked for
     await page.getByRole('link', { name: 'Make another' }).waitFor();
   });
 
   it('is canceled at a click', async () => {
     const page = await openRunning(browser);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await page.getByText('This job was canceled before it was done').waitFor({ timeout: 10_000 });
+    await page.getByText('This job was canceled before it was done').waitFor({ timeout: LONG });
   });
 
   it('is deleted only after a question', async () => {
@@ -183,7 +186,7 @@ describe('a job on its way', () => {
     const before = await names();
     await page.reload();
     await stages.first().waitFor();
-    expect((await names()).slice(0, before.length)).toEqual(before);
+    await expect.poll(async () => (await names()).slice(0, before.length)).toEqual(before);
   });
 });
 
@@ -193,7 +196,7 @@ describe('a broken line', () => {
     await page.getByRole('button', { name: 'Cancel' }).waitFor();
     await page.context().setOffline(true);
     await page.evaluate(() => dispatchEvent(new Event('offline')));
-    await page.getByText('Connection lost').waitFor({ timeout: 60_000 });
+    await page.getByText('Connection lost').waitFor();
     await page.context().setOffline(false);
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     expectComplaint(unanswered);

@@ -24,7 +24,7 @@ it('comes without a performance, and shows what is asked for', async () => {
   await happy.click();
   await page.getByRole('button', { name: 'Happy', pressed: true }).waitFor();
   const bundle = page.getByRole('link', { name: /Download for a web page/ });
-  expect(await bundle.getAttribute('href')).toMatch(/profile\.zip$/);
+  await expect.poll(() => bundle.getAttribute('href')).toMatch(/profile\.zip$/);
   expect(complaints.splice(0)).toEqual([]);
 });
 

@@ -3,9 +3,10 @@ import { afterAll, afterEach, beforeAll, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { launch } from './browser';
 import { LONG } from './jobs';
+import { lacks } from './lacks';
 import { inPython, portrait } from './media';
 import { address } from './own_service';
-import { ask, open } from './page';
+import { ask, jobOf, open } from './page';
 
 let browser: Browser;
 beforeAll(async () => {
@@ -26,19 +27,19 @@ it('keeps a video, finds the emotions in it, and has one of them acted out', { t
   await page.getByRole('button', { name: 'Save it and find the emotions in it' }).click();
   const whole = page.getByRole('radio', { name: 'Surprise 2', exact: true }); // “surprise” is a built-in one's name
   await whole.waitFor();
-  expect(await whole.isChecked()).toBe(true);
+  await expect.poll(() => whole.isChecked()).toBe(true);
   const moment = page.getByRole('radio', { name: /^Surprise(, strong)?, \d\.\d s$/ });
   await moment.waitFor({ timeout: LONG });
-  expect(await page.getByText('Looking for emotions').count()).toBe(0);
+  await lacks(page.getByText('Looking for emotions'), moment);
   await page.locator('label').filter({ has: moment }).click();
-  expect(await moment.isChecked()).toBe(true);
+  await expect.poll(() => moment.isChecked()).toBe(true);
   const shown = page.locator('label').filter({ has: moment }).locator('img');
-  expect(await shown.evaluate((picture: HTMLImageElement) => picture.naturalWidth)).toBe(256);
+  await expect.poll(() => shown.evaluate((picture: HTMLImageElement) => picture.naturalWidth)).toBe(256);
 
   await page.getByRole('button', { name: 'Bring it to life' }).click();
   await page.waitForURL(/#\/jobs\//);
   const job = await ask<{ inputs: { driver: string }; options: { trim: number[] } }>(
-    `/v1/jobs/${page.url().split('/').at(-1)}`,
+    `/v1/jobs/${jobOf(page)}`,
   );
   const driver = await ask<{ moments: { name: string; start: number; end: number }[] }>('/v1/drivers/surprise-2');
   const found = driver.moments[0];
@@ -46,6 +47,5 @@ it('keeps a video, finds the emotions in it, and has one of them acted out', { t
 
   // The search is no entry among what was made.
   await page.goto(`${address}/#/history`);
-  await page.getByText('Grace hopper').first().waitFor();
-  expect(await page.getByText('Moments').count()).toBe(0);
+  await lacks(page.getByText('Moments'), page.locator('.work').getByText('Grace hopper'));
 });

@@ -1,7 +1,9 @@
 /** What the browser tests share: the page of the file's own service, open in a browser, and jobs that were ordered over the API. */
 
 import type { Browser, Page } from 'playwright-core';
+import { expect } from 'vitest';
 import { watch } from './complaints';
+import { lacks } from './lacks';
 import { LONG, orderCharacter as character, orderPortrait as portraitOf } from './jobs';
 import { lengthyPerformance, portrait } from './media';
 import { address } from './own_service';
@@ -30,6 +32,32 @@ export async function open(
 
 /** Asks the service as any other client would; JSON. */
 export const ask = async <T,>(path: string): Promise<T> => (await (await fetch(address + path)).json()) as T;
+
+/**
+ * Holds that the page offers no upload of before to go on with. It asks the browser whether one is kept, which takes a
+ * while, and shows nothing where none is: so it is what the browser keeps that is looked at, after the page has asked.
+ */
+export async function nothingToResume(page: Page): Promise<void> {
+  await page.getByRole('radio').first().waitFor({ state: 'attached' });
+  const kept = () =>
+    page.evaluate(
+      () =>
+        new Promise<number>((done, fail) => {
+          const opening = indexedDB.open('galatea');
+          opening.onerror = () => fail(opening.error);
+          opening.onsuccess = () => {
+            const counting = opening.result.transaction('orders').objectStore('orders').count();
+            counting.onerror = () => fail(counting.error);
+            counting.onsuccess = () => {
+              opening.result.close();
+              done(counting.result);
+            };
+          };
+        }),
+    );
+  await expect.poll(kept, { message: 'orders that the browser keeps' }).toBe(0);
+  await lacks(page.getByRole('button', { name: 'Resume upload' }), page.getByRole('radio'));
+}
 
 /** A job's id, from the address of its page. */
 export const jobOf = (page: Page): string => page.url().split('/').at(-1) ?? '';

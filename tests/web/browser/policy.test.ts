@@ -70,7 +70,7 @@ describe('what is not allowed', () => {
       document.body.append(script);
     });
     await expect.poll(() => complaints.some((text) => text.startsWith('not allowed: script-src'))).toBe(true);
-    expect(await page.evaluate(() => 'foreign' in window)).toBe(false);
+    await expect.poll(() => page.evaluate(() => 'foreign' in window)).toBe(false);
   });
 
   it('is to show the page in a frame', async () => {

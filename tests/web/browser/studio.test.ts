@@ -2,6 +2,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';
 import { launch } from './browser';
+import { lacks } from './lacks';
 import { portrait } from './media';
 import { address } from './own_service';
 import { open } from './page';
@@ -35,19 +36,19 @@ describe('choosing', () => {
     await performance(page, 'Anger').click();
     await page.getByRole('radio', { name: 'Strong', exact: true }).check();
     const anger = page.getByRole('radio', { name: 'Anger', exact: true });
-    expect(await anger.isChecked()).toBe(true);
-    expect(await anger.getAttribute('value')).toBe('anger-strong');
+    await expect.poll(() => anger.isChecked()).toBe(true);
+    await expect.poll(() => anger.getAttribute('value')).toBe('anger-strong');
   });
 
   it('says what is missing until nothing is', async () => {
     const page = await open(browser);
-    expect(await start(page).isDisabled()).toBe(true);
+    await expect.poll(() => start(page).isDisabled()).toBe(true);
     await page.getByText('Choose a portrait to begin.').waitFor();
     await portraitInput(page).setInputFiles(portrait);
     await page.getByText('Grace hopper · Happy').waitFor(); // a mood is chosen beforehand
     await performance(page, 'Fear').click();
     await page.getByText('Grace hopper · Fear').waitFor();
-    expect(await start(page).isEnabled()).toBe(true);
+    await expect.poll(() => start(page).isEnabled()).toBe(true);
   });
 
   it.each([390, 1280])('lays nothing over anything else at %i pixels, wherever it is scrolled to', async (width) => {
@@ -58,17 +59,20 @@ describe('choosing', () => {
       await page.evaluate((share) => scrollTo(0, share * document.documentElement.scrollHeight), share);
       // but for the bar with the button, which is always in sight
       const bar = share === 1 ? ', .launch' : '';
-      const places = await page.locator(`.studio > header, .studio .panel${bar}`).evaluateAll((parts) =>
-        parts.map((part) => part.getBoundingClientRect()).map(({ left, top, right, bottom }) => ({ left, top, right, bottom })),
-      );
-      expect(places.length).toBe(share === 1 ? 4 : 3);
-      for (const [k, one] of places.entries()) {
-        for (const other of places.slice(k + 1)) {
-          const across = Math.min(one.right, other.right) - Math.max(one.left, other.left);
-          const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
-          expect(Math.min(across, down)).toBeLessThanOrEqual(0);
-        }
-      }
+      const parts = page.locator(`.studio > header, .studio .panel${bar}`);
+      await expect.poll(() => parts.count()).toBe(share === 1 ? 4 : 3);
+      const laid = () =>
+        parts.evaluateAll((all) => {
+          const places = all.map((part) => part.getBoundingClientRect());
+          return places.flatMap((one, k) =>
+            places.slice(k + 1).map((other) => {
+              const across = Math.min(one.right, other.right) - Math.max(one.left, other.left);
+              const down = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
+              return Math.min(across, down);
+            }),
+          );
+        });
+      await expect.poll(async () => Math.max(...(await laid())), { message: 'pixels that one lies over another' }).toBeLessThanOrEqual(0);
     }
   });
 
@@ -78,29 +82,29 @@ describe('choosing', () => {
     page.on('filechooser', (chooser) => void chooser.setFiles(portrait));
     await page.getByRole('radio', { name: 'Idle', exact: true }).waitFor();
     await page.keyboard.press('Tab');
-    expect(await focused(page)).toBe('Skip to the content');
+    await expect.poll(() => focused(page)).toBe('Skip to the content');
     await page.keyboard.press('Enter');
     for (const place of ['Portrait', 'Character']) {
       await page.keyboard.press('Tab');
-      expect(await focused(page)).toBe(place);
+      await expect.poll(() => focused(page)).toBe(place);
     }
     for (const place of ['Pause', 'Grace Hopper', 'Eileen Collins', 'A man, painted', 'A man, rendered']) {
       await page.keyboard.press('Tab');
-      expect(await named(page)).toContain(place);
+      await expect.poll(() => named(page)).toContain(place);
     }
     await page.keyboard.press('Tab');
     await page.keyboard.press('Space');
     await page.getByLabel('Portrait: grace_hopper.jpg. Choose another').waitFor();
     await page.keyboard.press('Tab');
-    expect(await focused(page)).toBe('Take a picture');
+    await expect.poll(() => focused(page)).toBe('Take a picture');
     await page.keyboard.press('Tab');
     await page.keyboard.press('ArrowRight');
-    expect(await page.getByRole('radio', { name: 'Strong', checked: true }).count()).toBe(1);
+    await expect.poll(() => page.getByRole('radio', { name: 'Strong', checked: true }).count()).toBe(1);
     await page.keyboard.press('Tab');
     await page.keyboard.press('ArrowLeft'); // from the one that is chosen beforehand
-    expect(await page.getByRole('radio', { name: 'Idle', exact: true, checked: true }).count()).toBe(1);
+    await expect.poll(() => page.getByRole('radio', { name: 'Idle', exact: true, checked: true }).count()).toBe(1);
     await start(page).focus();
-    expect(await start(page).isEnabled()).toBe(true);
+    await expect.poll(() => start(page).isEnabled()).toBe(true);
   });
 
   it('finds the place of a file that is dropped anywhere', async () => {
@@ -126,7 +130,7 @@ describe('choosing', () => {
     await page.getByText('Options').click();
     await page.getByLabel('Strength').fill('0.5');
     await page.getByLabel('Head').uncheck();
-    expect(await page.getByLabel('Keep the sound').count()).toBe(0); // built-in performances are silent
+    await lacks(page.getByLabel('Keep the sound'), page.getByLabel('Strength')); // built-in performances are silent
     const [request] = await Promise.all([
       page.waitForRequest((r) => r.url().endsWith('/v1/jobs') && r.method() === 'POST'),
       start(page).click(),

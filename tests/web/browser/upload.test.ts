@@ -5,7 +5,7 @@ import { join, resolve } from 'node:path';
 import type { Browser, CDPSession, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it, vi } from 'vitest';
 import type { Upload } from '../../../web/node_modules/tus-js-client';
-import { launch } from './browser';
+import { launch, PATIENCE } from './browser';
 import { address } from './own_service';
 import { open } from './page';
 
@@ -165,7 +165,7 @@ describe('a resumable upload', () => {
     await untilSent(page, BYTES * 0.4);
     // Chromium sends the whole piece once more, which is refused with 409; then the client asks where to go on.
     cable.cut();
-    await vi.waitFor(() => expect(resumedAt(requests)).toHaveLength(2), 60_000);
+    await vi.waitFor(() => expect(resumedAt(requests)).toHaveLength(2), PATIENCE);
     await page.evaluate(() => {
       window.sent = 0;
     });
@@ -200,7 +200,7 @@ describe('a resumable upload', () => {
     await arrived(page);
     expect(requests.filter((request) => request === 'POST')).toHaveLength(1);
     expect(resumedAt(requests)[0]).toBeGreaterThan(0);
-    expect(await page.evaluate(() => window.upload.findPreviousUploads())).toEqual([]);
+    await expect.poll(() => page.evaluate(() => window.upload.findPreviousUploads())).toEqual([]);
   });
 
   it('learns why a file is refused', async () => {

@@ -4,6 +4,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint } from './complaints';
 import { launch } from './browser';
+import { lacks } from './lacks';
 import { address } from './own_service';
 import { open } from './page';
 import { aViewer, drawings, mode, ready } from './viewer_kit';
@@ -22,34 +23,33 @@ afterEach(async () => {
   expect(complaints.splice(0)).toEqual([]);
 });
 
-const pressed = (page: Page, name: string) => mode(page, name).getAttribute('aria-pressed');
+const pressed = (page: Page, name: string) => page.getByRole('button', { name, exact: true, pressed: true });
 const film = (page: Page) => page.getByRole('region', { name: 'Result' });
 
 describe('the page of a character', () => {
   it('opens on the wall, where it plays by itself; the video is one click away', async () => {
     const page = await open(deep, `#/jobs/${job()}`);
-    await page.getByRole('button', { name: 'Pause' }).waitFor({ timeout: 60_000 });
-    expect(await pressed(page, 'On the wall')).toBe('true');
-    expect(await film(page).count()).toBe(0);
-    const others = await page.getByRole('group', { name: 'What to do' }).getByRole('button').allTextContents();
-    expect(others).toEqual(['On the wall', 'Look around', 'Change the pose', 'Video']);
+    await page.getByRole('button', { name: 'Pause' }).waitFor();
+    await lacks(film(page), pressed(page, 'On the wall'));
+    const others = page.getByRole('group', { name: 'What to do' }).getByRole('button');
+    await expect.poll(() => others.allTextContents()).toEqual(['On the wall', 'Look around', 'Change the pose', 'Video']);
 
     await mode(page, 'Video').click();
     await page.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
-    expect(await page.locator('canvas').isVisible()).toBe(false);
+    await page.locator('canvas').waitFor({ state: 'hidden' });
     await mode(page, 'On the wall').click();
+    await lacks(film(page), pressed(page, 'On the wall'));
     await page.getByRole('button', { name: 'Pause' }).waitFor();
-    expect(await film(page).count()).toBe(0);
-    expect(await page.locator('canvas').isVisible()).toBe(true);
+    await page.locator('canvas').waitFor();
   });
 
   it('stands still for who wants it so, until it is played', async () => {
     const page = await open(deep, `#/jobs/${job()}`, { reducedMotion: 'reduce' }, countDrawings);
     await ready(page);
-    expect(await pressed(page, 'On the wall')).toBe('true');
+    await pressed(page, 'On the wall').waitFor();
     const before = await drawings(page);
     await page.getByRole('button', { name: 'Play' }).click();
-    await page.waitForFunction((so) => (window as unknown as { drawn: number }).drawn > so, before);
+    await page.waitForFunction((so) => window.drawn > so, before);
   });
 
   it('is shown so on the phone of whoever was sent a link, under its title', async () => {
@@ -66,24 +66,23 @@ describe('the page of a character', () => {
 
     const phone = await open(deep, link.hash, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
     await phone.getByRole('heading', { name: 'Out for a walk' }).waitFor();
-    await phone.getByRole('button', { name: 'Pause' }).waitFor({ timeout: 60_000 });
-    expect(await pressed(phone, 'On the wall')).toBe('true');
-    expect(await mode(phone, 'Change the pose').count()).toBe(0);
+    await phone.getByRole('button', { name: 'Pause' }).waitFor();
+    await lacks(mode(phone, 'Change the pose'), pressed(phone, 'On the wall'));
     for (const name of ['Download 3D character', 'USDZ for iPhone', 'Download video']) {
       await phone.getByRole('link', { name }).waitFor();
     }
     await mode(phone, 'Video').click();
     await phone.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
     await phone.getByRole('button', { name: 'View in your space' }).click();
-    await phone.waitForFunction(() => document.querySelector('model-viewer')?.loaded, undefined, { timeout: 90_000 });
+    await phone.waitForFunction(() => document.querySelector('model-viewer')?.loaded);
   });
 
   it('shows the video at once where there is no 3D', async () => {
     const page = await open(flat, `#/jobs/${job()}`);
-    await page.getByText('This browser shows no 3D').waitFor({ timeout: 60_000 });
+    await page.getByText('This browser shows no 3D').waitFor();
     await page.waitForFunction(() => (document.querySelector('video')?.currentTime ?? 0) > 0.2);
-    expect(await pressed(page, 'Video')).toBe('true');
-    expect(await mode(page, 'On the wall').isDisabled()).toBe(true);
+    await pressed(page, 'Video').waitFor();
+    await expect.poll(() => mode(page, 'On the wall').isDisabled()).toBe(true);
     expectComplaint(/WebGL/);
   });
 });

@@ -66,15 +66,22 @@ export function aViewer(of: 'one' | keyof typeof ORDERS = 'one') {
   return { open, countDrawings, job: () => job, picture: () => readFileSync(picture) };
 }
 
-/** In the page: how often the graphics are asked to draw. */
+declare global {
+  interface Window {
+    /** How often the graphics were asked to draw. */
+    drawn: number;
+  }
+}
+
+/** In the page: counts how often the graphics are asked to draw. */
 function countDrawings(): void {
   const kind = WebGL2RenderingContext?.prototype;
-  Object.assign(window, { drawn: 0 });
+  window.drawn = 0;
   for (const name of kind ? (['drawElements', 'drawArrays'] as const) : []) {
     const draw = kind[name] as (...given: unknown[]) => void;
     Object.assign(kind, {
       [name](this: unknown, ...given: unknown[]) {
-        (window as unknown as { drawn: number }).drawn++;
+        window.drawn++;
         return draw.apply(this, given);
       },
     });
@@ -83,24 +90,36 @@ function countDrawings(): void {
 
 /** Until the character stands there and nothing is drawn any more. */
 export async function ready(page: Page): Promise<void> {
-  await page.locator('.viewer-stage[aria-busy="false"]').waitFor({ timeout: 60_000 });
+  await page.locator('.viewer-stage[aria-busy="false"]').waitFor();
   await still(page);
 }
 
-export const drawings = (page: Page): Promise<number> => page.evaluate(() => (window as unknown as { drawn: number }).drawn);
+export const drawings = (page: Page): Promise<number> => page.evaluate(() => window.drawn);
 
+/** In the page: until it had so many turns, in each of which it may draw and then act on what is seen. */
+export const turns = (page: Page, count: number): Promise<void> =>
+  page.evaluate(async (count) => {
+    for (let turn = 0; turn < count; turn++) {
+      await new Promise<void>((done) => requestAnimationFrame(() => setTimeout(done)));
+    }
+  }, count);
+
+/**
+ * Until what was asked for is drawn, and nothing more is. What follows from a click takes turns of the page: its state, what
+ * it does once that is seen, a frame of the graphics. So it is turns that are waited for, however long they take.
+ */
 export async function still(page: Page): Promise<void> {
-  for (let before = -1, now = 0; before !== now; ) {
+  for (let before = -1, now = await drawings(page); before !== now; ) {
+    await turns(page, 6);
     [before, now] = [now, await drawings(page)];
-    await page.waitForTimeout(250);
   }
 }
 
 export const shot = (page: Page): Promise<Buffer> => page.locator('.viewer-stage').screenshot();
 export const mode = (page: Page, name: string) => page.getByRole('button', { name, exact: true });
 
-/** How many pixels differ between two pictures of one size; by the browser's own decoder. */
-export const differing = (page: Page, first: Buffer, second: Buffer): Promise<number> =>
+/** How many pixels of the stage differ from how it was; by the browser's own decoder. */
+export const differing = async (page: Page, before: Buffer): Promise<number> =>
   page.evaluate(
     async (given) => {
       const pixels = async (base64: string) => {
@@ -117,5 +136,5 @@ export const differing = (page: Page, first: Buffer, second: Buffer): Promise<nu
       }
       return count;
     },
-    [first.toString('base64'), second.toString('base64')],
+    [before, await shot(page)].map((picture) => picture.toString('base64')),
   );

@@ -13,7 +13,7 @@ describe('two people', () => {
   it('stand as they do in the picture, and begin each clip there', async () => {
     const page = await open();
     await ready(page);
-    expect(await pressed(page)).toEqual(['Everyone']);
+    await expect.poll(() => pressed(page)).toEqual(['Everyone']);
     await page.getByRole('combobox', { name: 'Motion' }).selectOption('pictured');
     await still(page);
     const [first, second] = await hips(page);
@@ -40,11 +40,11 @@ describe('two people', () => {
     const together = await shot(page);
     await mode(page, 'Person 2').click();
     await still(page);
-    expect([(await hips(page)).length, await pressed(page)]).toEqual([1, ['Person 2']]);
-    expect(await differing(page, together, await shot(page))).toBeGreaterThan(1000);
+    await expect.poll(() => pressed(page)).toEqual(['Person 2']);
+    await expect.poll(async () => (await hips(page)).length).toBe(1);
+    await expect.poll(() => differing(page, together)).toBeGreaterThan(1000);
     await mode(page, 'Everyone').click();
-    await still(page);
-    expect(await differing(page, together, await shot(page))).toBe(0);
+    await expect.poll(() => differing(page, together)).toBe(0);
   });
 
   it('are posed one at a time, and it is said that the pose is everybody’s', async () => {
@@ -52,7 +52,8 @@ describe('two people', () => {
     await ready(page);
     await mode(page, 'Change the pose').click();
     await still(page);
-    expect([(await hips(page)).length, await pressed(page)]).toEqual([1, ['Person 1']]);
+    await expect.poll(() => pressed(page)).toEqual(['Person 1']);
+    await expect.poll(async () => (await hips(page)).length).toBe(1);
     await page.getByText('It is made for all 2 people').waitFor();
     await page.getByRole('combobox', { name: 'Bone' }).selectOption('Head');
     await page.getByRole('slider', { name: 'Twist' }).focus();
@@ -60,7 +61,7 @@ describe('two people', () => {
     await mode(page, 'Person 2').click(); // the same pose on somebody else
     await still(page);
     await page.getByRole('button', { name: 'Apply pose' }).click();
-    expect(await page.evaluate(() => window.poses)).toEqual([{ Head: [0, 1, 0] }]);
+    await expect.poll(() => page.evaluate(() => window.poses)).toEqual([{ Head: [0, 1, 0] }]);
   });
 
   it('step out of the wall together, none of them behind it', async () => {
@@ -72,8 +73,7 @@ describe('two people', () => {
     expect(all).toHaveLength(2);
     for (const [, , z] of all) expect(z).toBeGreaterThan(-0.3);
     await mode(page, 'Look around').click();
-    await still(page);
-    expect((await hips(page))[1]![2], 'back where they stood').toBeLessThan(-1);
+    await expect.poll(async () => (await hips(page))[1]![2], { message: 'back where they stood' }).toBeLessThan(-1);
   });
 
   it('are taken into one’s own room one by one', async () => {
@@ -82,10 +82,10 @@ describe('two people', () => {
     await page.getByRole('button', { name: 'View in your space' }).click();
     const shown = () => page.evaluate(() => new URL(document.querySelector('model-viewer')?.src ?? 'http://x').pathname);
     const inRoom = page.getByRole('dialog');
-    await expect.poll(shown, { timeout: 60_000 }).toMatch(/\/character\.glb$/);
+    await expect.poll(shown).toMatch(/\/character\.glb$/);
     await inRoom.getByRole('button', { name: 'Person 2' }).click();
-    await expect.poll(shown, { timeout: 60_000 }).toMatch(/\/character-2\.glb$/);
-    const quickLook = await page.evaluate(() => document.querySelector('model-viewer')!.iosSrc);
-    expect(quickLook).toMatch(/\/character-2\.usdz/);
+    await expect.poll(shown).toMatch(/\/character-2\.glb$/);
+    const quickLook = () => page.evaluate(() => document.querySelector('model-viewer')!.iosSrc);
+    await expect.poll(quickLook).toMatch(/\/character-2\.usdz/);
   });
 });

@@ -1,9 +1,14 @@
 /** A pose by hand: dragged, turned by keys, told as degrees. */
 
+import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { aViewer, differing, mode, ready, shot, still } from './viewer_kit';
 
 const { open } = aViewer();
+
+/** Pixels from the left hand to a place of the canvas. */
+const away = (page: Page, x: number, y: number): Promise<number> =>
+  page.evaluate((to) => Math.hypot(window.joint('LeftHand')[0] - to[0], window.joint('LeftHand')[1] - to[1]), [x, y] as const);
 
 describe('a pose by hand', () => {
   it('brings the wrist under the pointer, and is told as degrees from the pictured pose', async () => {
@@ -12,7 +17,7 @@ describe('a pose by hand', () => {
     await mode(page, 'Change the pose').click();
     await still(page);
     const make = page.getByRole('button', { name: 'Apply pose' });
-    expect(await make.isDisabled()).toBe(true);
+    await expect.poll(() => make.isDisabled()).toBe(true);
     const [x, y] = await page.evaluate(() => window.joint('LeftHand'));
     const [toX, toY] = [x + 12, y - 70];
     const canvas = (await page.locator('canvas').boundingBox())!;
@@ -22,14 +27,13 @@ describe('a pose by hand', () => {
     await pointer(toX + 30, toY + 8);
     await pointer(toX + 2, toY + 1);
     await page.mouse.up();
+    await expect.poll(() => away(page, toX, toY), { message: 'pixels from the pointer' }).toBeLessThan(1);
     await still(page);
-    const [wristX, wristY] = await page.evaluate(() => window.joint('LeftHand'));
-    expect(Math.hypot(wristX - toX, wristY - toY), 'pixels from the pointer').toBeLessThan(1);
+    const raised = await page.evaluate(() => window.joint('LeftHand'));
 
     await make.click();
-    const poses = await page.evaluate(() => window.poses);
-    expect(poses).toHaveLength(1);
-    const pose = poses[0]!;
+    await expect.poll(() => page.evaluate(() => window.poses.length)).toBe(1);
+    const pose = (await page.evaluate(() => window.poses[0]))!;
     expect(Object.keys(pose).sort()).toEqual(['LeftArm', 'LeftForeArm']);
     const shown = await page.evaluate(() => window.rotations(['LeftArm', 'LeftForeArm']));
     for (const [index, name] of (['LeftArm', 'LeftForeArm'] as const).entries()) {
@@ -39,13 +43,10 @@ describe('a pose by hand', () => {
     }
 
     await page.getByRole('button', { name: 'Undo' }).click();
-    await still(page);
-    const [backX, backY] = await page.evaluate(() => window.joint('LeftHand'));
-    expect(Math.hypot(backX - x, backY - y)).toBeLessThan(0.01);
-    expect(await make.isDisabled()).toBe(true);
+    await expect.poll(() => away(page, x, y)).toBeLessThan(0.01);
+    await expect.poll(() => make.isDisabled()).toBe(true);
     await page.getByRole('button', { name: 'Redo' }).click();
-    await still(page);
-    expect(await page.evaluate(() => window.joint('LeftHand'))).toEqual([wristX, wristY]);
+    await expect.poll(() => page.evaluate(() => window.joint('LeftHand'))).toEqual(raised);
   });
 
   it('is made with the keyboard, too', async () => {
@@ -56,13 +57,13 @@ describe('a pose by hand', () => {
     await page.getByRole('slider', { name: 'Twist' }).focus();
     for (let press = 0; press < 3; press++) await page.keyboard.press('ArrowRight');
     await page.getByRole('button', { name: 'Apply pose' }).click();
-    expect(await page.evaluate(() => window.poses)).toEqual([{ Head: [0, 3, 0] }]);
+    await expect.poll(() => page.evaluate(() => window.poses)).toEqual([{ Head: [0, 3, 0] }]);
     await page.locator('.viewer-stage').focus();
     await page.keyboard.press('Control+z');
     await page.getByRole('button', { name: 'Apply pose' }).click();
-    expect(await page.evaluate(() => window.poses[1])).toEqual({ Head: [0, 2, 0] });
+    await expect.poll(() => page.evaluate(() => window.poses[1])).toEqual({ Head: [0, 2, 0] });
     await page.getByRole('button', { name: 'Pose from the picture' }).click();
-    expect(await page.getByRole('button', { name: 'Apply pose' }).isDisabled()).toBe(true);
+    await expect.poll(() => page.getByRole('button', { name: 'Apply pose' }).isDisabled()).toBe(true);
   });
 
   it('turns the mesh half transparent while it is edited, and solid again', async () => {
@@ -72,7 +73,6 @@ describe('a pose by hand', () => {
     await mode(page, 'Change the pose').click();
     await still(page);
     await mode(page, 'Look around').click();
-    await still(page);
-    expect(await differing(page, solid, await shot(page))).toBe(0);
+    await expect.poll(() => differing(page, solid)).toBe(0);
   });
 });

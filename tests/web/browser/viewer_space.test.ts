@@ -11,9 +11,9 @@ describe('model-viewer', () => {
     const page = await open({ reducedMotion: 'no-preference' });
     const asked: string[] = [];
     page.on('request', (request) => asked.push(request.url()));
-    await page.locator('.viewer-stage[aria-busy="false"]').waitFor({ timeout: 60_000 });
+    await page.locator('.viewer-stage[aria-busy="false"]').waitFor();
     await page.getByRole('button', { name: 'View in your space' }).click();
-    await page.waitForFunction(() => document.querySelector('model-viewer')?.loaded, undefined, { timeout: 90_000 });
+    await page.waitForFunction(() => document.querySelector('model-viewer')?.loaded);
     const shown = await page.evaluate(() => {
       const viewer = document.querySelector('model-viewer')!;
       return {
@@ -35,12 +35,10 @@ describe('model-viewer', () => {
         const viewer = document.querySelector('model-viewer')!;
         return !viewer.paused && viewer.animationName === 'walk_in_place' && viewer.currentTime > 0.1;
       },
-      undefined,
-      { timeout: 60_000 },
     );
     const ours = new RegExp(`^(${address}/|blob:|data:)`);
     expect(asked.filter((url) => !ours.test(url)), 'nobody else is asked for anything').toEqual([]);
     await page.getByRole('button', { name: 'Close' }).click();
-    expect(await page.locator('model-viewer').count()).toBe(0);
+    await page.locator('model-viewer').waitFor({ state: 'detached' });
   });
 });
