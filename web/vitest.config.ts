@@ -17,9 +17,9 @@ export default defineConfig({
           name: 'browser',
           root,
           include: ['browser/**/*.test.ts'],
-          globalSetup: ['browser/finished_jobs.ts'],
+          globalSetup: ['browser/finished_jobs.ts', 'browser/viewer_build.ts'],
           testTimeout: 600_000,
-          expect: { poll: { timeout: 60_000 } },
+          expect: { poll: { timeout: 120_000 } },
           hookTimeout: 180_000,
           maxWorkers: 2, // each file has a browser and a service of its own: see browser/own_service.ts
         },

@@ -1,28 +1,19 @@
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { answered, complaints, expectComplaint } from './complaints';
 import { isMade, launchIn3D } from './character_kit';
 import { readable } from './axe';
 import { LONG } from './jobs';
-import { portrait, samplePerson } from './media';
-import { finished } from './own_service';
+import { portrait } from './media';
+import { finished, somebody } from './own_service';
 import { open } from './page';
 
 let browser: Browser;
 const { portrait: done, noFace: failed, character, noPerson: nobody } = finished;
-const folder = mkdtempSync(join(tmpdir(), 'galatea-axe-'));
-const person = join(folder, 'person.png');
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePerson(person);
 });
-afterAll(async () => {
-  await browser.close();
-  rmSync(folder, { recursive: true, force: true });
-});
+afterAll(() => browser.close());
 afterEach(async () => {
   for (const context of browser.contexts()) await context.close();
   expect(complaints.splice(0)).toEqual([]);
@@ -40,7 +31,7 @@ const places: Record<string, { hash: () => string; show: (page: Page) => Promise
   'the start page of characters': {
     hash: () => '#/character',
     show: async (page) => {
-      await page.getByLabel(/Drop a picture/).setInputFiles(person);
+      await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
       await page.getByText('Options').click();
     },
   },

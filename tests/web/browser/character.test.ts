@@ -7,8 +7,8 @@ import { complaints, expectComplaint, unanswered } from './complaints';
 import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LONG } from './jobs';
 import { lacks } from './lacks';
-import { inPython, samplePeople, samplePerson } from './media';
-import { address, finished } from './own_service';
+import { inPython, samplePeople } from './media';
+import { address, finished, somebody } from './own_service';
 import { ask, jobOf, open, orderCharacter } from './page';
 
 interface Made {
@@ -35,13 +35,11 @@ open(sys.argv[1], "wb").write(bvh())
 `;
 
 const folder = mkdtempSync(join(tmpdir(), 'galatea-person-'));
-const person = join(folder, 'somebody.png');
 let browser: Browser;
 const done = finished.character;
 let engine: [joints: string[], needed: string[], colours: number[][]];
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePerson(person);
   samplePeople(join(folder, 'two.png'));
   engine = JSON.parse(inPython(NAMES)) as typeof engine;
 });
@@ -109,7 +107,7 @@ describe('ordering a character', () => {
 
   it('sends the picture, the motion and what was chosen', async () => {
     const page = await openStill(browser, '#/character');
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.getByText('Dance', { exact: true }).click();
     await page.getByText('Options').click();
     await page.getByLabel('Head').check();
@@ -132,7 +130,7 @@ describe('ordering a character', () => {
 
   it('makes the video and the character as chosen, and with what is changed of them next', async () => {
     const page = await openStill(browser, '#/character');
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.getByText('Options').click();
     await page.getByLabel('Length of the video').fill('1');
     const choices = [
@@ -174,7 +172,7 @@ describe('ordering a character', () => {
       (await ask<{ check_status: string }>('/v1/motions/arm-swing')).check_status;
     await expect.poll(checked, { timeout: LONG }).toBe('ready');
     const page = await openStill(browser, '#/character');
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.locator('.cards').getByText('Arm swing', { exact: true }).click();
     const [request] = await Promise.all([page.waitForRequest(isOrder), start(page).click()]);
     const sent = request.postDataJSON();
@@ -197,13 +195,13 @@ describe('ordering a character', () => {
 
   it('goes on after the page was loaded anew, on the page of portraits too', async () => {
     const motion = join(folder, 'long walk.bvh');
-    writeFileSync(motion, `HIERARCHY\nROOT Hips\n{\n${'  OFFSET 0 0 0\n'.repeat(40_000)}`);
+    writeFileSync(motion, `HIERARCHY\nROOT Hips\n{\n${'  OFFSET 0 0 0\n'.repeat(80_000)}`);
     const page = await openStill(browser, '#/character');
     const line = await page.context().newCDPSession(page);
     const slow = (uploadThroughput: number) =>
       line.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput });
     await slow(150_000);
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.getByLabel(/Drop a BVH/).setInputFiles(motion);
     await start(page).click();
     await page.getByText(/Uploading the motion: [1-9]\d?%/).waitFor();

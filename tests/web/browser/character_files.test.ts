@@ -8,8 +8,8 @@ import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, again, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LONG } from './jobs';
-import { inPython, samplePerson } from './media';
-import { address, finished } from './own_service';
+import { inPython } from './media';
+import { address, finished, somebody } from './own_service';
 import { ask } from './page';
 
 /** A mask of a picture's size, and one that is too small. */
@@ -24,13 +24,12 @@ mask.resize((200, 300)).save(sys.argv[3])
 `;
 
 const folder = mkdtempSync(join(tmpdir(), 'galatea-files-'));
-const [person, mask, small] = ['somebody.png', 'mask.png', 'small.png'].map((name) => join(folder, name)) as [string, string, string];
+const [mask, small] = ['mask.png', 'small.png'].map((name) => join(folder, name)) as [string, string];
 let browser: Browser;
 const done = finished.character;
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePerson(person);
-  inPython(MASKS, person, mask, small);
+  inPython(MASKS, somebody, mask, small);
 });
 afterAll(async () => {
   await browser.close();

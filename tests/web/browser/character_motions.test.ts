@@ -9,8 +9,8 @@ import { complaints } from './complaints';
 import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
 import { LONG } from './jobs';
 import { lacks } from './lacks';
-import { inPython, media, samplePerson } from './media';
-import { address } from './own_service';
+import { inPython, media } from './media';
+import { address, somebody } from './own_service';
 import { ask } from './page';
 
 /** A motion of the tests' own, one that is nobody's, and the names that the engine has. */
@@ -46,12 +46,11 @@ Frame Time: 0.04
 `;
 
 const folder = mkdtempSync(join(tmpdir(), 'galatea-motions-'));
-const [person, swing, whip] = ['somebody.png', 'swing.bvh', 'whip.bvh'].map((name) => join(folder, name)) as [string, string, string];
+const [swing, whip] = ['swing.bvh', 'whip.bvh'].map((name) => join(folder, name)) as [string, string];
 let browser: Browser;
 let names: [ours: string[], required: string[]];
 beforeAll(async () => {
   browser = await launchIn3D();
-  samplePerson(person);
   names = JSON.parse(inPython(MADE, swing)) as typeof names;
   writeFileSync(whip, WHIP);
 });
@@ -72,7 +71,7 @@ const wanting = (page: Page) => page.getByRole('status').filter({ hasText: 'Thes
 async function moving(motion: string): Promise<string> {
   const body = new FormData();
   body.append('kind', 'character');
-  body.append('photo', new File([readFileSync(person)], 'somebody.png'));
+  body.append('photo', new File([readFileSync(somebody)], 'somebody.png'));
   body.append('motion', new File([readFileSync(motion)], 'motion.bvh'));
   body.append('options', JSON.stringify({ seconds: 1, size: [240, 320] }));
   const response = await fetch(`${address}/v1/jobs`, { method: 'POST', body });
@@ -93,7 +92,7 @@ describe('the joints of a motion', () => {
     const before = await checks();
     const page = await openStill(browser, '#/character');
     await lacks(table(page), page.getByRole('radio', { name: 'Walk', exact: true })); // our own clips know their joints
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.getByLabel(/Drop a BVH/).setInputFiles(swing);
     await table(page).click();
     await mover(page, 'Left upper arm').waitFor({ timeout: LONG });
@@ -134,7 +133,7 @@ describe('the joints of a motion', () => {
   it('come with the animations of a file, of which one can be chosen', async ({ skip }) => {
     const soldier = media('scans3d/body_soldier/soldier.glb') ?? skip('the shared test media are not here');
     const page = await openStill(browser, '#/character');
-    await page.getByLabel(/Drop a picture/).setInputFiles(person);
+    await page.getByLabel(/Drop a picture/).setInputFiles(somebody);
     await page.getByLabel(/Drop a BVH/).setInputFiles(soldier);
     await table(page).click();
     const animation = page.getByRole('combobox', { name: 'Animation', exact: true });

@@ -3,7 +3,7 @@
  * they lie in (`own_service`), so that none of them makes what another has made, nor finds what another left.
  */
 
-import { rmSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { TestProject } from 'vitest/node';
@@ -13,7 +13,12 @@ import { serve } from './service';
 
 declare module 'vitest' {
   export interface ProvidedContext {
-    finished: { folder: string; jobs: Finished };
+    finished: {
+      folder: string;
+      jobs: Finished;
+      /** The picture of the finished character: the project's own, of one person. */
+      somebody: string;
+    };
   }
 }
 
@@ -30,27 +35,30 @@ export interface Finished {
 
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const { address, data, stop, end } = await serve({ GALATEA_CONCURRENCY: '2' });
-  const person = join(tmpdir(), `galatea-somebody-${process.pid}.png`);
+  const pictures = mkdtempSync(join(tmpdir(), 'galatea-pictures-'));
+  const somebody = join(pictures, 'somebody.png');
+  const forget = async (): Promise<void> => {
+    await end();
+    rmSync(pictures, { recursive: true, force: true });
+  };
   try {
-    samplePerson(person);
+    samplePerson(somebody);
     // the two that are looked at most come last: what is recent is shown first
     const jobs: Finished = {
       noFace: await orderPortrait(address, faceless, 'happy'),
       noPerson: await orderCharacter(address, faceless, { seconds: 1 }),
       portrait: await orderPortrait(address, portrait, 'happy'),
-      character: await orderCharacter(address, person, { seconds: 2, size: [240, 320] }),
+      character: await orderCharacter(address, somebody, { seconds: 2, size: [240, 320] }),
     };
     await Promise.all([
       ...[jobs.character, jobs.portrait].map((id) => ended(address, id)),
       ...[jobs.noFace, jobs.noPerson].map((id) => ended(address, id, 'failed')),
     ]);
     await stop();
-    project.provide('finished', { folder: data, jobs });
+    project.provide('finished', { folder: data, jobs, somebody });
   } catch (error) {
-    await end();
+    await forget();
     throw error;
-  } finally {
-    rmSync(person, { force: true });
   }
-  return end;
+  return forget;
 }

@@ -1,6 +1,6 @@
 /** A character made by the real service, in the page's viewer, in a real Chromium without a GPU. */
 
-import { readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
@@ -8,9 +8,9 @@ import { afterAll, afterEach, beforeAll, expect } from 'vitest';
 import { launch } from './browser';
 import { complaints, watch } from './complaints';
 import { ended, LONG, orderCharacter } from './jobs';
-import { samplePeople, samplePerson } from './media';
-import { address, finished } from './own_service';
-import { buildViewerPage, type Files, openViewer } from './viewer_page';
+import { samplePeople } from './media';
+import { address, finished, somebody } from './own_service';
+import { openViewer } from './viewer_page';
 
 export const CLIPS = [
   ...['pictured', 'step_out', 'walk', 'walk_in_place'],
@@ -27,30 +27,33 @@ const CROUCHING = Object.fromEntries(
 );
 /** What is ordered beside the finished character that all files have; each in the one file that asks for it. */
 const ORDERS = {
-  two: { draw: samplePeople, options: { person_index: 'all' } },
-  crouching: { draw: samplePerson, options: { pose: CROUCHING } },
+  two: { several: true, options: { person_index: 'all' } },
+  crouching: { several: false, options: { pose: CROUCHING } },
 };
+
+/** Orders a character; its job's id. */
+async function ordered({ several, options }: (typeof ORDERS)[keyof typeof ORDERS]): Promise<string> {
+  const folder = mkdtempSync(join(tmpdir(), 'galatea-viewer-'));
+  const people = join(folder, 'people.png');
+  try {
+    if (several) samplePeople(people);
+    return await orderCharacter(address, several ? people : somebody, { seconds: 2, size: [240, 320], ...options });
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
 
 /** What a file of tests has: called once in it, it sets up a browser and a character. */
 export function aViewer(of: 'one' | keyof typeof ORDERS = 'one') {
-  const picture = join(tmpdir(), `galatea-viewer-${process.pid}-${of}.png`);
   let browser: Browser;
-  let files: Files;
   let job = finished.character;
 
   beforeAll(async () => {
-    if (of === 'one') samplePerson(picture);
-    else {
-      ORDERS[of].draw(picture);
-      job = await orderCharacter(address, picture, { seconds: 2, size: [240, 320], ...ORDERS[of].options });
-    }
-    [browser, files] = await Promise.all([launch(['--enable-unsafe-swiftshader']), buildViewerPage()]);
+    if (of !== 'one') job = await ordered(ORDERS[of]);
+    browser = await launch(['--enable-unsafe-swiftshader']);
     await ended(address, job);
   }, LONG);
-  afterAll(async () => {
-    await browser?.close();
-    rmSync(picture, { force: true });
-  });
+  afterAll(() => browser?.close());
   afterEach(async () => {
     for (const context of browser.contexts()) await context.close();
     expect(complaints.splice(0)).toEqual([]);
@@ -60,10 +63,10 @@ export function aViewer(of: 'one' | keyof typeof ORDERS = 'one') {
     const page = await by.newPage({ viewport: { width: 760, height: 1000 }, reducedMotion: 'reduce', ...options });
     watch(page);
     await page.addInitScript(countDrawings);
-    await openViewer(page, files, job);
+    await openViewer(page, job);
     return page;
   };
-  return { open, countDrawings, job: () => job, picture: () => readFileSync(picture) };
+  return { open, countDrawings, job: () => job, picture: () => readFileSync(somebody) };
 }
 
 declare global {
