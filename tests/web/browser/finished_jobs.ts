@@ -7,7 +7,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { TestProject } from 'vitest/node';
-import { ended, orderCharacter, orderPortrait } from './jobs';
+import { ended, LONG, orderCharacter, orderPortrait } from './jobs';
 import { faceless, portrait, samplePerson } from './media';
 import { serve } from './service';
 
@@ -33,6 +33,9 @@ export interface Finished {
   noPerson: string;
 }
 
+/** Milliseconds that the engine is compiled for where that was not done before; the first jobs wait for it. */
+const COMPILING = 1_200_000;
+
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const { address, data, stop, end } = await serve({ GALATEA_CONCURRENCY: '2' });
   const pictures = mkdtempSync(join(tmpdir(), 'galatea-pictures-'));
@@ -51,8 +54,8 @@ export default async function setup(project: TestProject): Promise<() => Promise
       character: await orderCharacter(address, somebody, { seconds: 2, size: [240, 320] }),
     };
     await Promise.all([
-      ...[jobs.character, jobs.portrait].map((id) => ended(address, id)),
-      ...[jobs.noFace, jobs.noPerson].map((id) => ended(address, id, 'failed')),
+      ...[jobs.character, jobs.portrait].map((id) => ended(address, id, 'succeeded', COMPILING + LONG)),
+      ...[jobs.noFace, jobs.noPerson].map((id) => ended(address, id, 'failed', COMPILING + LONG)),
     ]);
     await stop();
     project.provide('finished', { folder: data, jobs, somebody });

@@ -34,9 +34,9 @@ export const orderPortrait = (
 export const orderCharacter = (address: string, photo: string, options: object = {}): Promise<string> =>
   submit(address, 'character', { photo: fileOf(photo) }, options);
 
-/** Waits until a job has ended so, and in no other way. */
-export async function ended(address: string, job: string, so: 'succeeded' | 'failed' = 'succeeded'): Promise<void> {
-  const deadline = Date.now() + LONG;
+/** Waits until a job has ended so, and in no other way; `patience` in milliseconds. */
+export async function ended(address: string, job: string, so: 'succeeded' | 'failed' = 'succeeded', patience = LONG): Promise<void> {
+  const deadline = Date.now() + patience;
   for (let status = ''; status !== so; await new Promise((wake) => setTimeout(wake, 250))) {
     const told = (await (await fetch(`${address}/v1/jobs/${job}`)).json()) as { status: string; error: object | null };
     status = told.status;
