@@ -52,7 +52,8 @@ describe('no page does what it may not', () => {
 
   it('what shows a character in a room, where there is AR', async () => {
     const page = await open(browser);
-    const part = readdirSync(resolve(import.meta.dirname, '../../../web/dist/assets')).find((name) => /^space-.*\.js$/.test(name));
+    const part = readdirSync(resolve(import.meta.dirname, '../../../web/dist/assets')).find((name) => /^ar_dialog-.*\.js$/.test(name));
+    expect(part, 'the part of the page for AR').toBeDefined();
     await page.addScriptTag({ url: `/assets/${part}`, type: 'module' });
     await page.evaluate(() => document.body.append(document.createElement('model-viewer')));
     await page.waitForFunction(() => getComputedStyle(document.querySelector('model-viewer')!).display === 'block');
