@@ -29,7 +29,7 @@ PATIENCE_SECONDS = 300.0
 
 
 @dataclass
-class Met:
+class Outcome:
     """How the requests ended: answers by status and code, (seconds, request) of the longest waits of the other one,
     bytes of the longest answer."""
 
@@ -106,9 +106,9 @@ def watched(address: str) -> Iterator[Connection]:
         other.join(PATIENCE_SECONDS)
 
 
-def schedule(address: str, token: str, requests: Iterable[Sent]) -> Met:
+def schedule(address: str, token: str, requests: Iterable[Sent]) -> Outcome:
     """Send them all."""
-    met = Met()
+    met = Outcome()
     with watched(address) as other:
         for one in requests:
             status, body = send(address, token, one)

@@ -47,7 +47,7 @@ FOLLOW_REQUEST = "GET /v1/jobs/{job}/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"
 
 
 @dataclass
-class Seen:
+class Observed:
     """What came of the lines of one schedule, and of the client that behaves well."""
 
     asked: int = 0
@@ -86,7 +86,7 @@ def service(files: int) -> Iterator[tuple[URL, int]]:
             process.wait(30)
 
 
-async def line(url: URL, sent: bytes, every: float | None, seen: Seen) -> None:
+async def line(url: URL, sent: bytes, every: float | None, seen: Observed) -> None:
     """One line: says what it says, then a byte each few seconds (`every`) or nothing, until it is closed."""
     seen.asked += 1
     try:
@@ -119,7 +119,7 @@ async def line(url: URL, sent: bytes, every: float | None, seen: Seen) -> None:
             seen.answers[status[1].decode() if status else "closed"] += 1
 
 
-async def behave(url: URL, seen: Seen, until: float) -> None:
+async def behave(url: URL, seen: Observed, until: float) -> None:
     """The client that behaves well."""
     while time.monotonic() < until:
         began = time.perf_counter()
@@ -135,9 +135,9 @@ async def behave(url: URL, seen: Seen, until: float) -> None:
         await asyncio.sleep(ASKING_SECONDS)
 
 
-async def schedule(url: URL, count: int, sent: bytes, every: float | None, seconds: float) -> Seen:
+async def schedule(url: URL, count: int, sent: bytes, every: float | None, seconds: float) -> Observed:
     """Open so many lines, and look at the service for so long."""
-    seen = Seen()
+    seen = Observed()
     until = time.monotonic() + seconds
     good = asyncio.create_task(behave(url, seen, until))
     lines = []

@@ -41,7 +41,7 @@ clients of many people do: all in the same instant, they would measure their own
 
 
 @dataclass
-class Seen:
+class Observed:
     """What the clients met: seconds by endpoint, answers by endpoint and status, ends of jobs, samples over time."""
 
     seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
@@ -90,7 +90,7 @@ def _key(command: list[str], environment: dict[str, str], name: str, jobs_at_onc
     return made.stdout.strip()
 
 
-async def client(http: httpx.AsyncClient, token: str, picture: bytes, seen: Seen, until: float) -> None:
+async def client(http: httpx.AsyncClient, token: str, picture: bytes, seen: Observed, until: float) -> None:
     """One client: uploads once, then submits, follows, looks and fetches, again and again."""
     headers = {"Authorization": f"Bearer {token}"}
 
@@ -131,7 +131,7 @@ async def client(http: httpx.AsyncClient, token: str, picture: bytes, seen: Seen
                 await call("GET artifact", "GET", artifact["url"])
 
 
-async def follow(http: httpx.AsyncClient, headers: dict[str, str], path: str, seen: Seen, until: float) -> None:
+async def follow(http: httpx.AsyncClient, headers: dict[str, str], path: str, seen: Observed, until: float) -> None:
     """Follow a job to its end, or to that of the time."""
     began = time.perf_counter()
     try:
@@ -147,7 +147,7 @@ async def follow(http: httpx.AsyncClient, headers: dict[str, str], path: str, se
         seen.answers["GET events (first)", type(error).__name__] += 1
 
 
-async def sample(http: httpx.AsyncClient, token: str, pid: int, seen: Seen, until: float) -> None:
+async def sample(http: httpx.AsyncClient, token: str, pid: int, seen: Observed, until: float) -> None:
     """Memory and the queue's age, every few seconds."""
     began = time.monotonic()
     api = psutil.Process(pid)
@@ -180,9 +180,9 @@ def portrait() -> bytes:
     return file.getvalue()
 
 
-async def load(address: str, tokens: list[str], pid: int, clients: int, minutes: float) -> Seen:
+async def load(address: str, tokens: list[str], pid: int, clients: int, minutes: float) -> Observed:
     """Let the clients loose."""
-    seen, picture, until = Seen(), portrait(), time.monotonic() + minutes * 60
+    seen, picture, until = Observed(), portrait(), time.monotonic() + minutes * 60
     limits = httpx.Limits(max_connections=None, max_keepalive_connections=None)
     async with httpx.AsyncClient(base_url=address, limits=limits, timeout=60) as http:
         tasks = [client(http, tokens[i % len(tokens)], picture, seen, until) for i in range(clients)]
@@ -190,7 +190,7 @@ async def load(address: str, tokens: list[str], pid: int, clients: int, minutes:
     return seen
 
 
-def report(seen: Seen) -> str:
+def report(seen: Observed) -> str:
     """The tables."""
     rows = []
     everything = [second for seconds in seen.seconds.values() for second in seconds]

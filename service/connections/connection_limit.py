@@ -18,7 +18,7 @@ MAX_ADDRESS_SHARE = 0.75
 """The share of all connections that one address may hold."""
 
 MAX_PARTING = 64
-"""How many connections may be closed with care at the same time (see `Parting`). One more is cut off."""
+"""How many connections may be closed with care at the same time (see `service.connections.transport`). One more is cut off."""
 
 SPARE_FILES = 128
 """File descriptors for all else than connections and what is read for them."""

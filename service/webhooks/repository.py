@@ -1,4 +1,4 @@
-"""Queries about endpoints and deliveries that change nothing of a delivery's course (for those, see `course`)."""
+"""Queries about endpoints and deliveries that change nothing of a delivery's course (for those, see `delivery_lease`)."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def test_seventy_seconds_peak_within_75_mb_of_five(clip, small, tmp_path: Path) 
     """At 30 frames a second: one colour of the frames alone would take more than that, the whole of them four times as much.
 
     2100 frames do for the 5400 of the longest driver: they are more than the 2000 that are compared with one another
-    (`engine.portrait.neutral.MOST`), which once made the peak, and what else grows does so as frames do. A first run
+    (`engine.portrait.neutral`), which once made the peak, and what else grows does so as frames do. A first run
     compiles what the others load: it takes more memory than they do, and is not measured. Which stages meet on two cores is
     chance, and tens of megabytes: of the short clip the higher of two runs counts.
     """

@@ -16,7 +16,7 @@ const english = {
   make: { label: 'What to make' },
 
   recent: {
-    title: 'RecentWorks',
+    title: 'Recent',
     empty: 'What you make will appear here.',
     all: 'Show all',
   },

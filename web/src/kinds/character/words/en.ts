@@ -273,7 +273,7 @@ const english = {
   painter: {
     maskTitle: 'Paint the mask',
     labelsTitle: 'Paint the body parts',
-    stage: 'MaskOverlay on the picture',
+    stage: 'Painting on the picture',
     tools: 'Brush',
     paints: 'Paints',
     add: 'Add to the person',
