@@ -114,7 +114,7 @@ def _beside_the_oval(head: Head) -> NDArray[np.bool_]:
 
 def _back(rgb: NDArray[np.uint8], hair: NDArray[np.bool_], head: Head, high: float) -> NDArray[np.uint8]:
     """The same of the part of the picture (h, w, 3) that shows the head; a face is `high` half its height, pixels."""
-    nape = _nape(hair, head)
+    nape = nape_height(hair, head)
     noise = np.random.default_rng(0).normal(size=hair.shape).astype(np.float32)
     uneven = UNEVEN * head.scale**2 / high * cv2.GaussianBlur(noise, (0, 0), head.scale)
     line = nape + ROUND * (np.minimum(head.out**2 - head.up**2, 1) - 1) + uneven
@@ -238,7 +238,7 @@ def _interpolated(rgb: NDArray[np.uint8], known: NDArray[np.bool_], scale: float
     return np.asarray(cv2.resize(sums / weights[..., None], rgb.shape[1::-1], interpolation=cv2.INTER_LINEAR))
 
 
-def _nape(hair: NDArray[np.bool_], head: Head) -> float:
+def nape_height(hair: NDArray[np.bool_], head: Head) -> float:
     """How far above the face's middle (below 0) the hair ends at the back."""
     least = LONG * head.mask.sum()
     if head.width_at(CHIN) > FALLS:  # what hangs there is hardly told from skin where it is fair

@@ -86,11 +86,11 @@ def build_layers(labels: Labels, template: PosedTemplate, rig: Rig, face: Face |
         layers.append(replace(beneath_it, limb=one.limb))
     layers += [_unseen_layer(one, [body, *layers], labels, template, rig) for one in unseen]
     if labels.behind is not None:
-        layers = _behind_the_other(layers, body, labels.behind, labels)
+        layers = arm_behind_the_other(layers, body, labels.behind, labels)
     return [body, *layers]
 
 
-def _behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labels: Labels) -> list[Layer]:
+def arm_behind_the_other(layers: Sequence[Layer], body: Layer, behind: Behind, labels: Labels) -> list[Layer]:
     """The layers of limbs with the arm that goes on `behind` the other beneath its surface there."""
     found = list(layers)
     place = {layer.limb: k for k, layer in enumerate(found)}

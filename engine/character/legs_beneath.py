@@ -43,7 +43,7 @@ def legs_beneath(labels: Labels, template: PosedTemplate, rig: Rig) -> list[Limb
             own = largest_piece(
                 own | ((cloth.legs == cloth.before) & hidden_leg(cloth.legs, cloth.before, template, part))
             )
-        mask = own | _under(own, clothed, template.covers(chosen, own.shape), up)
+        mask = own | leg_under_cloth(own, clothed, template.covers(chosen, own.shape), up)
         high = template.vertices[template.triangles, 1].max(1) > np.flatnonzero(mask.any(1))[0]
         nothing = np.zeros_like(own)
         found.append(LimbRegion(largest_piece(mask), chosen & high, int(leg), np.zeros_like(chosen), nothing))
@@ -68,7 +68,7 @@ def going_with(leg: Layer, cloth: Layer, own: NDArray[np.bool_]) -> Layer:
     return replace(leg, front=sides[0], back=sides[1])
 
 
-def _under(
+def leg_under_cloth(
     own: NDArray[np.bool_], clothed: NDArray[np.bool_], template: NDArray[np.bool_], up: int
 ) -> NDArray[np.bool_]:
     """What a leg covers under cloth, (h, w): `up` rows above where it comes out, along the `template`'s (h, w) and as wide as it

@@ -49,27 +49,27 @@ def measure(figure: Figure, silhouette: Silhouette, fitted: FittedBody, characte
     seen = rasterise(projected, triangles, (height, width), perspective=True).triangle
     drawn, mask = seen >= 0, silhouette.alpha > 0.5
     points = weld(character.mesh)
-    border, crowded = _odd_edges(points[triangles])
+    border, crowded = border_edges(points[triangles])
     return {
         "silhouette_iou": round(float((drawn & mask).sum() / max((drawn | mask).sum(), 1)), 4),
         "landmark_reprojection": round(fitted.fit.reprojection / max(rows_apart(mask), 1), 4),
         "closed": float(is_closed(points[triangles])),
-        "holes": float(_loops(border)),
+        "holes": float(count_loops(border)),
         "non_manifold_edges": float(crowded),
         "flipped": round(float((projected_areas(projected, triangles) < 0)[seen[drawn]].mean()), 5),
-        "unseen_texture": round(_unseen(posed, projected, triangles, seen[drawn]), 3),
+        "unseen_texture": round(unseen_share(posed, projected, triangles, seen[drawn]), 3),
         "triangles": float(len(triangles)),
     }
 
 
-def _odd_edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+def border_edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
     """The edges (E, 2) of one triangle alone, and how many have more than two."""
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
     found, count = np.unique(edges, axis=0, return_counts=True)
     return np.asarray(found[count == 1], np.intp), int((count > 2).sum())
 
 
-def _loops(border: NDArray[np.intp]) -> int:
+def count_loops(border: NDArray[np.intp]) -> int:
     """How many loops edges (E, 2) make."""
     if not len(border):
         return 0
@@ -86,7 +86,7 @@ def projected_areas(projected: NDArray[np.float32], triangles: NDArray[np.intege
     return np.asarray(p[:, 1] * q[:, 0] - p[:, 0] * q[:, 1]) / 2
 
 
-def _unseen(
+def unseen_share(
     posed: NDArray[np.float32],
     projected: NDArray[np.float32],
     triangles: NDArray[np.integer],

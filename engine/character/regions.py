@@ -67,7 +67,7 @@ def find_regions(
     if legs is not None:
         own &= ~_below(legs, template, part)
         labels = replace(labels, labels=np.where(legs >= 0, -1, labels.labels))
-    return Region(_body(labels, limbs, template, part, own), own), limbs
+    return Region(body_in_one_piece(labels, limbs, template, part, own), own), limbs
 
 
 def _below(legs: NDArray[np.int8], template: PosedTemplate, part: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -134,7 +134,7 @@ def _limb_region(
     return LimbRegion(mask, (part == limb).any(1) | overlap, limb, overlap, joint, behind)
 
 
-def _body(
+def body_in_one_piece(
     labels: Labels,
     limbs: Sequence[LimbRegion],
     template: PosedTemplate,

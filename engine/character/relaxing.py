@@ -38,7 +38,7 @@ AT_ONCE = 16
 
 
 @dataclass(frozen=True)
-class _Surface:
+class SurfaceGraph:
     """The points of a surface: where they are `pictured` (N, 3), metres, its `edges` (E, 2) and their `lengths` (E,), and which
     points are `neighbours` (N, N), with ones."""
 
@@ -79,7 +79,7 @@ def relaxed(character: Character) -> Character:
     stiffness = np.zeros(len(first))
     for _ in range(ROUNDS):
         stiffness += STIFFER * _spread(surface, np.clip((stretch - BEGINS) / (FULL - BEGINS), 0, 1))
-        weights = _evened(surface, before, stiffness)
+        weights = stiffened_weights(surface, before, stiffness)
         bound = _bound_anew(surface, bound, weights, (weights != before).any(1), pictured)
         stretch, share = _stretch(surface, bound, frames)
         if share < least:
@@ -91,14 +91,14 @@ def relaxed(character: Character) -> Character:
     return replace(character, mesh=anew)
 
 
-def _surface(pictured: NDArray[np.float64], faces: NDArray[np.integer]) -> _Surface:
+def _surface(pictured: NDArray[np.float64], faces: NDArray[np.integer]) -> SurfaceGraph:
     ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
     count = len(pictured)
     name = np.unique(ends[:, 0].astype(np.int64) * count + ends[:, 1])
     edges = np.stack([name // count, name % count], 1).astype(np.intp)
     lengths = np.linalg.norm(pictured[edges[:, 0]] - pictured[edges[:, 1]], axis=1)
     half = sparse.csr_matrix((np.ones(len(edges)), edges.T), (count, count))
-    return _Surface(pictured, edges, np.maximum(lengths, SHORTEST), half + half.T)
+    return SurfaceGraph(pictured, edges, np.maximum(lengths, SHORTEST), half + half.T)
 
 
 def _dense(bound: _Bound, joints: int) -> NDArray[np.float64]:
@@ -108,7 +108,7 @@ def _dense(bound: _Bound, joints: int) -> NDArray[np.float64]:
     return weights
 
 
-def _stretch(surface: _Surface, bound: _Bound, frames: NDArray[np.float32]) -> tuple[NDArray[np.float64], float]:
+def _stretch(surface: SurfaceGraph, bound: _Bound, frames: NDArray[np.float32]) -> tuple[NDArray[np.float64], float]:
     """How many times as long as pictured each edge (E,) becomes in frames (F, J, 4, 4), and the share of edges beyond `FULL` in
     the worst of them."""
     most, worst = np.zeros(len(surface.edges)), 0
@@ -135,7 +135,7 @@ def _longest(posed: np.ndarray, edges: np.ndarray, lengths: np.ndarray, most: np
     return worst
 
 
-def _spread(surface: _Surface, wanted: NDArray[np.float64]) -> NDArray[np.float64]:
+def _spread(surface: SurfaceGraph, wanted: NDArray[np.float64]) -> NDArray[np.float64]:
     """What edges (E,) want, for points (N,) at them and around."""
     spread = np.zeros(len(surface.pictured))
     for end in surface.edges.T:
@@ -146,7 +146,9 @@ def _spread(surface: _Surface, wanted: NDArray[np.float64]) -> NDArray[np.float6
     return spread
 
 
-def _evened(surface: _Surface, before: NDArray[np.float64], stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
+def stiffened_weights(
+    surface: SurfaceGraph, before: NDArray[np.float64], stiffness: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Weights w (N, J) with the least sum of |w_v - before_v|^2 over points and s_ab |w_a - w_b|^2 over edges, whose
     stiffness s is that of the stiffer end."""
     a, b = surface.edges.T
@@ -166,7 +168,7 @@ def _evened(surface: _Surface, before: NDArray[np.float64], stiffness: NDArray[n
 
 
 def _bound_anew(
-    surface: _Surface,
+    surface: SurfaceGraph,
     bound: _Bound,
     weights: NDArray[np.float64],
     moved: NDArray[np.bool_],

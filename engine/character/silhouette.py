@@ -131,7 +131,7 @@ def _found(figure: Figure, model: MattingModel | None) -> NDArray[np.float32]:
     """The mask that is found of itself, (H, W). Where others are in the picture, the networks look at this one alone."""
     part = _looked_at(figure)
     rgb = np.ascontiguousarray(figure.rgb[part])
-    seed = _seen(figure) if figure.spatial else _limbs(figure)
+    seed = seen_limbs(figure) if figure.spatial else _limbs(figure)
     known = model is not None or (figure.alpha is not None and (figure.alpha < 0.5).any())
     people = None if known else people_confidence(rgb, whole=True)
     own = None if figure.alpha is None else figure.alpha[part]
@@ -156,7 +156,7 @@ def _looked_at(figure: Figure) -> tuple[slice, slice]:
     )
 
 
-def _seen(figure: Figure) -> NDArray[np.float32]:
+def seen_limbs(figure: Figure) -> NDArray[np.float32]:
     """Where the person is (`LIKELY_BELIEF`) by the joints that are seen: along arms, and in hands. The network that cuts people
     out misses them, the one that finds their joints does not, and by colour a hand is not like the sleeve beside it."""
     seed, beyond = (np.zeros(figure.rgb.shape[:2], np.uint8) for _ in range(2))

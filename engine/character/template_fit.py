@@ -112,7 +112,7 @@ def fit_figure(figure: Figure, mask: NDArray[np.bool_]) -> FittedBody:
         for joint, mark in JOINTS.items()
         for side in ("Left", "Right")
     }
-    world = _arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
+    world = arms_before_the_trunk(figure) if figure.spatial else _in_the_plane(figure.points)
     limbs = np.stack([world[places[b]] - world[places[a]] for a, b in DIRECTED_LIMBS])
     trunk = {joint: world[place] for joint, place in places.items()}
     limbs = limbs / np.maximum(np.linalg.norm(limbs, axis=1, keepdims=True), 1e-6)
@@ -147,7 +147,7 @@ def pose_template(fitted: FittedBody, camera: PictureCamera, human: Human) -> Po
     )
 
 
-def _arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
+def arms_before_the_trunk(figure: Figure) -> NDArray[np.float32]:
     """Perception's places in space (33, 3), with what is seen before the trunk before it: an arm behind it would be
     hidden. `BEFORE` metres are those between the middle of a body and an arm that lies on it."""
     world = figure.world.copy()

@@ -27,7 +27,7 @@ def without_backs_in_view(character: Character, camera: Camera) -> Character:
     first = np.unique(point, return_index=True)[1]
     beside = neighbours(point[mesh.triangles], len(first))
     pictured = pose_transforms(mesh.skeleton, character.pictured.rotations, character.pictured.root)[0]
-    best, fewest = character, _backs(character, camera)
+    best, fewest = character, backs_in_view(character, camera)
     for _ in range(ROUNDS):
         if not len(fewest):
             break
@@ -40,14 +40,14 @@ def without_backs_in_view(character: Character, camera: Camera) -> Character:
         vertices, weights = best.mesh.vertices.copy(), best.mesh.weights.copy()
         vertices[some], weights[some], _ = at_rest(goal, mesh.bones[some].astype(np.intp), weights[some], pictured)
         tried = replace(best, mesh=replace(best.mesh, vertices=vertices, weights=weights))
-        left = _backs(tried, camera)
+        left = backs_in_view(tried, camera)
         if len(left) > len(fewest):
             break
         best, fewest = tried, left
     return best
 
 
-def _backs(character: Character, camera: Camera) -> NDArray[np.intp]:
+def backs_in_view(character: Character, camera: Camera) -> NDArray[np.intp]:
     """The triangles in view that show their back, by index, once for each pixel."""
     triangles = character.mesh.triangles
     projected = camera.project(pose(character, character.pictured))

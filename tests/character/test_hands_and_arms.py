@@ -7,9 +7,9 @@ import pytest
 
 from engine.body.parts import BODY_PARTS
 from engine.character.figure import Figure
-from engine.character.silhouette import ARM_AND_HAND, FOREARM, NEAR, _seen
+from engine.character.silhouette import ARM_AND_HAND, FOREARM, NEAR, seen_limbs
 from engine.character.stages import hand_labels
-from engine.character.template_fit import BEFORE, _arms_before_the_trunk
+from engine.character.template_fit import BEFORE, arms_before_the_trunk
 from engine.perception.body import BODY_LANDMARKS
 from engine.perception.person import DOUBTFUL_BELIEF, LIKELY_BELIEF
 
@@ -31,7 +31,7 @@ HAND = {"LeftWrist": (150, 120), "LeftIndex": (150, 140), "LeftPinky": (154, 140
 
 
 def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
-    seed = _seen(figure(HAND, 0.95)) == np.float32(LIKELY_BELIEF)
+    seed = seen_limbs(figure(HAND, 0.95)) == np.float32(LIKELY_BELIEF)
     for x, y in ((150, 121), (151, 130), (152, 139)):
         assert seed[y, x]
     assert not seed[150:].any() and not seed[:110].any()
@@ -41,12 +41,12 @@ def test_the_middle_of_a_hand_is_the_persons_and_no_finger_beyond_it() -> None:
 
 
 def test_a_hand_that_is_not_surely_seen_says_nothing() -> None:
-    assert not _seen(figure(HAND, 0.6)).any()
-    assert not _seen(figure({"LeftWrist": (150, 120)}, 0.95)).any(), "a wrist without fingers"
+    assert not seen_limbs(figure(HAND, 0.6)).any()
+    assert not seen_limbs(figure({"LeftWrist": (150, 120)}, 0.95)).any(), "a wrist without fingers"
 
 
 def test_around_a_hand_colours_are_asked() -> None:
-    seed = _seen(figure(HAND, 0.95))
+    seed = seen_limbs(figure(HAND, 0.95))
     sure, doubtful = seed == np.float32(LIKELY_BELIEF), seed == np.float32(DOUBTFUL_BELIEF)
     assert (sure | doubtful | (seed == 0)).all()
     reach = max(1, round(NEAR * 90))  # from the shoulders to the fingers
@@ -57,13 +57,13 @@ def test_around_a_hand_colours_are_asked() -> None:
 def test_a_hand_that_is_not_seen_closely_may_be_as_far_from_the_elbow_as_an_arm_is_long() -> None:
     places = {"LeftElbow": (120.0, 80.0), "LeftWrist": (128.0, 80.0)}
     end = 120 + ARM_AND_HAND * 70  # from the shoulders to the hips
-    doubtful = _seen(figure(places, 0.95))[80] == np.float32(DOUBTFUL_BELIEF)
+    doubtful = seen_limbs(figure(places, 0.95))[80] == np.float32(DOUBTFUL_BELIEF)
     assert doubtful[135 : int(end)].all()
     assert not doubtful[int(end) + 2 + round((NEAR + FOREARM) * 70) :].any()
 
 
 def test_a_forearm_between_joints_that_are_seen_is_the_persons() -> None:
-    seed = _seen(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == np.float32(LIKELY_BELIEF)
+    seed = seen_limbs(figure({"LeftElbow": (150, 80), "LeftWrist": (180, 110)}, 0.95)) == np.float32(LIKELY_BELIEF)
     for x, y in ((151, 81), (165, 95), (179, 109)):
         assert seed[y, x]
 
@@ -88,7 +88,7 @@ def test_a_hand_that_is_seen_is_the_arms_and_the_other_says_nothing() -> None:
 )
 def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confidence: float, expected: float) -> None:
     wrist = figure({"LeftWrist": place}, confidence, -0.1)
-    found = _arms_before_the_trunk(wrist)
+    found = arms_before_the_trunk(wrist)
     assert found[BODY_LANDMARKS.index("LeftWrist"), 2] == pytest.approx(expected)
     others = [
         k for k, name in enumerate(BODY_LANDMARKS) if name not in ("LeftWrist", "RightWrist", "LeftElbow", "RightElbow")
@@ -97,5 +97,5 @@ def test_an_arm_seen_before_the_trunk_is_before_it(place: tuple[int, int], confi
 
 
 def test_an_arm_already_further_forward_stays() -> None:
-    found = _arms_before_the_trunk(figure({"LeftWrist": (100, 90)}, 0.9, 0.45))
+    found = arms_before_the_trunk(figure({"LeftWrist": (100, 90)}, 0.9, 0.45))
     assert found[BODY_LANDMARKS.index("LeftWrist"), 2] == pytest.approx(0.45)

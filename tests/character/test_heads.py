@@ -11,7 +11,7 @@ import pytest
 from engine.character.face_region import face_turn
 from engine.character.head_area import measure_head
 from engine.character.head_sides import with_round_sides
-from engine.character.head_texture import _nape, back_of_the_head
+from engine.character.head_texture import back_of_the_head, nape_height
 from engine.character.part_surface import Surface
 from engine.character.sheets import ClosedMesh, Layer, close
 from engine.geometry.welding import is_closed
@@ -184,7 +184,7 @@ def test_fair_hair_of_which_little_is_told_from_skin_is_long_where_it_hangs_besi
     few |= low & (rows <= 3)
     share = (few & (oval.up < -0.6)).sum() / mask.sum()
     assert 0.0055 < share < 0.011
-    assert _nape(few, oval) < -1
+    assert nape_height(few, oval) < -1
     _, narrow_mask, _ = head(BROWN, (150, 160, 170))
     short = measure_head(narrow_mask, narrow_mask, np.array(FACE, float), SCALE)
-    assert _nape(few & narrow_mask, short) > -1
+    assert nape_height(few & narrow_mask, short) > -1

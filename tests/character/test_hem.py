@@ -14,7 +14,7 @@ from engine.character.free_cloth import FreeCloth, Ring
 from engine.character.hem import legs_below, with_cloth
 from engine.character.label_map import Labels, label_parts
 from engine.character.layers import build_layers
-from engine.character.legs_beneath import _under
+from engine.character.legs_beneath import leg_under_cloth
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
@@ -171,7 +171,7 @@ def test_under_cloth_a_leg_goes_on_beside_the_other_and_not_over_it() -> None:
     own[60:110, 32:46] = other[46:110, 18:32] = True
     cloth &= ~other
     bone[0:58, 22:44] = bone[58:110, 28:50] = True
-    under = _under(own, cloth, bone, 20)
+    under = leg_under_cloth(own, cloth, bone, 20)
     assert under[45:60, 32:38].all() and not (under & other).any()
     rows = np.flatnonzero(under.any(1))
     assert rows[0] == 40 and rows[-1] == 59

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 from template_character import template_character
 
-from engine.character.measures import _loops, _odd_edges, _unseen, pose, projected_areas
+from engine.character.measures import border_edges, count_loops, pose, projected_areas, unseen_share
 from engine.character.rigging import Character
 from engine.character.stages import fewer_triangles
 from engine.geometry.skinned_mesh import SkinnedMesh
@@ -28,25 +28,25 @@ def tube(around: int = 6, along: int = 4) -> np.ndarray:
 
 
 def test_a_tube_has_two_holes_and_a_lid_closes_one() -> None:
-    border, crowded = _odd_edges(tube())
+    border, crowded = border_edges(tube())
     assert len(border) == 12 and crowded == 0
-    assert _loops(border) == 2
+    assert count_loops(border) == 2
     lid = np.array([(0, k + 1, k) for k in range(1, 5)])
-    assert _loops(_odd_edges(np.concatenate([tube(), lid]))[0]) == 1
+    assert count_loops(border_edges(np.concatenate([tube(), lid]))[0]) == 1
 
 
 def test_a_closed_surface_has_no_hole_and_a_missing_triangle_is_one() -> None:
     tetrahedron = np.array([(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)])
-    border, crowded = _odd_edges(tetrahedron)
-    assert _loops(border) == 0 and crowded == 0
-    assert _loops(_odd_edges(tetrahedron[1:])[0]) == 1
+    border, crowded = border_edges(tetrahedron)
+    assert count_loops(border) == 0 and crowded == 0
+    assert count_loops(border_edges(tetrahedron[1:])[0]) == 1
 
 
 def test_a_fin_on_a_surface_is_not_a_manifold() -> None:
     tetrahedron = np.array([(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0), (0, 1, 4)])
-    border, crowded = _odd_edges(tetrahedron)
+    border, crowded = border_edges(tetrahedron)
     assert crowded == 1
-    assert _loops(border) == 1, "the fin's own border"
+    assert count_loops(border) == 1, "the fin's own border"
 
 
 def test_a_triangle_that_turns_the_other_way_shows_its_back() -> None:
@@ -70,9 +70,9 @@ def test_backs_and_what_is_behind_something_are_unseen() -> None:
     triangles = np.concatenate([sides, sides + 4])
     seen = rasterise(placed, triangles, (30, 30), cull=True).triangle
     flat = placed * [1, 1, 0]
-    assert _unseen(flat, placed, triangles, seen[seen >= 0]) == pytest.approx(0.6, abs=1e-6)
+    assert unseen_share(flat, placed, triangles, seen[seen >= 0]) == pytest.approx(0.6, abs=1e-6)
     alone = rasterise(placed[:4], sides, (30, 30), cull=True).triangle
-    assert _unseen(flat[:4], placed[:4], sides, alone[alone >= 0]) == pytest.approx(0.5, abs=1e-6)
+    assert unseen_share(flat[:4], placed[:4], sides, alone[alone >= 0]) == pytest.approx(0.5, abs=1e-6)
 
 
 def test_of_a_ball_finer_than_the_pixels_half_is_seen() -> None:
@@ -82,7 +82,7 @@ def test_of_a_ball_finer_than_the_pixels_half_is_seen() -> None:
     triangles = np.concatenate([np.stack([at, at + 161, at + 1], 1), np.stack([at + 1, at + 161, at + 162], 1)])
     placed = (30 * ball + 31.7).astype(np.float32)
     seen = rasterise(placed, triangles, (64, 64)).triangle
-    assert _unseen(ball.astype(np.float32), placed, triangles, seen[seen >= 0]) == pytest.approx(0.5, abs=0.02)
+    assert unseen_share(ball.astype(np.float32), placed, triangles, seen[seen >= 0]) == pytest.approx(0.5, abs=0.02)
 
 
 def test_fewer_triangles_are_chosen_as_pictured_and_stay_in_t_pose() -> None:

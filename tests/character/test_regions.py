@@ -7,7 +7,7 @@ import numpy as np
 from engine.body.parts import BODY_PARTS
 from engine.character.label_map import Labels
 from engine.character.posed_template import PosedTemplate
-from engine.character.regions import LimbRegion, _body, limb_in_one_piece
+from engine.character.regions import LimbRegion, body_in_one_piece, limb_in_one_piece
 
 SHAPE = (60, 120)
 LEFT, RIGHT, TORSO = (BODY_PARTS.index(name) for name in ("left_arm", "right_arm", "torso"))
@@ -80,6 +80,6 @@ def test_beside_an_arm_that_passes_behind_it_the_body_leaves_no_gap_but_at_the_s
     labels = found(np.where(trunk, TORSO, np.where(arm, LEFT, -1)))
     template, own = bar((5, 55), (5, 60)), np.ones(2, np.bool_)
     behind = LimbRegion(arm, ~own, LEFT, ~own, joint, behind=True)
-    body = _body(labels, [behind], template, np.full((2, 3), TORSO), own)
+    body = body_in_one_piece(labels, [behind], template, np.full((2, 3), TORSO), own)
     assert body[27:53, 60].all() and not body[:, 61:].any()
     assert not body[7:23, 60].any(), "a shoulder is no trunk's"

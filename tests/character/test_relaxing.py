@@ -12,7 +12,7 @@ from template_character import template_character
 
 from benchmarks.stretching import stretched
 from engine.character.measures import pose
-from engine.character.relaxing import _evened, _Surface, relaxed
+from engine.character.relaxing import SurfaceGraph, relaxed, stiffened_weights
 from engine.character.rigging import Character, at_rest
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import pose_transforms, skin
@@ -72,9 +72,9 @@ def test_two_points_meet_as_far_as_the_edge_between_them_is_stiff() -> None:
     """The least of (p - 1)^2 + (q - 0)^2 + s (p - q)^2 has p - q = 1 / (1 + 2 s) and p + q = 1."""
     edges = np.array([[0, 1], [2, 3]])
     half = sparse.csr_matrix((np.ones(2), edges.T), (4, 4))
-    surface = _Surface(np.zeros((4, 3)), edges, np.ones(2), half + half.T)
+    surface = SurfaceGraph(np.zeros((4, 3)), edges, np.ones(2), half + half.T)
     before = np.array([[1.0, 0], [0, 1], [1, 0], [0, 1]])
-    after = _evened(surface, before, np.array([2.0, 0, 0, 0]))
+    after = stiffened_weights(surface, before, np.array([2.0, 0, 0, 0]))
     np.testing.assert_allclose(after[0], [0.6, 0.4], atol=1e-12)
     np.testing.assert_allclose(after[1], [0.4, 0.6], atol=1e-12)
     np.testing.assert_array_equal(after[2:], before[2:])

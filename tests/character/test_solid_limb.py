@@ -12,7 +12,7 @@ from test_head_and_legs import standing
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.crossed_labels import Behind
 from engine.character.label_map import Labels
-from engine.character.layers import _behind_the_other
+from engine.character.layers import arm_behind_the_other
 from engine.character.part_surface import Surface
 from engine.character.posed_template import PosedTemplate
 from engine.character.sheets import Layer, close
@@ -121,7 +121,7 @@ def test_behind_the_other_arm_it_is_beneath_its_surface(
         labels, none, np.array([LEFT, right], np.int8), none, np.full(SHAPE, -1, np.int8), Behind(LEFT, sleeve, none)
     )
     nobody = Layer(none, Surface(depth, unused), Surface(depth, unused))
-    moved = _behind_the_other([other, own], nobody, Behind(LEFT, sleeve, none), found)[1]
+    moved = arm_behind_the_other([other, own], nobody, Behind(LEFT, sleeve, none), found)[1]
     assert moved.solid is not None
     x, y = np.rint(moved.solid.vertices[:, :2]).astype(int).T
     inside = cv2.erode((crossing & sleeve).astype(np.uint8), np.ones((7, 7), np.uint8))[y, x] > 0

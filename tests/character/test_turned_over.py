@@ -11,7 +11,7 @@ from template_character import template_character
 
 from engine.character.measures import pose
 from engine.character.rigging import Character
-from engine.character.turned_over import _backs, without_backs_in_view
+from engine.character.turned_over import backs_in_view, without_backs_in_view
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import weld
@@ -40,7 +40,7 @@ def below(whole: Character) -> NDArray[np.intp]:
 
 
 def test_a_surface_without_folds_stays_as_it_is(whole: Character) -> None:
-    assert not len(_backs(whole, CAMERA))
+    assert not len(backs_in_view(whole, CAMERA))
     assert without_backs_in_view(whole, CAMERA) is whole
 
 
@@ -51,9 +51,9 @@ def test_a_point_that_comes_out_on_the_other_side_goes_back_between_its_neighbou
     vertices = whole.mesh.vertices.copy()
     vertices[below] += np.array([0, 0.12, 0], np.float32)
     folded = replace(whole, mesh=replace(whole.mesh, vertices=vertices))
-    assert len(_backs(folded, CAMERA)) > 10
+    assert len(backs_in_view(folded, CAMERA)) > 10
     mended = without_backs_in_view(folded, CAMERA)
-    assert not len(_backs(mended, CAMERA))
+    assert not len(backs_in_view(mended, CAMERA))
     apart = np.linalg.norm(pose(mended, mended.pictured) - pose(whole, whole.pictured), axis=1)
     assert apart.max() < 0.04
     assert np.count_nonzero(apart > 1e-6) < 60

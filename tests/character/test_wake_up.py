@@ -14,7 +14,7 @@ import pytest
 from missing import missing
 
 from benchmarks.known_truth.written_character import outline, read_written
-from engine.character.measures import _odd_edges
+from engine.character.measures import border_edges
 from engine.character.sample import sample_picture
 from engine.errors import InputError
 from engine.geometry.camera import Camera
@@ -248,7 +248,7 @@ def test_real_pictures(media: Callable[[str], Path], tmp_path: Path, name: str) 
     inside = (mask > 0.95 * 255) & (drawn.alpha > 0.95)
     error = np.square(drawn.rgb[inside].astype(float) - read_image(photo).rgb[inside]).mean()
     assert 10 * np.log10(255**2 / error) > 30
-    border, crowded = _odd_edges(weld(written.mesh)[written.mesh.triangles])
+    border, crowded = border_edges(weld(written.mesh)[written.mesh.triangles])
     assert (len(border), crowded) == (0, 0)
 
 
