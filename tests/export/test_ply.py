@@ -1,0 +1,23 @@
+"""PLY files: another reader finds the points, normals and colours that were written."""
+
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from engine.export.ply import write_ply
+from engine.geometry.point_cloud import PointCloud
+
+
+def test_trimesh_reads_back_what_was_written(tmp_path: Path) -> None:
+    random = np.random.default_rng(7)
+    points = random.normal(size=(100, 3)).astype(np.float32)
+    normals = points / np.linalg.norm(points, axis=1, keepdims=True)
+    colours = random.integers(0, 256, (100, 3), dtype=np.uint8)
+    write_ply(tmp_path / "points.ply", PointCloud(points, normals, colours))
+
+    read = trimesh.load(tmp_path / "points.ply")
+    assert np.array_equal(np.asarray(read.vertices, np.float32), points)
+    assert np.array_equal(np.asarray(read.colors)[:, :3], colours)
+    raw = read.metadata["_ply_raw"]["vertex"]["data"]
+    assert np.array_equal(np.stack([raw["nx"], raw["ny"], raw["nz"]], axis=1).reshape(-1, 3), normals)
