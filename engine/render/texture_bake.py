@@ -49,6 +49,20 @@ class View:
 
 
 @dataclass(frozen=True)
+class ViewWeighting:
+    """What a view's pixels weigh on the surface, and which of them show it at all."""
+
+    max_degrees: float = MAX_VIEW_DEGREES
+    """Between a view and the surface's normal, up to which it gives anything."""
+    power: float = 1.0
+    """Of the cosine to the normal: 0 gives all alike, much makes the most frontal win."""
+    depth_slack: float = DEPTH_SLACK
+    """As `DEPTH_SLACK` says, in the unit of the vertices."""
+    depth_jump: float = DEPTH_JUMP
+    """As `DEPTH_JUMP` says, in the unit of the vertices."""
+
+
+@dataclass(frozen=True)
 class BakedTexture:
     """`colours` (S, S, 3) float32, 0 to 255, zero where no view gave any; `weights` (S, S) float32: what all views gave to
     each texel; `charts` (S, S) int32: which chart each texel shows, -1 beside them."""
@@ -72,12 +86,8 @@ def bake(
     atlas: TextureAtlas,
     views: Iterable[View],
     size: int,
-    *,
+    weighting: ViewWeighting = ViewWeighting(),
     normals: NDArray[np.floating] | None = None,
-    steepest: float = MAX_VIEW_DEGREES,
-    power: float = 1.0,
-    slack: float = DEPTH_SLACK,
-    jump: float = DEPTH_JUMP,
 ) -> BakedTexture:
     """The mean of what all views see, weighted by what each texel weighs in them.
 
@@ -87,11 +97,9 @@ def bake(
         the texture as the atlas' triangle `t`.
     views : one after the other; only one of them is held at a time.
     size : texels along a side of the texture, whose centres are looked up.
+    weighting : what each view weighs.
     normals : (V, 3) unit normals by which to judge from where a point is seen; by default the surface's own. Smooth ones
         make fewer patches.
-    steepest : degrees from the normal up to which a view gives anything.
-    power : of the cosine to the normal, which weighs a view: 0 gives all alike, much makes the most frontal win.
-    slack, jump : in the unit of the vertices, as `DEPTH_SLACK` and `DEPTH_JUMP` say.
 
     Colours are taken bilinearly. Raises ValueError where triangles and atlas, or a view's arrays, do not fit.
     """
@@ -108,20 +116,21 @@ def bake(
         cosine = _cosines(view.camera, points, towards)
         pixels = view.camera.project(points)
         seen = rasterise(pixels, faces, view.camera.size, perspective=True)
-        depth, edge = seen.depth, _beside_edges(seen.depth, jump)
+        depth, edge = seen.depth, _beside_edges(seen.depth, weighting.depth_jump)
         fronting = (cosine[faces] > 0).any(1) & (pixels[faces, 2] > 0).all(1)
         if view.paints is not None:
             fronting &= view.paints
         own = np.flatnonzero(fronting[shown])
         trust = np.ones(view.camera.size, np.float32) if view.trust is None else view.trust
         pixels_seen = _ViewPixels(view.picture, np.asarray(trust, np.float32), depth, edge)
-        weighing = _Weighing(view.gain, np.cos(np.radians(steepest)), power, slack)
+        least = np.cos(np.radians(weighting.max_degrees))
+        terms = _WeightTerms(view.gain, least, weighting.power, weighting.depth_slack)
         for start in range(0, len(own), STRIP_TEXELS):
             here = own[start : start + STRIP_TEXELS]
             corners, share = faces[shown[here]], places[here]
             where = view.camera.project(np.einsum("nk,nkd->nd", share, points[corners]))
             facing = (share * cosine[corners]).sum(1)
-            _gather(pixels_seen, weighing, where, facing, covered[here], sums, weights)
+            _gather(pixels_seen, terms, where, facing, covered[here], sums, weights)
     np.divide(sums, weights[:, None], out=sums, where=weights[:, None] > 0)
     charts = np.where(texels.triangle >= 0, atlas.charts[texels.triangle], -1).astype(np.int32)
     return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts)
@@ -211,7 +220,7 @@ class _ViewPixels(NamedTuple):
     edge: np.ndarray
 
 
-class _Weighing(NamedTuple):
+class _WeightTerms(NamedTuple):
     """How much a view counts: its gain, the least cosine to the normal and its power, and how far behind is still seen."""
 
     gain: float
@@ -223,7 +232,7 @@ class _Weighing(NamedTuple):
 @njit(nogil=True, boundscheck=False, error_model="numpy")
 def _gather(
     view: _ViewPixels,
-    weighing: _Weighing,
+    terms: _WeightTerms,
     where: np.ndarray,
     facing: np.ndarray,
     texels: np.ndarray,
@@ -232,7 +241,7 @@ def _gather(
 ) -> None:
     """Add what a view shows at `where` (N, 3), at cosines `facing` (N,) to the normal, to the `texels` (N,) that are there."""
     picture, trust, depth, edge = view
-    gain, least, power, slack = weighing
+    gain, least, power, slack = terms
     height, width = depth.shape
     for i in range(len(texels)):
         x, y = where[i, 0], where[i, 1]

@@ -12,7 +12,7 @@ from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv, unwrap
 from engine.render.attributes import interpolate, sample_texture
 from engine.render.mipmap import build_mipmap
 from engine.render.rasteriser import rasterise
-from engine.render.texture_bake import BakedTexture, View, bake, chart_gap, pad_charts, texel_raster
+from engine.render.texture_bake import BakedTexture, View, ViewWeighting, bake, chart_gap, pad_charts, texel_raster
 
 SIZE = 256
 
@@ -53,7 +53,12 @@ def test_many_views_bring_back_the_colours_that_they_were_drawn_with(ball) -> No
     vertices, faces, atlas = ball
     cameras = [*ring(8), *ring(4, height=3.5), *ring(4, height=-3.5)]
     baked = bake(
-        vertices, faces, atlas, (View(picture(vertices, faces, each), each) for each in cameras), SIZE, steepest=60
+        vertices,
+        faces,
+        atlas,
+        (View(picture(vertices, faces, each), each) for each in cameras),
+        SIZE,
+        ViewWeighting(60),
     )
     places, on = texel_places(vertices, faces, atlas, SIZE)
     seen = baked.weights > 0
@@ -65,7 +70,7 @@ def test_many_views_bring_back_the_colours_that_they_were_drawn_with(ball) -> No
 def test_one_view_gives_what_it_faces_and_nothing_else(ball) -> None:
     vertices, faces, atlas = ball
     camera = ring(1)[0]
-    baked = bake(vertices, faces, atlas, [View(picture(vertices, faces, camera), camera)], SIZE, steepest=45)
+    baked = bake(vertices, faces, atlas, [View(picture(vertices, faces, camera), camera)], SIZE, ViewWeighting(45))
     places, on = texel_places(vertices, faces, atlas, SIZE)
     back = np.array(camera.eye) - places
     cosine = (back / np.linalg.norm(back, axis=2, keepdims=True) * places).sum(2)
@@ -135,7 +140,7 @@ def test_views_weigh_by_trust_and_gain_and_paint_only_their_triangles() -> None:
     grey = np.full((300, 300, 3), 100, np.uint8)
     trust = np.full(camera.size, 3.0, np.float32)
     views = [View(grey, camera), View(grey * 2, camera, trust), View(grey, camera, gain=1.5)]
-    baked = bake(vertices, faces, atlas, views, SIZE, power=0.0)
+    baked = bake(vertices, faces, atlas, views, SIZE, ViewWeighting(power=0.0))
     told = baked.weights > 0
     np.testing.assert_allclose(baked.weights[told], 5.0)
     np.testing.assert_allclose(baked.colours[told], (100 + 3 * 200 + 150) / 5, atol=1e-3)
