@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from engine.character.measures import pose
 from engine.character.rigging import Character
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
+from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 
 STRETCH_RATIO = 3.0

@@ -9,11 +9,11 @@ from scipy.spatial.transform import Rotation
 from engine.body import load_template
 from engine.body.subdivision import catmull_clark
 from engine.body.template import load_rig
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import bone_transforms, skin
 from engine.geometry.surface import triangulate
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
 
 
 def template_character(subdivided: bool = False, texture_size: int = 512) -> SkinnedMesh:

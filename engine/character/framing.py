@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from engine.character.rigging import Character
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.motion.clip import Clip
 from engine.motion.confine import MovementRoom, confine_clip
 from engine.motion.feet.sole import leg_length
+from engine.motion.kinematics import pose_transforms
 
 Array = NDArray[np.float64]
 

@@ -14,10 +14,11 @@ from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
 from engine.character.template_fit import FittedBody
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import is_closed, weld
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.motion.clip import Clip
+from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import SUBPIXEL_STEPS, rasterise
 
 

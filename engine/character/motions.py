@@ -14,6 +14,7 @@ from engine.character.measures import pose as posed_vertices
 from engine.character.rigging import Character
 from engine.errors import InputError
 from engine.geometry.camera import Camera
+from engine.geometry.skeleton import Skeleton
 from engine.motion.beginning import beginning, length_warning
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, keep_pictured_parts, loop_travel
@@ -21,7 +22,6 @@ from engine.motion.files.reading import read_motion
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import CLIPS, built_in
 from engine.motion.retargeting.retarget import retarget
-from engine.motion.skeleton import Skeleton
 from engine.motion.step_out import step_out
 
 TRAVELS = 0.1

@@ -17,8 +17,9 @@ from engine.character.measures import pose
 from engine.character.rigging import Character, at_rest
 from engine.character.sheets import strongest
 from engine.compiled import njit
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import weld
+from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
 
 BEGINS, FULL = 2.5, 3.1

@@ -14,10 +14,10 @@ from engine.character.picture_space import PictureCamera
 from engine.character.sheets import ClosedMesh
 from engine.character.soles import with_soles
 from engine.character.template_fit import FittedBody
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
+from engine.motion.kinematics import pose_transforms
 
 LEAST_VOLUME, KEPT_VOLUME = 0.35, 0.6
 """What blending turns may leave of a volume. Where it leaves less halfway between a vertex's two strongest joints, as in a

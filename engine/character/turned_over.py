@@ -11,8 +11,8 @@ from engine.character.measures import pose, projected_areas
 from engine.character.rigging import Character, at_rest
 from engine.geometry.adjacency import neighbours
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import pose_transforms
 from engine.geometry.welding import weld
+from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 
 ROUNDS = 6

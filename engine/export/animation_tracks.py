@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.retargeting.resampling import loop_step
-from engine.motion.skeleton import Skeleton
 
 STILL_TOLERANCE = 1e-5
 """Radians, or metres: what moves less than this stands still."""

@@ -23,10 +23,10 @@ from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
 from engine.geometry.morph_target import MorphTarget
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
 
 DETAIL_COVERAGE_RATIO = 0.5
 """Each level of detail takes over where the character fills this share less of the screen than the one before."""

@@ -16,10 +16,10 @@ from engine.export.animation_tracks import tracks
 from engine.export.glb import jpeg
 from engine.export.influences import FULL_WEIGHT, quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
 
 
 def write_usdz(

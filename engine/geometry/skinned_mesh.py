@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.motion.skeleton import Skeleton
+from engine.geometry.skeleton import Skeleton
 
 
 @dataclass(frozen=True)

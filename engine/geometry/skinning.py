@@ -10,9 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.motion import rotation
-from engine.motion.kinematics import place_joints, world_rotations
-from engine.motion.skeleton import Skeleton
 
 
 def bone_transforms(
@@ -42,27 +39,6 @@ def bone_transforms(
         else:
             world[bone] = world[parent] @ own
     return world
-
-
-def pose_transforms(
-    skeleton: Skeleton, rotations: NDArray[np.floating], root: NDArray[np.floating]
-) -> NDArray[np.float32]:
-    """What each joint does to the rest pose, (F, J, 4, 4) float32, acting on column vectors.
-
-    Parameters
-    ----------
-    rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's turn from the T-pose in its parent's axes, as in
-        `engine.motion.clip.Clip`.
-    root : (F, 3) the root joint's places, metres.
-    """
-    world = world_rotations(skeleton.parents, rotations)
-    places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
-    turns = rotation.to_matrix(world)
-    transforms = np.zeros((*turns.shape[:2], 4, 4), np.float32)
-    transforms[..., :3, :3] = turns
-    transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", turns, skeleton.heads.astype(np.float64))
-    transforms[..., 3, 3] = 1
-    return transforms
 
 
 def skin(

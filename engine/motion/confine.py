@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.feet.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.feet.sole import soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 
@@ -62,3 +62,24 @@ def world_transforms(skeleton: Skeleton, clip: Clip) -> Array:
     matrices[..., :3, 3] = place_joints(skeleton.parents, skeleton.offsets(), world, clip.root)
     matrices[..., 3, 3] = 1
     return matrices
+
+
+def pose_transforms(
+    skeleton: Skeleton, rotations: NDArray[np.floating], root: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """What each joint does to the rest pose, (F, J, 4, 4) float32, acting on column vectors.
+
+    Parameters
+    ----------
+    rotations : (F, J, 4) unit quaternions (x, y, z, w): each joint's turn from the T-pose in its parent's axes, as in
+        `engine.motion.clip.Clip`.
+    root : (F, 3) the root joint's places, metres.
+    """
+    world = world_rotations(skeleton.parents, rotations)
+    places = place_joints(skeleton.parents, skeleton.offsets(), world, root)
+    turns = rotation.to_matrix(world)
+    transforms = np.zeros((*turns.shape[:2], 4, 4), np.float32)
+    transforms[..., :3, :3] = turns
+    transforms[..., :3, 3] = places - np.einsum("fjik,jk->fji", turns, skeleton.heads.astype(np.float64))
+    transforms[..., 3, 3] = 1
+    return transforms

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import repeat_loop
@@ -21,7 +22,6 @@ from engine.motion.feet.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
 from engine.motion.retargeting.resampling import places_at, turns_at
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

@@ -20,10 +20,11 @@ from engine.compiled import njit
 from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.surface import vertex_normals
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
+from engine.motion.kinematics import pose_transforms
 from engine.render.ground_shadow import GroundShadow, cast_on_ground
 from engine.render.mipmap import Mipmap, build_mipmap
 from engine.render.multisampling import draw_samples, sample_offsets, select_pixels

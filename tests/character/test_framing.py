@@ -13,14 +13,15 @@ from engine.character.motions import choose_motion
 from engine.character.options import MOTIONS
 from engine.character.rigging import Character
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skeleton import Skeleton
+from engine.geometry.skinning import skin
 from engine.motion import rotation
 from engine.motion.edit import repeat_loop
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.files.source_motion import SourceMotion
+from engine.motion.kinematics import pose_transforms
 from engine.motion.library import built_in
 from engine.motion.rotation import about
-from engine.motion.skeleton import Skeleton
 from engine.render.camera_moves import CAMERA_MOVES, Move, camera_at
 
 DISTANCE = 4.0

@@ -26,10 +26,10 @@ from engine.character.sheets import Layer, close
 from engine.character.template_fit import FittedBody
 from engine.character.template_maps import side_maps
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import is_closed
 from engine.imaging.filling.nearest import continued_colours
-from engine.motion.kinematics import joint_places
+from engine.motion.kinematics import joint_places, pose_transforms
 
 
 def disk(size: int, radius: float, x: float, y: float) -> np.ndarray:

@@ -13,13 +13,13 @@ from engine.character.motions import Played, choose_motion
 from engine.character.pipeline import MOST_BYTES, write_small_glb
 from engine.character.rigging import Character
 from engine.geometry.camera import Camera
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel
 from engine.motion.feet.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS
-from engine.motion.skeleton import Skeleton
 from engine.run import Run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "export"))

@@ -15,9 +15,10 @@ from engine.character.measures import pose
 from engine.character.relaxing import SurfaceGraph, relaxed, stiffened_weights
 from engine.character.rigging import Character, at_rest
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import is_closed, weld
 from engine.motion.clip import Clip
+from engine.motion.kinematics import pose_transforms
 
 
 def arms_down(mesh: SkinnedMesh) -> Clip:

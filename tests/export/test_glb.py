@@ -13,8 +13,9 @@ from template_character import still, template_character, walk
 
 from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.motion.edit import loop_travel
+from engine.motion.kinematics import pose_transforms
 from engine.motion.library import CLIPS, built_in
 
 

@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from engine.export.animation_tracks import SINGLE_FRAME_SECONDS, closing_root, tracks
 from engine.export.influences import FULL_WEIGHT, quantise_influences
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
 
 BONE = Skeleton(("Hips",), np.array([-1], np.int32), np.zeros((1, 3), np.float32))
 

@@ -11,7 +11,8 @@ from template_character import still, template_character, walk
 
 from engine.export.usdz import joint_paths, write_usdz
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
+from engine.motion.kinematics import pose_transforms
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,11 @@ from template_character import template_character, walk
 
 from engine.geometry.camera import Camera
 from engine.geometry.decimation import decimate, joint_importance
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import weld
-from engine.motion.skeleton import Skeleton
+from engine.motion.kinematics import pose_transforms
 from engine.render.rasteriser import rasterise
 
 TWO = Skeleton(("Hips", "Spine"), np.array([-1, 0], np.int32), np.array([[0, 0, 0], [0, 0.5, 0]], np.float32))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.legs import HeldFoot, set_legs
 from engine.motion.feet.sole import soles
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.skeleton import Skeleton
 
 TRUNK = {
     "Hips": ("", (0.0, 0.97, 0.0)),

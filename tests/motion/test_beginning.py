@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from humanoids import told_by
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.beginning import MAX_MOTION_SECONDS, beginning, duration, length_warning
 from engine.motion.check import check_motion
@@ -16,7 +17,6 @@ from engine.motion.edit import repeat_loop
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import built_in
 from engine.motion.retargeting.retarget import retarget
-from engine.motion.skeleton import Skeleton
 
 
 def walking(skeleton: Skeleton, rounds: int, fps: float = 30.0) -> SourceMotion:

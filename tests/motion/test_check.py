@@ -12,13 +12,13 @@ import pytest
 from humanoids import build_skeleton, told_by
 
 from engine.errors import InputError
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.check import check_motion
 from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.motion.files.reading import motion_clips, read_motion
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import built_in
-from engine.motion.skeleton import Skeleton
 from engine.motion_check import KIND, MotionOptions
 from engine.run import Run
 

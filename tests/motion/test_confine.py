@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.confine import MovementRoom, confine_clip
 from engine.motion.edit import repeat_loop
@@ -14,7 +15,6 @@ from engine.motion.feet.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS, built_in
 from engine.motion.library.posture import Foot, Posture, embody
-from engine.motion.skeleton import Skeleton
 from engine.motion.step_out import step_out
 
 LUNGE = Posture(1, feet={"Left": Foot(aside=0.08, ahead=0.25), "Right": Foot(aside=-0.08, ahead=-0.15, yaw=20.0)})

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.edit import BODY_PARTS, in_place, keep_pictured_parts, loop_travel, repeat_loop
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.feet.sole import leg_length
 from engine.motion.kinematics import joint_places
 from engine.motion.library import built_in
-from engine.motion.skeleton import Skeleton
 
 
 def first(clip: Clip) -> Clip:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.kinematics import joint_places, local_rotations, world_rotations, world_transforms
-from engine.motion.skeleton import Skeleton
 
 
 def still(skeleton: Skeleton, frames: int = 1) -> Clip:

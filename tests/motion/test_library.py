@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.catalogue import CATALOGUE
 from engine.motion.edit import loop_travel, repeat_loop
@@ -13,7 +14,6 @@ from engine.motion.feet.foot_contact import find_contacts, sinking_depth, slidin
 from engine.motion.feet.sole import leg_length
 from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import CLIPS, built_in
-from engine.motion.skeleton import Skeleton
 
 LOOPS = {"idle", "walk", "run", "dance"}
 

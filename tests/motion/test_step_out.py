@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import sinking_depth, sole_places
 from engine.motion.kinematics import joint_places
 from engine.motion.library import CLIPS, built_in
 from engine.motion.library.posture import Arm, Foot, Posture, embody
-from engine.motion.skeleton import Skeleton
 from engine.motion.step_out import step_out
 
 LEGS_APART = Posture(

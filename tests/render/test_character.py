@@ -8,10 +8,11 @@ import pytest
 from template_character import template_character, walk
 
 from engine.geometry.camera import Camera
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.motion.clip import Clip
-from engine.motion.skeleton import Skeleton
+from engine.motion.kinematics import pose_transforms
 from engine.render.backdrop import Backdrop
 from engine.render.camera_moves import camera_at
 from engine.render.character import (

@@ -6,8 +6,9 @@ from template_character import template_character, walk
 
 from engine.geometry.adjacency import edge_table
 from engine.geometry.camera import Camera
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.geometry.welding import weld
+from engine.motion.kinematics import pose_transforms
 from engine.render.multisampling import draw_samples, sample_offsets, select_pixels
 from engine.render.outline import facings, mark_outline
 from engine.render.rasteriser import SUBPIXEL_STEPS, draw_into, rasterise

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.feet.sole import soles
 from engine.motion.kinematics import place_joints, world_rotations
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 Contacts = NDArray[np.bool_]

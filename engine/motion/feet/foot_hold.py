@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import (
@@ -31,7 +32,6 @@ from engine.motion.feet.legs import HeldFoot, ankle_over_ball, hip_lowering, set
 from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
 from engine.motion.retargeting.resampling import loop_step
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.dance import dance
 from engine.motion.library.gait import run, walk
 from engine.motion.library.jump import jump
 from engine.motion.library.sit import sit
 from engine.motion.library.standing import bow, idle, wave
-from engine.motion.skeleton import Skeleton
 
 CLIPS: Mapping[str, Callable[[Skeleton, float], Clip]] = {
     "idle": idle,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.curves import curve_through, hermite_curve
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.library.standing import STANDING_FEET
-from engine.motion.skeleton import Skeleton
 
 TAKE_OFF_SECONDS, LANDING_SECONDS, END_SECONDS = 0.78, 1.2, 2.2
 """Seconds: when the feet leave the ground and touch it again; the end of the clip."""

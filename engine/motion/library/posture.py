@@ -12,13 +12,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.inverse_kinematics import two_bones
 from engine.motion.feet.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
 from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 Value = float | Array

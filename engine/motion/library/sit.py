@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.curves import curve_through, ease
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.library.standing import STANDING_FEET
-from engine.motion.skeleton import Skeleton
 
 
 def sit(skeleton: Skeleton, fps: float) -> Clip:

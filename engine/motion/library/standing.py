@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.library.curves import curve_through, ease
 from engine.motion.library.posture import Arm, Foot, Posture, embody
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

@@ -16,10 +16,10 @@ from itertools import pairwise, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import world_rotations
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.feet.foot_contact import FeetReport
@@ -28,7 +29,6 @@ from engine.motion.retargeting.looping import as_loop
 from engine.motion.retargeting.reference_pose import t_pose_turns
 from engine.motion.retargeting.resampling import resample_source
 from engine.motion.retargeting.treadmill import travel_as_walked
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

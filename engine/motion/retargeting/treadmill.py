@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel
 from engine.motion.feet.foot_contact import REFERENCE_LEG, sole_places
 from engine.motion.feet.sole import leg_length
-from engine.motion.skeleton import Skeleton
 
 Array = NDArray[np.float64]
 

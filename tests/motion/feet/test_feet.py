@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel, repeat_loop
@@ -16,7 +17,6 @@ from engine.motion.feet.foot_hold import hold_feet
 from engine.motion.feet.sole import soles
 from engine.motion.kinematics import joint_places, local_rotations, world_rotations
 from engine.motion.library import built_in
-from engine.motion.skeleton import Skeleton
 
 
 def spoiled(skeleton: Skeleton) -> tuple[Clip, Clip]:

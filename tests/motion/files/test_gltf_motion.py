@@ -12,6 +12,7 @@ import pygltflib as gltf
 import pytest
 
 from engine.errors import InputError
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.gltf_file import MAX_JSON_BYTES
@@ -21,7 +22,6 @@ from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
 from engine.motion.retargeting.joint_map import map_joints
 from engine.motion.retargeting.retarget import retarget
-from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]
 SOLDIER = "scans3d/body_soldier/soldier.glb"

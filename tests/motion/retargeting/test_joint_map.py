@@ -13,6 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from engine.errors import InputError
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.files.bvh import read_bvh
@@ -20,7 +21,6 @@ from engine.motion.files.source_motion import SourceMotion, unique_names
 from engine.motion.library import built_in
 from engine.motion.retargeting.joint_map import lost_joints, lost_warning, map_joints
 from engine.motion.retargeting.joint_names import match_names, read_name
-from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]
 

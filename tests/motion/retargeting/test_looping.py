@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from humanoids import told_by, treadmill_walk
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import loop_travel, repeat_loop
@@ -20,7 +21,6 @@ from engine.motion.files.source_motion import SourceMotion
 from engine.motion.kinematics import joint_places
 from engine.motion.library import built_in
 from engine.motion.retargeting.retarget import retarget
-from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]
 

@@ -11,6 +11,7 @@ import pytest
 from humanoids import build_skeleton, told_by
 
 from engine.errors import InputError
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.check import check_motion
 from engine.motion.clip import Clip
@@ -21,7 +22,6 @@ from engine.motion.kinematics import joint_places, world_rotations
 from engine.motion.library import built_in
 from engine.motion.retargeting.glitches import without_flips
 from engine.motion.retargeting.retarget import retarget
-from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from humanoids import build_skeleton, on_feet, treadmill_walk
 
+from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.clip import Clip
 from engine.motion.edit import in_place, loop_travel, repeat_loop
@@ -19,7 +20,6 @@ from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.motion.library import CLIPS, built_in
 from engine.motion.retargeting.retarget import retarget
 from engine.motion.retargeting.treadmill import travel_as_walked
-from engine.motion.skeleton import Skeleton
 
 Media = Callable[[str], Path]
 
