@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target
+from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import triangulate
-from engine.motion.skeleton import Skeleton
 
 AVATAR_PARTS = ("body", "left_eye", "right_eye", "upper_teeth", "lower_teeth", "tongue")
 """The template's parts that an avatar has. Lashes are left out: as bare strips, without alpha, they are fins."""

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from engine.geometry.camera import Camera
 from engine.geometry.skinned_mesh import SkinnedMesh
-from engine.geometry.skinning import pose_transforms, skin
+from engine.geometry.skinning import skin
 from engine.motion.clip import Clip
+from engine.motion.kinematics import pose_transforms
 from engine.render.character import Actor, film_cast, prepare_character
 from engine.render.ground_shadow import GroundShadow
 
