@@ -22,9 +22,9 @@ from engine.face_animation.creases.fine_details import RatioImages, keep_ratio_i
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
-from engine.face_animation.driver_tracking.tracking_refinement import observe_driver, refine_tracking
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
+from engine.face_animation.tracking_refinement import observe_driver, refine_tracking
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.image import write_image
 from engine.media.limits import Limits

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
-from engine.motion.clip import Clip
-from engine.motion.retargeting.resampling import loop_step
+from engine.motion.clip import Clip, loop_step
 
 STILL_TOLERANCE = 1e-5
 """Radians, or metres: what moves less than this stands still."""

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.creases.fine_details import shade
-from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
 from engine.face_animation.eyes.eyes_and_lids import EyesAndLids
 from engine.face_animation.motion_transfer.control_motion import ControlMotion, carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
+from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.mouth.mouth_interior import DriverMouth, MouthInterior
 from engine.face_animation.rig import Rig
 from engine.face_animation.target_face import TargetFace

@@ -14,16 +14,16 @@ from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip, detail_region, keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
-from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
 from engine.face_animation.driver_tracking.neutral import NeutralFrame
-from engine.face_animation.driver_tracking.tracking_refinement import (
+from engine.face_animation.loop import close_loop
+from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
+from engine.face_animation.rig import Rig, rig_target
+from engine.face_animation.target_face import TargetFace
+from engine.face_animation.tracking_refinement import (
     DriverObservations,
     observe_driver,
     refine_tracking,
 )
-from engine.face_animation.loop import close_loop
-from engine.face_animation.rig import Rig, rig_target
-from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.models import matting_model

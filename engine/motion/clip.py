@@ -28,3 +28,14 @@ class Clip:
         """How long it plays."""
         frames = len(self.rotations)
         return (frames if self.loops else frames - 1) / self.fps
+
+
+def loop_step(clip: Clip) -> NDArray[np.float64]:
+    """(3,) from the last frame of a loop to the frame that would follow, as far as the ground plane goes: the mean of
+    the steps beside it; upwards, exactly back to the first frame's height."""
+    root = np.asarray(clip.root, np.float64)
+    if len(root) == 1:
+        return np.zeros(3)
+    step = (root[1] - root[0] + root[-1] - root[-2]) / 2
+    step[1] = root[0, 1] - root[-1, 1]
+    return np.asarray(step)

@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from engine.geometry.skeleton import Skeleton
-from engine.motion.clip import Clip
+from engine.motion.clip import Clip, loop_step
 from engine.motion.feet.foot_contact import sole_places
 from engine.motion.feet.legs import HeldFoot, set_legs
 from engine.motion.feet.sole import soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.retargeting.resampling import loop_step
 
 Array = NDArray[np.float64]
 

@@ -20,8 +20,8 @@ from engine.motion.edit import repeat_loop
 from engine.motion.feet.foot_contact import find_contacts, sole_places, true_runs
 from engine.motion.feet.legs import HeldFoot, hip_lowering, set_legs
 from engine.motion.feet.sole import Sole, leg_length, soles
+from engine.motion.interpolation import places_at, turns_at
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.retargeting.resampling import places_at, turns_at
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.acting_options import ActingOptions, Part
-from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
 from engine.face_animation.eyes.eyes import gaze_offsets
 from engine.face_animation.motion_transfer.alignment import align
 from engine.face_animation.motion_transfer.contour import keep_inside, rim_distance
@@ -18,6 +17,7 @@ from engine.face_animation.motion_transfer.control_points import ControlPoints, 
 from engine.face_animation.motion_transfer.expression_transfer import carry_expression, local_maps
 from engine.face_animation.motion_transfer.head_motion import HeadMotion, split_motion, turn_angles
 from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_head_proxy, move_head
+from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
 from engine.geometry.rigid import Similarity

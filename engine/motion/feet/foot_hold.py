@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
-from engine.motion.clip import Clip
+from engine.motion.clip import Clip, loop_step
 from engine.motion.feet.foot_contact import (
     REFERENCE_LEG,
     Contacts,
@@ -31,7 +31,6 @@ from engine.motion.feet.foot_contact import (
 from engine.motion.feet.legs import HeldFoot, ankle_over_ball, hip_lowering, set_legs
 from engine.motion.feet.sole import Sole, leg_length, soles
 from engine.motion.kinematics import local_rotations, place_joints, world_rotations
-from engine.motion.retargeting.resampling import loop_step
 
 Array = NDArray[np.float64]
 

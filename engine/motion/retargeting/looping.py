@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.motion import rotation
 from engine.motion.files.source_motion import SourceMotion
-from engine.motion.retargeting.resampling import places_at, turns_at
+from engine.motion.interpolation import places_at, turns_at
 
 Array = NDArray[np.float64]
 

@@ -16,11 +16,11 @@ from engine.performances.modelling.brows import RootedHairs, grow_brows, grow_la
 from engine.performances.modelling.eyes import Eyeball, build_eyeball
 from engine.performances.modelling.figure import Figure, Pose, PosedFigure, build_figure, pose_figure
 from engine.performances.modelling.hair import Haircut, grow_crop, hair_cover
+from engine.performances.modelling.hair_transmittance import light_through
 from engine.performances.modelling.shirt import Shirt, drape, sew_shirt
 from engine.performances.modelling.skin import Skin, paint_skin
 from engine.performances.modelling.teeth import Arch, Dentition, build_dentition
 from engine.performances.modelling.wrinkles import Wrinkles, carve, wrinkle_relief
-from engine.performances.rendering.hair_shading import light_through
 from engine.render.light import Lamps
 
 

@@ -15,10 +15,10 @@ from engine.export.still import write_still
 from engine.export.video import VideoWriter
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, draw_in_order
 from engine.face_animation.creases.fine_details import RatioStrip
-from engine.face_animation.driver_tracking.landmark_residuals import LandmarkResiduals
 from engine.face_animation.driver_tracking.neutral import NeutralFrame, choose_neutral_frame, warn_if_never_at_rest
 from engine.face_animation.motion_transfer.control_motion import carry_motion
 from engine.face_animation.motion_transfer.head_proxy import build_head_proxy
+from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.rig import Rig
 from engine.face_animation.stages import (
     DriverPerformance,

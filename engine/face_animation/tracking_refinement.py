@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from engine.face_animation.acting_options import ActingOptions
 from engine.face_animation.animation import FaceAnimation, RegisteredDriver, RiggedTarget, Window
 from engine.face_animation.creases.fine_details import DetailRegion, RatioStrip
-from engine.face_animation.driver_tracking.landmark_residuals import (
+from engine.face_animation.motion_transfer.landmark_residuals import (
     LandmarkResiduals,
     fit_residuals,
     flatten_residuals,
