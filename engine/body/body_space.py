@@ -33,9 +33,13 @@ CHANGES_PER_SAMPLE, MAX_CHANGE = 6, 0.7
 class BodySpace:
     """Bodies as `mean` + `coefficients` in units of standard deviations.
 
-    `mean` (V, 3) and `basis` (K, V, 3) float32 metres for the template's vertices in T-pose, feet on the ground, facing
-    +z; `joint_mean` (J, 3) and `joint_basis` (K, J, 3) likewise for the joints `names` with `parents` (J,).
-    `variance_held` (K,): the share of the samples' variance that the first 1, 2, ... K components hold.
+    mean : (V, 3) float32 metres, the template's vertices in T-pose, feet on the ground, facing +z.
+    basis : (K, V, 3) float32 metres, what one unit of each coefficient adds to them.
+    names : of the J joints.
+    parents : (J,) int32, the parent of each joint, -1 for the root.
+    joint_mean : (J, 3) float32 metres, the joints of the mean body.
+    joint_basis : (K, J, 3) float32 metres, what one unit of each coefficient adds to them.
+    variance_held : (K,) float32, the share of the samples' variance that the first 1, 2, ... K components hold.
     """
 
     mean: NDArray[np.float32]

@@ -22,9 +22,12 @@ FINGERTIP_DEPTH = 0.006
 class HandModel:
     """A hand's landmarks at rest, linear in the body's coefficients, as `engine.perception.hands.HAND_JOINTS` orders them.
 
-    `joints` (21,) int: the joint of the space that carries each; `mean` (21, 3) and `basis` (K, 21, 3): where they are in
-    T-pose. `bend` (5, 3): the axis about which each finger's joints bend, towards the palm, `spread` (3,) that about
-    which fingers turn from the thumb's side to the other, unit vectors in T-pose.
+    side : the person's.
+    joints : (21,) int, the joint of the space that carries each.
+    mean : (21, 3) float32 metres, where they are in the mean body's T-pose.
+    basis : (K, 21, 3) float32 metres, what one unit of each coefficient adds.
+    bend : (5, 3) float32 unit vectors of the T-pose, about which each finger's joints bend towards the palm.
+    spread : (3,) float32 unit vector of the T-pose, about which fingers turn from the thumb's side to the other.
     """
 
     side: Literal["Left", "Right"]

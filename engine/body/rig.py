@@ -25,11 +25,13 @@ FACE_JOINTS = {"Jaw": "jaw", "LeftEye": "eye.L", "RightEye": "eye.R"}
 class Rig:
     """Bones, parents before children, and the weights by which they move the template's vertices.
 
-    `parents` (B,) int32, -1 for the root. `starts` (2B + 1,) int32 and `anchors`: the head of bone `b` is the
-    mean of the vertices `anchors[starts[2b]:starts[2b + 1]]`, its tail that of the next span, so that a skeleton
-    fits whatever shape the template is given. `rolls` (B,) float32 radians, as MakeHuman gives them.
-    `bones` (V, K) uint8 and `weights` (V, K) float32: each vertex' influences, strongest first, summing to one;
-    vertices that no bone moves belong to the root.
+    names : of the B bones.
+    parents : (B,) int32, -1 for the root.
+    starts : (2B + 1,) int32, where the spans of `anchors` begin: those of bone b's head and tail are 2b and 2b + 1.
+    anchors : (A,) int32, vertices. A head or tail is the mean of its span, so that a skeleton fits any shape of the template.
+    rolls : (B,) float32 radians, as MakeHuman gives them.
+    bones : (V, K) uint8, the bones that move each vertex, strongest first; the root where no bone does.
+    weights : (V, K) float32, how much each of them does, summing to one.
     """
 
     names: tuple[str, ...]

@@ -21,9 +21,14 @@ SINGLE_FRAME_SECONDS = 1.0
 
 @dataclass(frozen=True)
 class Tracks:
-    """Keyframes of one clip. `times` (K,) float32 seconds from 0; `rotations` (K, J, 4) float32 unit quaternions
-    (x, y, z, w), neighbours in the same half of the sphere; `root` (K, 3) float32 metres. `turning` (J,) the joints
-    that ever leave the T-pose, `moving` (J,) those that also change over time."""
+    """K keyframes of one clip of a skeleton with J joints.
+
+    times : (K,) float32 seconds from 0.
+    rotations : (K, J, 4) float32 unit quaternions (x, y, z, w), neighbours in the same half of the sphere.
+    root : (K, 3) float32 metres.
+    turning : (J,) bool, the joints that ever leave the T-pose.
+    moving : (J,) bool, those that also change over time.
+    """
 
     times: NDArray[np.float32]
     rotations: NDArray[np.float32]

@@ -10,10 +10,19 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class TargetFace:
-    """`rgb` (H, W, 3) uint8 at the result's size; `mesh` (478, 3) pixels of it; `alpha` the picture's own,
-    where it has one; `faces` all faces found (F, 4) as x, y, width, height in the original picture, or in a crop of it that
-    numbers give, the placed one among them; `people` (h, w) in
-    [0, 1], at whatever size, where people are believed to be, if the picture is not cropped."""
+    """A picture of a face, brought to the result's size.
+
+    rgb : (H, W, 3) uint8, the picture at that size.
+    alpha : (H, W) float32 in [0, 1], the picture's own; None where it has none.
+    mesh : (478, 3) float32 pixels of `rgb`.
+    faces : (F, 4) float32, all faces found as x, y, width, height in pixels of the original picture, or of a crop of it that
+        numbers give; the one of `mesh` among them.
+    original_size : (width, height) of the original picture, pixels.
+    place : (2, 3) float64, carries places in what `faces` refers to into `rgb`, both measured from the upper left corner of
+        the first pixel: a scale and a shift.
+    people : (h, w) float32 in [0, 1], at whatever size, where people are believed to be in the original picture; None where
+        it is cropped.
+    """
 
     rgb: NDArray[np.uint8]
     alpha: NDArray[np.float32] | None

@@ -14,10 +14,14 @@ from engine.geometry.skeleton import Skeleton
 class SkinnedMesh:
     """One mesh with one texture.
 
-    `vertices` (V, 3) float32: metres, at rest (the skeleton's T-pose). `triangles` (T, 3) int32, counter-clockwise
-    seen from outside. `uv` (V, 2) float32 in [0, 1], (0, 0) at the texture's upper left corner; vertices along a seam
-    of the texture are there once for each side. `bones` (V, 4) uint8 and `weights` (V, 4) float32: influences of the
-    skeleton's joints, strongest first, summing to one. `texture` (H, W, 3) uint8 sRGB.
+    skeleton : the joints that move it.
+    vertices : (V, 3) float32 metres, at rest (the skeleton's T-pose).
+    triangles : (T, 3) int32, counter-clockwise seen from outside.
+    uv : (V, 2) float32 in [0, 1], (0, 0) at the texture's upper left corner. Vertices along a seam of the texture are there
+        once for each side.
+    bones : (V, 4) uint8, the joints that move each vertex, strongest first.
+    weights : (V, 4) float32, how much each of them does, summing to one.
+    texture : (H, W, 3) uint8 sRGB.
     """
 
     skeleton: Skeleton

@@ -15,9 +15,13 @@ from engine.compiled import njit
 
 
 class Mipmap(NamedTuple):
-    """`texels` (N,) uint32: all levels one after the other, rows from the top, each texel red, green and blue from the
-    lowest byte; `starts` (L,) int64 where each begins; `sizes` (L, 2) int64 heights and widths, each half of the one
-    before."""
+    """A texture's L levels, each half as high and wide as the one before.
+
+    texels : (N,) uint32, all levels one after the other, rows from the top, each texel red, green and blue from the lowest
+        byte.
+    starts : (L,) int64, where each level begins.
+    sizes : (L, 2) int64, heights and widths.
+    """
 
     texels: NDArray[np.uint32]
     starts: NDArray[np.int64]

@@ -20,12 +20,16 @@ from engine.render.light import Lamps, cast_shadow, light_visibility
 
 @dataclass(frozen=True)
 class Surface:
-    """The visible points of a scene, one row for each.
+    """The N visible points of a scene, one row for each.
 
-    `position` (N, 3) metres; `normal` (N, 3) the coarse surface, `bumped` (N, 3) with its fine relief;
-    `view` (N, 3) unit vectors to the eye; `roughness` (N,) of the first lobe; `reflectance` (N,) at normal
-    incidence; `softness` (N, 3) for each colour, how far its diffuse light forgets the fine relief [0, 1]:
-    red light travels furthest under the skin.
+    position : (N, 3) float32 metres.
+    normal : (N, 3) float32, of the coarse surface.
+    bumped : (N, 3) float32, the normal with the surface's fine relief.
+    view : (N, 3) float32 unit vectors to the eye.
+    roughness : (N,) float32, of the first lobe.
+    reflectance : (N,) float32, at normal incidence.
+    softness : (N, 3) float32 in [0, 1], how far the diffuse light of each colour forgets the fine relief: red light travels
+        furthest under the skin.
     """
 
     position: NDArray[np.float32]

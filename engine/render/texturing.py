@@ -26,9 +26,11 @@ class TexturedSurface(NamedTuple):
     spread: np.ndarray
     """(T,) the area of each triangle on the texture, texels."""
     texels: np.ndarray
-    """The three arrays of the texture's `engine.render.mipmap.Mipmap`."""
+    """(N,) uint32, all levels of the texture as `engine.render.mipmap.Mipmap` has them."""
     starts: np.ndarray
+    """(L,) int64, where each level begins among them."""
     sizes: np.ndarray
+    """(L, 2) int64, each level's height and width."""
 
 
 class PictureWindow(NamedTuple):

@@ -33,11 +33,16 @@ MIN_EYE_WIDTH = 14.0
 
 @dataclass(frozen=True)
 class Eyeball:
-    """One eye's layer at rest.
+    """One eye's layer at rest, (h, w) pixels of the picture.
 
-    white, iris : (h, w, 3) float32; iris_alpha (h, w); corner (2,) of the layer in the picture; ends (2, 2)
-    the eye's corners and width between them, pixels of the picture; opening : its area in squares of the width;
-    lashes (3,) : the colour of the upper lid's edge.
+    white : (h, w, 3) float32, the eyeball without its iris.
+    iris : (h, w, 3) float32, the iris and the pupil.
+    iris_alpha : (h, w) float32 in [0, 1].
+    corner : (2,) float32, where the layer's upper left pixel lies in the picture (x, y).
+    ends : (2, 2) float32, the corners of the eye in the picture (x, y).
+    width : pixels between them.
+    opening : area between the lids, in squares of the width.
+    lashes : (3,) float32, the colour of the upper lid's edge.
     """
 
     white: NDArray[np.float32]

@@ -21,10 +21,17 @@ TIP_SHARE = 0.45
 
 @dataclass(frozen=True)
 class Sole:
-    """One foot at rest, on the plane y = 0. `ankle` (3,) its place; offsets (3,) metres: `heel` and `toe` (the toe joint)
-    from the ankle, `ball` and `tip` from the toe joint; `forward` (3,) the way the foot points, level. `joints`: hip,
-    knee, ankle and toe joint; the last -1 where the skeleton has none: then the toe joint is the ball of the foot, and
-    the toes are left out."""
+    """One foot at rest, on the plane y = 0.
+
+    joints : hip, knee, ankle and toe joint. The last is -1 where the skeleton has none: then the toe joint is the ball of the
+        foot, and the toes are left out.
+    ankle : (3,) metres, its place.
+    heel : (3,) metres from the ankle.
+    toe : (3,) metres from the ankle, the toe joint.
+    ball : (3,) metres from the toe joint.
+    tip : (3,) metres from the toe joint.
+    forward : (3,) unit vector, the way the foot points, level.
+    """
 
     joints: tuple[int, int, int, int]
     ankle: Array

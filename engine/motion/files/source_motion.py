@@ -30,16 +30,22 @@ MAX_NUMBERS = 8_000_000
 
 @dataclass(frozen=True)
 class SourceMotion:
-    """Frames of a skeleton of any kind, lengths in the file's own unit.
+    """F frames of a skeleton of any kind with J joints, lengths in the file's own unit.
 
-    `parents` (J,) int32, -1 for roots, parents before children. `rest_rotations` (J, 4) and `rest_offsets` (J, 3):
-    the pose that the file calls rest, each joint in its parent's axes; in a BVH file nothing is turned at rest.
-    `ends` (J, 3): where the bone of a joint without children ends, in the joint's axes; NaN where the file is silent.
-    `rotations` (F, J, 4) and `translations` (F, J, 3): the frames, in parents' axes; `fps` frames a second.
-    `up`: the world's axis that points up, or None where the format leaves it open.
-    `unit_metres`: the length of the file's unit, and `unit` its name; a guess for formats that do not tell.
-    `loops`: whether the last frame shows the first again, moved on by what the root travels; None where the file is silent.
-    `skeletons`: the first joints of all skeletons in the file, this one's first; empty where the format holds one alone.
+    name : the motion's.
+    fps : frames a second.
+    names : of the joints.
+    parents : (J,) int32, -1 for roots, parents before children.
+    rest_rotations : (J, 4) quaternions of the pose that the file calls rest, in parents' axes; none turns in a BVH file.
+    rest_offsets : (J, 3) places of the joints in that pose, in parents' axes.
+    ends : (J, 3) where the bone of a joint without children ends, in the joint's axes; NaN where the file is silent.
+    rotations : (F, J, 4) quaternions of the frames, in parents' axes.
+    translations : (F, J, 3) places of the joints in the frames, in parents' axes.
+    up : the world's axis that points up, or None where the format leaves it open.
+    unit : the name of the file's unit; a guess for formats that do not tell.
+    unit_metres : its length; a guess likewise.
+    loops : whether the last frame shows the first again, moved on by what the root travels; None where the file is silent.
+    skeletons : the first joints of all skeletons in the file, this one's first; empty where the format holds one alone.
     """
 
     name: str

@@ -46,14 +46,18 @@ class NoSuchFace(Exception):
 class FaceTrack:
     """A face followed through a video, in N frames.
 
-    size : (width, height) at which it was read. fps : frames a second, a usual rate where they change. times : (N + 1,)
-    seconds of the part that is used at which each frame comes on show, and the last one ends. has_sound.
-    meshes : (N, 478, 3) float32 face meshes, steadied, pixels; held where no face was found.
-    found : (N,) bool. periphery : (N, K, 2) float32 points tracked around head and shoulders, pixels.
-    trust : (N, K) float32 [0, 1], where the forward-backward check passed, fading over to where it did not.
-    crops : the face's appearance, frame by frame; `crop_places` (N, 2, 3) carries pixels of the frame to
-    pixels of the crop. faces : (F, 4) those to choose of, as x, y, width, height in pixels, the largest first.
-    closed : the last frame leads to the first.
+    size : (width, height) at which it was read.
+    fps : frames a second, a usual rate where they change.
+    times : (N + 1,) seconds of the part that is used at which each frame comes on show, and the last one ends.
+    has_sound : whether the video has any.
+    meshes : (N, 478, 3) float32 pixels, face meshes, steadied; held where no face was found.
+    found : (N,) bool, whether a face was.
+    periphery : (N, K, 2) float32 pixels, points tracked around head and shoulders.
+    trust : (N, K) float32 in [0, 1], where the forward-backward check passed, fading over to where it did not.
+    crops : the face's appearance, frame by frame.
+    crop_places : (N, 2, 3) carries pixels of the frame to pixels of the crop.
+    faces : (F, 4) pixels, those to choose of as x, y, width, height, the largest first.
+    closed : whether the last frame leads to the first.
     """
 
     size: tuple[int, int]

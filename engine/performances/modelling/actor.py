@@ -45,13 +45,23 @@ LOWER_ARCH = Arch(gum=0.7122, front=0.1415, up=1)
 
 @dataclass(frozen=True)
 class Actor:
-    """All that stays the same from frame to frame.
+    """All that stays the same from frame to frame; N vertices of the fine skin.
 
-    `casting`: eyeball and teeth again with fewer triangles, for shadows.
-    `passed` (S, K, L): the share of the hair's lamps that reaches each point of the crop.
-    By vertex of the fine skin: `chart` (N, 2) place on the map of the head, `inner` (N,) inside of the mouth,
-    `margin` (N,) moist rims of the lids, `scalp` (N,) under the hair, `veiled` (N,) there and
-    just outside its border, where single hairs keep the skin from shining, [0, 1] each.
+    figure : the body, its eyes and lids.
+    skin : the maps of its colour and relief.
+    wrinkles : what its face units fold.
+    eyeball, upper, lower : an eye and both rows of teeth.
+    casting : the same with fewer triangles, for shadows.
+    chart : (N, 2) float32, place on the map of the head.
+    inner : (N,) float32 in [0, 1], inside of the mouth.
+    margin : (N,) float32 in [0, 1], moist rims of the lids.
+    scalp : (N,) float32 in [0, 1], under the hair.
+    veiled : (N,) float32 in [0, 1], there and just outside its border, where single hairs keep the skin from shining.
+    tongue : its surface.
+    shirt : bound to the skin.
+    crop : the hair of the head.
+    passed : (S, K, L) float32 in [0, 1], the share of each of the hair's L lamps that reaches each point of `crop`.
+    rooted : brows and lashes, which follow the skin.
     """
 
     figure: Figure
@@ -75,10 +85,17 @@ class Actor:
 
 @dataclass(frozen=True)
 class Scene:
-    """The actor in a pose: `vertices` (V, 3), `normals` (V, 3), `triangles` (T, 3), `part` (T,) uint8; the fine
-    skin's vertices come first. `casters`: a lighter mesh of the same for shadows.
-    `hairs`: points (S, K, 3) of the crop, then of each of the actor's `rooted` hairs.
-    `wrinkles`: relief over the map of the head, metres."""
+    """The actor in a pose.
+
+    vertices : (V, 3) float32 metres, those of the fine skin first.
+    normals : (V, 3) float32 unit vectors.
+    triangles : (T, 3) int32.
+    part : (T,) uint8, a `Part` for each triangle.
+    casters : vertices and triangles of a lighter mesh of the same, for shadows.
+    hairs : points (S, K, 3) float32 metres of the crop, then of each of the actor's `rooted` hairs.
+    wrinkles : (h, w) float32 metres, relief over the map of the head.
+    posed : the figure in this pose.
+    """
 
     vertices: NDArray[np.float32]
     normals: NDArray[np.float32]

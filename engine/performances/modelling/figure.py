@@ -75,11 +75,18 @@ class Eye:
 
 @dataclass(frozen=True)
 class Figure:
-    """What does not change from frame to frame.
+    """What does not change from frame to frame; B bones.
 
-    `rest` (V, 3) the person's own template, arms down. `fine` (N, V) sparse and `quads` (F, 4): the skin, twice
-    subdivided, cut to what the picture shows; `coarse` and `coarse_quads`: the same once subdivided, for shadows.
-    `heads` (B, 3) are the joints of the rest pose; `eyes` and `lids` left, then right.
+    template : what the figure is made of.
+    rig : its bones.
+    rest : (V, 3) float32 metres, the person's own template, arms down.
+    heads : (B, 3) float32 metres, the joints of the rest pose.
+    fine : (N, V) sparse, makes the skin of the template's vertices: twice subdivided, cut to what the picture shows.
+    quads : (F, 4) int32, those of the skin.
+    coarse : (M, V) sparse, the same once subdivided, for shadows.
+    coarse_quads : (E, 4) int32, those of the coarse skin.
+    eyes : left, then right.
+    lids : left, then right.
     """
 
     template: Template
@@ -96,8 +103,15 @@ class Figure:
 
 @dataclass(frozen=True)
 class PosedFigure:
-    """A pose carried out: `cage` (V, 3) the template's vertices, `skin` (N, 3) and `coarse_skin` the subdivided
-    surfaces, `head` and `jaw` (4, 4) what the skull and the lower teeth do to their rest pose, `eyes` (4, 4) each."""
+    """A pose carried out.
+
+    cage : (V, 3) float32 metres, the template's vertices.
+    skin : (N, 3) float32 metres, the surface subdivided twice.
+    coarse_skin : (M, 3) float32 metres, the surface subdivided once.
+    head : (4, 4) float64, carries the skull from its rest pose.
+    jaw : (4, 4) float64, carries the lower teeth from theirs.
+    eyes : (4, 4) float64 each, left, then right.
+    """
 
     cage: NDArray[np.float32]
     skin: NDArray[np.float32]

@@ -20,11 +20,15 @@ COLLAR_WIDTH = 0.017
 
 @dataclass(frozen=True)
 class Shirt:
-    """A grid of cloth bound to the fine skin.
+    """A grid of cloth bound to the fine skin, N vertices.
 
-    `corners` (N, 3) and `share` (N, 3): the triangle of skin under each vertex and its barycentrics there; `lift` (N,)
-    metres above it; `triangles` (T, 3), `light_triangles` fewer, for shadows; `weave` (N, 2) metres along the cloth:
-    around the neck and away from it (the collar is where the second is less than `COLLAR_WIDTH`).
+    corners : (N, 3) int32, vertices of the triangle of skin under each.
+    share : (N, 3) float32, its barycentrics there.
+    lift : (N,) float32 metres above the skin.
+    triangles : (T, 3) int32.
+    light_triangles : (U, 3) int32, fewer, for shadows.
+    weave : (N, 2) float32 metres along the cloth, around the neck and away from it: the collar is where the second is less
+        than `COLLAR_WIDTH`.
     """
 
     corners: NDArray[np.int32]

@@ -19,9 +19,17 @@ from engine.render.bump import bump
 
 @dataclass(frozen=True)
 class SurfaceMaterials:
-    """What the visible points are made of: `albedo` (N, 3), `bumped` normals (N, 3), `coarse` normals (N, 3) that
-    the diffuse light follows, `roughness` (N,), `reflectance` (N,), `softness` (N, 3), `translucency` (N,),
-    `wet` (N,) rims of the lids."""
+    """What the N visible points are made of.
+
+    albedo : (N, 3) float32.
+    coarse : (N, 3) float32 unit vectors, the normals that diffuse light follows.
+    bumped : (N, 3) float32 unit vectors, the normals with fine relief.
+    roughness : (N,) float32, of the first lobe.
+    reflectance : (N,) float32, at normal incidence.
+    softness : (N, 3) float32 in [0, 1], how far the diffuse light of each colour forgets the fine relief.
+    translucency : (N,) float32 in [0, 1], how much of the light wanders under the surface.
+    wet : (N,) float32 in [0, 1], rims of the lids.
+    """
 
     albedo: NDArray[np.float32]
     coarse: NDArray[np.float32]
