@@ -21,9 +21,9 @@ from engine.run import Progress, Run
 from engine.store import StageStore
 from engine.unknown_options import with_suggestions
 from galatea.inputs import File, Picture, file, picture_file
-from galatea.noise import native_noise_left_out
 from galatea.options import CharacterOptions, PortraitOptions
 from galatea.result import Result, result_of
+from galatea.silence_libraries import silence_libraries
 
 Folder: TypeAlias = str | os.PathLike[str]
 Follower: TypeAlias = Callable[[Progress], object]
@@ -138,7 +138,7 @@ def _checked(model: type[Options], given: Mapping[str, Any]) -> Options:
 def _run(progress: Follower | None, cache: Folder | None, mark_synthetic: bool, passing: Path) -> Iterator[Run]:
     """A run whose native libraries are not heard; without a cache its stages are kept as long as it lasts."""
     with (
-        native_noise_left_out(),
+        silence_libraries(),
         Run(
             StageStore(Path(cache) if cache is not None else passing / "stages"),
             on_progress=progress,

@@ -28,7 +28,7 @@ from service.settings import MEGABYTE, Settings
 from shell.cli_error import CliError
 from shell.option_flags import flag_of, form_of, given_options, option_flags
 from shell.settings import read_settings
-from shell.silence_libraries import libraries_silenced
+from shell.silence_libraries import silence_libraries
 
 EXAMPLE_OPTIONS = """'{"fps": 24}'"""
 MISFORMED_ERRORS = (
@@ -143,7 +143,7 @@ def _run(kind: Kind, inputs: Mapping[str, Given], options: BaseModel, out: Path,
     cache = StageStore(settings.data_dir / "shell")
     try:
         with (
-            libraries_silenced() as shown,
+            silence_libraries() as shown,
             _bar(kind.name, shown) as report,
             Run(cache, on_progress=report, limits=settings.limits, mark_synthetic=settings.mark_synthetic) as run,
         ):

@@ -13,7 +13,7 @@ from engine.errors import Canceled, InputError
 
 
 @contextmanager
-def libraries_silenced() -> Iterator[TextIO]:
+def silence_libraries() -> Iterator[TextIO]:
     """Within, file descriptor 2 leads to a temporary file; the value is the real standard error.
 
     What was printed is shown after all if the work ends by a fault of the program.

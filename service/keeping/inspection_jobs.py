@@ -25,7 +25,7 @@ def inspect_new(context: Context, library: Library, owner: str, name: str, file_
     try:
         begin(context, library, owner, name, file_id)
     except Problem as problem:
-        structlog.get_logger().info("not_looked_into", shelf=library.noun, name=name, reason=problem.code)
+        structlog.get_logger().info("not_inspected", library=library.noun, name=name, reason=problem.code)
 
 
 def begin(context: Context, library: Library, owner: str, name: str, file_id: str) -> None:

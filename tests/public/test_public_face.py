@@ -236,7 +236,7 @@ print("after", file=sys.stderr, end="")
 
 
 def test_lines_are_passed_on_as_they_come(tmp_path: Path) -> None:
-    from galatea.noise import sift
+    from galatea.silence_libraries import sift
 
     theirs = b"W0000 00:00:1795655370.648436    1615 a_calculator.cc:114] Feedback manager\n"
     with (tmp_path / "heard").open("wb", 0) as heard:
@@ -268,12 +268,12 @@ def test_a_script_hears_itself_and_no_library(tmp_path: Path) -> None:
 CHILD = """
 import subprocess, sys, time
 from pathlib import Path
-from galatea.noise import native_noise_left_out
+from galatea.silence_libraries import silence_libraries
 heard = Path(sys.argv[1])
-with native_noise_left_out():
+with silence_libraries():
     print("within", file=sys.stderr)
     child = subprocess.Popen([sys.executable, "-c", "input(); import os; os.write(2, b'child')"], stdin=subprocess.PIPE)
-with native_noise_left_out():
+with silence_libraries():
     print("again", file=sys.stderr)
 child.communicate(b"go\\n")
 print(child.returncode)

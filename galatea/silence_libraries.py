@@ -16,10 +16,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
 STANDARD_ERROR = 2
-NOISE_PATTERN = re.compile(
+LIBRARY_LINE = re.compile(
     rb"[IWE]\d{4} [\d:. ]+ +\d+ \S+\.(?:cc|cpp|h):\d+\] |(?:INFO: )?Created TensorFlow Lite |WARNING: All log mess"
 )
-NOISE_BEGINNING = re.compile(
+LIBRARY_LINE_BEGINNING = re.compile(
     rb"(?:[IWE]\d{0,4}|[IWE]\d{4} .*|INFO: Cre.*|WARNING: All.*|I|IN|INF|INFO:?|INFO: (?:C|Cr)?|W|WA|WAR)$"
 )
 """A line's beginning that may yet turn out to be theirs."""
@@ -73,7 +73,7 @@ _SIEVE = _Sieve()
 
 
 @contextmanager
-def native_noise_left_out() -> Iterator[None]:
+def silence_libraries() -> Iterator[None]:
     """Within, native libraries are not heard; calls at once from several threads share it."""
     _SIEVE.enter()
     try:
@@ -115,17 +115,17 @@ def _pass_on(source: int, target: int, wake: int, passed: threading.Event) -> No
 
 
 def _told(rest: bytes, target: int) -> bytes:
-    """Pass on what was held back, unless it is noise; nothing is then."""
-    if not NOISE_PATTERN.match(rest):
+    """Pass on what was held back, unless it is a line of theirs; nothing is then."""
+    if not LIBRARY_LINE.match(rest):
         _write(target, rest)
     return b""
 
 
 def sift(text: bytes, target: int) -> bytes:
-    """Pass on all but noise; returns the beginning of a line of which that cannot be told yet."""
+    """Pass on all but their lines; returns the beginning of a line of which that cannot be told yet."""
     *lines, rest = text.split(b"\n")
-    kept = b"".join(line + b"\n" for line in lines if not NOISE_PATTERN.match(line))
-    held = NOISE_BEGINNING.match(rest)
+    kept = b"".join(line + b"\n" for line in lines if not LIBRARY_LINE.match(line))
+    held = LIBRARY_LINE_BEGINNING.match(rest)
     _write(target, kept if held else kept + rest)
     return rest if held else b""
 
