@@ -253,7 +253,7 @@ def _check_whole(figure: Figure, partial: bool, warn: Callable[[str, str], None]
             raise InputError(
                 "not_full_body",
                 f"The person is cut off or hidden below ({in_words(missing)}): choose a picture of the whole body, or "
-                "set “partial” to animate what is there.",
+                "accept a person who is cut off or hidden below the chest (the option “partial”).",
                 ("partial", "joints"),
             )
         warn("not_full_body", f"The person is cut off or hidden below ({in_words(missing)}).")

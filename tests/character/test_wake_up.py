@@ -189,7 +189,8 @@ def test_who_is_cut_off_at_the_waist_is_refused_unless_that_is_wanted(
     write_image(tmp_path / "cut.png", np.ascontiguousarray(rgb[:430]))
     error = refused(tmp_path, tmp_path / "cut.png")
     assert (error.code, error.correctable) == ("not_full_body", ("partial", "joints"))
-    assert "both hips" in error.detail and "partial" in error.detail
+    assert "both hips" in error.detail and "“partial”" in error.detail
+    assert "accept a person who is cut off or hidden below the chest" in error.detail, "the option as the page names it"
     out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True).folder
     report = json.loads((out / "report.json").read_text())
     assert [one["code"] for one in report["warnings"]] == ["not_full_body"]
