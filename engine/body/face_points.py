@@ -23,6 +23,13 @@ MOUTH_CORNERS = {"MouthRight": 48, "MouthLeft": 54}
 
 def face_points(template: Template, space: BodySpace) -> NDArray[np.intp]:
     """(68,) the template's vertices at which the face points are."""
+    face, laid = lay_canonical_face(template, space)
+    return np.asarray(face[cKDTree(space.mean[face].astype(np.float64)).query(fiducials(laid))[1]], np.intp)
+
+
+def lay_canonical_face(template: Template, space: BodySpace) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """The template's vertices (F,) that are its face, and the canonical face mesh (478, 3) as it lies on them in the mean
+    body, metres."""
     mesh = space.mean.astype(np.float64)
     left, right = (mesh[template.vertices_of(f"{side}_eye")].mean(0) for side in ("left", "right"))
     middle, unit = (left + right) / 2, float(np.linalg.norm(left - right))
@@ -34,7 +41,7 @@ def face_points(template: Template, space: BodySpace) -> NDArray[np.intp]:
     tree = cKDTree(mesh[face])
     for _ in range(CLOSEST_POINT_ROUNDS):
         laid = _similar(laid, mesh[face][tree.query(laid)[1]])
-    return np.asarray(face[tree.query(fiducials(laid))[1]], np.intp)
+    return face.astype(np.intp), laid
 
 
 def nose_tip(template: Template, space: BodySpace) -> int:
