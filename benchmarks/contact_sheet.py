@@ -17,10 +17,14 @@ Picture = NDArray[np.uint8]
 
 GAP_PIXELS = 4
 """Pixels of paper between cells and between rows."""
-TITLE_PIXELS, BASELINE_PIXELS = 22, 15
-"""Pixels of a title's line, and from its top to the letters' feet."""
-PAPER_GREY_LEVEL, INK_GREY_LEVEL = 235, 20
-"""Grey levels."""
+TITLE_PIXELS = 22
+"""Pixels of a title's line."""
+BASELINE_PIXELS = 15
+"""Pixels from the top of a title's line to the letters' feet."""
+PAPER_GREY_LEVEL = 235
+"""Grey level of the sheet."""
+INK_GREY_LEVEL = 20
+"""Grey level of the letters."""
 
 
 class Row(NamedTuple):

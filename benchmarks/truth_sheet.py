@@ -17,8 +17,10 @@ from engine.render.rasteriser import rasterise
 if TYPE_CHECKING:
     from benchmarks.character_truth import Result
 
-CELL_HEIGHT, CELL_METRES = 360, 2.1
-"""Pixels and metres of a cell's height."""
+CELL_HEIGHT = 360
+"""Pixels of a cell's height."""
+CELL_METRES = 2.1
+"""Metres of a cell's height."""
 VIEW_DEGREES = (90.0, 35.0)
 """Degrees by which the surfaces are turned."""
 MISSED_RGB, EXCESS_RGB, SHARED_RGB = (230, 60, 50), (50, 90, 230), (210, 210, 210)

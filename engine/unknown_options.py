@@ -8,8 +8,8 @@ from difflib import get_close_matches
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-LONGEST_NAME = 80
-"""As many characters of a name are compared, which takes time by the square of them."""
+MAX_COMPARED_CHARACTERS = 80
+"""Characters of a name that are compared, which takes time by the square of them."""
 
 
 def with_suggestions(errors: Sequence[ErrorDetails], options: type[BaseModel]) -> list[ErrorDetails]:
@@ -20,6 +20,6 @@ def with_suggestions(errors: Sequence[ErrorDetails], options: type[BaseModel]) -
 def _explained(error: ErrorDetails, names: Sequence[str]) -> ErrorDetails:
     if error["type"] != "extra_forbidden" or len(error["loc"]) != 1:
         return error
-    near = get_close_matches(str(error["loc"][0])[:LONGEST_NAME], names, n=1)
+    near = get_close_matches(str(error["loc"][0])[:MAX_COMPARED_CHARACTERS], names, n=1)
     there = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}."
     return {**error, "msg": f"There is no such option: {there}"}

@@ -33,8 +33,10 @@ RETRY_SECONDS = 5
 """After how long it is worth trying again where something does not answer."""
 MAX_ERRORS = 10
 """How many wrong fields are told of in one answer: a stranger may send many thousands."""
-MAX_POINTER_CHARACTERS, MAX_DETAIL_CHARACTERS = 300, 2000
-"""The longest pointer and detail of an answer, which may repeat what a request held."""
+MAX_POINTER_CHARACTERS = 300
+"""Characters of an answer's pointer, at most: it may repeat what a request held."""
+MAX_DETAIL_CHARACTERS = 2000
+"""Characters of an answer's detail, at most: it may repeat what a request held."""
 
 STATUS_HEADERS = {
     401: {"WWW-Authenticate": {"description": "How to authenticate.", "required": True, "schema": {"type": "string"}}},

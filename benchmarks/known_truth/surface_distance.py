@@ -14,10 +14,14 @@ from engine.render.rasteriser import depth_map
 
 SURFACE_SAMPLES = 40_000
 """Points drawn on a surface."""
-ALIGNMENT_SAMPLES, ALIGNMENT_ROUNDS = 4_000, 40
-"""Points by which two surfaces are aligned, and rounds of it."""
-VIEW_PIXELS, SURFACE_TOLERANCE = 500, 0.006
-"""Pixels of the views that tell what lies outside, and metres (of a body 1.8 m high) that still count as the surface."""
+ALIGNMENT_SAMPLES = 4_000
+"""Points by which two surfaces are aligned."""
+ALIGNMENT_ROUNDS = 40
+"""Rounds in which two surfaces are aligned."""
+VIEW_PIXELS = 500
+"""Pixels of the views that tell what lies outside."""
+SURFACE_TOLERANCE = 0.006
+"""Metres, of a body 1.8 m high, that still count as the surface."""
 CANDIDATE_TRIANGLES = 6
 """Triangles, of the nearest samples, in which the nearest point of a surface is looked for."""
 

@@ -21,8 +21,10 @@ from engine.geometry.skinned_mesh import SkinnedMesh
 
 COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}
 COMPONENT_COUNTS = {"VEC3": 3, "VEC4": 4, "MAT4": 16}
-SUPERSAMPLING, FRACTION_BITS = 8, 4
-"""How many times larger an outline is drawn, and the bits of OpenCV's fractions of a pixel."""
+SUPERSAMPLING = 8
+"""How many times larger an outline is drawn."""
+FRACTION_BITS = 4
+"""Bits of OpenCV's fractions of a pixel."""
 FILL_OVERHANG = 0.5 / SUPERSAMPLING
 """Pixels by which it is drawn too wide: OpenCV fills every pixel that an edge passes."""
 

@@ -76,8 +76,10 @@ def fidelity(names: Sequence[str], pictures: Path | None) -> None:
     print(f"Ahead of the bare warp on both: {sum(ahead)} of {len(ahead)} clips.")
 
 
-SHEET_COLUMNS, SHEET_WIDTH = 8, 2400
-"""Moments side by side on a contact sheet at most, and pixels of its width."""
+SHEET_COLUMNS = 8
+"""Frames side by side on a contact sheet, at most."""
+SHEET_WIDTH = 2400
+"""Pixels of a contact sheet's width."""
 COLUMN_DIGITS = (4, 2, 4, 4, 2, 4, 4, 3, 4, 4, 4, 4, 4, 3, 4)
 
 

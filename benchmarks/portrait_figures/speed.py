@@ -31,8 +31,10 @@ PICTURE_SIZE, CLIP_FRAMES = (600, 800), 100
 PORTRAIT = "portraits/photo_man_suit.png"
 SMALL_CLIP, PHONE_CLIP = "driving/man_mouth_open_d18.mp4", "driving/man_selfie_talk_d13.mp4"
 """A small clip, as drivers are passed around (480x480), and a phone's, cut and reduced to the portrait's own size."""
-GOAL_SECONDS, PAPER_SECONDS = 3.3, 42.0
-"""Of 100 frames: what is aimed at, and what the paper tells."""
+GOAL_SECONDS = 3.3
+"""Seconds for 100 frames that are aimed at."""
+PAPER_SECONDS = 42.0
+"""Seconds for 100 frames that the paper tells."""
 
 
 def speed(repeats: int, frames: int) -> None:

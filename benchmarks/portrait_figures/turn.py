@@ -22,8 +22,12 @@ HEAD_ZOOM = 1.5
 MAX_DEGREES, SHOWN_DEGREES = 25, (-25, -20, -15, -10, -5, 0, 5, 10, 15, 20, 25)
 REST_FRAMES = 6
 """Frames at rest in the beginning: the target and the neutral frame are of them."""
-GRID_PITCH, WALL_LEVEL, LINE_CONTRAST = 24, 170.0, 110.0
-"""Pixels between the lines of the grid on the wall; grey levels of the wall; how many fewer a line has in its middle."""
+GRID_PITCH = 24
+"""Pixels between the lines of the grid on the wall."""
+WALL_LEVEL = 170.0
+"""Grey level of the wall."""
+LINE_CONTRAST = 110.0
+"""Grey levels by which a line is darker in its middle."""
 
 
 def turn(pictures: Path | None) -> None:

@@ -25,8 +25,10 @@ SAMPLING_SEED = 20
 
 VARIED_REGIONS = ("arms", "legs", "torso", "hip", "stomach", "pelvis", "buttocks", "neck", "feet", "hands")
 """The parts of the body of which some are changed in each sample."""
-CHANGES_PER_SAMPLE, MAX_CHANGE = 6, 0.7
-"""Local changes of a sample, and how strong they are at most, in [0, 1] of MakeHuman's own range."""
+CHANGES_PER_SAMPLE = 6
+"""Local changes of a sample."""
+MAX_CHANGE = 0.7
+"""Strength of a local change, at most, in [0, 1] of MakeHuman's own range."""
 
 
 @dataclass(frozen=True)

@@ -30,8 +30,10 @@ MAX_NORMAL_DEPTH = 0.75
 """The most of the body's normal that may point at the viewer or away: where a contour runs, the body lies across the view."""
 SEARCH_HALF_WIDTH = 0.01
 """Half the width of the strip in which a contour's point looks for the body, as a share of the person's height."""
-SEARCH_INSIDE, SEARCH_OUTSIDE = 0.06, 0.03
-"""How far inside and outside the contour the body may be to be matched, as shares of the person's height."""
+SEARCH_INSIDE = 0.06
+"""How far inside the contour the body may be to be matched, as a share of the person's height."""
+SEARCH_OUTSIDE = 0.03
+"""How far outside the contour the body may be to be matched, as a share of the person's height."""
 UNMATCHED_JOINTS = ("Head", "Neck", "Hand", "Foot", "Toe", "Thumb", "Index", "Middle", "Ring", "Pinky")
 """Joints whose surface is not matched: hair, fingers and shoes have contours of their own."""
 VERTEX_STRIDE = 2

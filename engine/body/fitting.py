@@ -30,24 +30,32 @@ LANDMARK_CUTOFF = 4.0
 DIRECTION_SIGMA = np.array([[0.25, 0.25, 0.35]] * 4 + [[0.25, 0.25, 1.2]] * 4)
 """How far the directions of `DIRECTED_LIMBS` are off, usually (the difference of unit vectors). Perception has legs lean away from
 the viewer, by half a right angle at times: only where they bend much is it to be believed."""
-TRUNK_LEAN_SIGMA, LEGS_LEAN_SIGMA = 0.12, 0.14
-"""How much trunks, and both legs together, lean towards the viewer or away, usually (the z of unit vectors): cameras look
-level at people who stand. From one picture alone somebody who leans is somebody with shorter legs."""
+TRUNK_LEAN_SIGMA = 0.12
+"""How much trunks lean towards the viewer or away, usually (the z of unit vectors): cameras look level at people who stand.
+From one picture alone somebody who leans is somebody with shorter legs."""
+LEGS_LEAN_SIGMA = 0.14
+"""How much both legs together lean towards the viewer or away, usually (the z of unit vectors)."""
 LEGS_APART_SIGMA = 0.2
 """How far perception is off, usually, in how much one leg leads before the other (the difference of their z): what it has both
 lean too much cancels out."""
 BALANCE_SIGMA = 0.07
 """Metres by which the ankles' middle is before or behind the hips, usually: else one would fall."""
-CLOTHED_SIGMA, SKIN_SIGMA = 0.02, 0.01
-"""How far the body stays behind the contour, usually, and stands out of it, as shares of the body's height."""
+CLOTHED_SIGMA = 0.02
+"""How far the body stays behind the contour, usually, as a share of its height: clothes."""
+SKIN_SIGMA = 0.01
+"""How far the body stands out of the contour, usually, as a share of its height."""
 CONTOUR_CUTOFF = 2.0
 """Deviations at which the pull of a contour is at its strongest: skirts and coats say little about who wears them."""
 INDEPENDENT_CONTOUR_POINTS = 60.0
-"""As how many independent measurements all points of a contour count."""
-CROSSING_DEPTH, CROSSING_SIGMA = 0.09, 0.01
-"""Metres by which the middle of one forearm is before that of another that it crosses, at least, and how far it may be off that."""
-CONTOUR_ROUNDS, STEPS_PER_ROUND = 4, 4
-"""How often contours are matched anew, and the most steps of the search each time."""
+"""Independent measurements that all points of a contour count as together."""
+CROSSING_DEPTH = 0.09
+"""Metres by which the middle of one forearm is before that of another that it crosses, at least."""
+CROSSING_SIGMA = 0.01
+"""Metres by which it may fall short of that, usually."""
+CONTOUR_ROUNDS = 4
+"""How often contours are matched anew."""
+STEPS_PER_ROUND = 4
+"""Steps of the search for each match of the contours, at most."""
 MIN_DEPTH = 0.1
 """Metres from a camera at which bodies end: a search may lead through it."""
 

@@ -25,9 +25,10 @@ THUMB_SIGMA = (*(0.4, 0.4, 0.4), *(0.4, 0.5))
 """Radians by which the thumb turns at its root, and bends at its other joints, usually."""
 FINGER_SIGMA = (0.12, 0.6, 0.7)
 """Radians by which a finger is spread, and bends at its first and second joint, usually."""
-CURL_RATIO, CURL_SIGMA = 0.6, 0.3
-"""How much the last joint of a finger bends for what the one before it does, for one tendon bends both; and the radians by
-which it usually does otherwise."""
+CURL_RATIO = 0.6
+"""How much the last joint of a finger bends for what the one before it does: one tendon bends both."""
+CURL_SIGMA = 0.3
+"""Radians by which it usually does otherwise."""
 MIN_ANGLES = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
 MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
 """Radians to which they turn at least and at most from the hand at rest, in which fingers are bent a little."""
@@ -38,9 +39,10 @@ STRONGEST_PULL_SIGMAS = 3.0
 """Deviations at which the pull of a landmark, or of a bone's direction, is at its strongest (Geman-McClure)."""
 DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
-SCALE_SIGMA, SHIFT_SIGMA = 0.2, 0.15
-"""By what share a hand seen is larger or smaller than the template's, usually, and by how many of its lengths the body's fit
-has it elsewhere."""
+SCALE_SIGMA = 0.2
+"""Share by which a hand seen is larger or smaller than the template's, usually."""
+SHIFT_SIGMA = 0.15
+"""Lengths of the hand by which it is elsewhere than the body's fit has it, usually."""
 
 PICTURE_TO_WORLD = np.array([1.0, -1.0, 1.0])
 """From pixels, y down, to the world's axes."""

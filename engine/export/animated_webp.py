@@ -33,8 +33,10 @@ from PIL import Image
 from engine.export import synthetic
 from engine.export.encoders import VideoTarget
 
-WEBP_QUALITY, WEBP_METHOD = 85, 2
-"""Of libwebp: how fine, and how long it may look for what is small."""
+WEBP_QUALITY = 85
+"""How fine libwebp codes, of 100."""
+WEBP_METHOD = 2
+"""How long libwebp may look for what is small, from 0 to 6."""
 
 _XMP_FLAG, _ANIMATION_FLAG, _ALPHA_FLAG = 0x04, 0x02, 0x10
 """Flags of the extended header."""

@@ -26,8 +26,10 @@ PLATFORM_LIBRARIES = {"egl": ("libEGL.so.1",), "osmesa": ("libOSMesa.so.8", "lib
 """PyOpenGL's ways to draw without a screen, and a library of which each takes one. They are loaded by name: what looks for
 libraries starts programs, and a job may start none."""
 
-KEY_LIGHT_STRENGTH, FILL_LIGHT_STRENGTH = 4.0, 1.5
-"""Strength of the light from above the camera's left, which casts shadows, and of the one opposite."""
+KEY_LIGHT_STRENGTH = 4.0
+"""Strength of the light from above the camera's left, which casts shadows."""
+FILL_LIGHT_STRENGTH = 1.5
+"""Strength of the light from the opposite side."""
 
 
 class LitPreview:

@@ -18,7 +18,7 @@ from pathlib import Path
 SOURCE_TYPE = "http://cv.iptc.org/newscodes/digitalsourcetype/compositeSynthetic"
 STATEMENT = "Synthetic: made from a still picture by Galatea."
 VIDEO_TAGS = {"comment": STATEMENT, "DIGITAL_SOURCE_TYPE": SOURCE_TYPE}
-"""The same as tags of a video file."""
+"""Tags of a video file: `STATEMENT` and `SOURCE_TYPE`."""
 
 XMP_PACKET = (
     '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>'

@@ -16,7 +16,7 @@ PRESET_NAMES = (
 """VRM's own names; every other is one of the character's."""
 
 LOOK_EXPRESSIONS = ("lookUp", "lookDown", "lookLeft", "lookRight")
-"""Those by which a character looks about that has no joints of its eyes."""
+"""VRM's names of the expressions by which a character looks about that has no joints of its eyes."""
 
 Override = Literal["none", "block", "blend"]
 

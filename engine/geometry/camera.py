@@ -26,8 +26,10 @@ TO_VISION = np.diag([1.0, -1.0, -1.0])
 """From x right, y up, z backwards to x right, y down, z forwards, and back."""
 DISTORTION_COEFFICIENTS = 5
 """Of a lens: k1, k2, p1, p2, k3."""
-NEWTON_STEPS, CONVERGED_STEP = 50, 1e-12
-"""Most steps in which distortion is undone, and the length of a step, on the plane at distance 1, at which it is."""
+NEWTON_STEPS = 50
+"""Steps in which distortion is undone, at most."""
+CONVERGED_STEP = 1e-12
+"""Length of a step, on the plane at distance 1, at which distortion is undone."""
 
 
 @dataclass(frozen=True)

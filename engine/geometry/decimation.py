@@ -22,7 +22,8 @@ BORDER_WEIGHT = 30.0
 """Weight of the planes that hold open borders in place, against those of the surface."""
 
 SEAM_WEIGHT = 1.0
-"""The same for seams of the texture, whose charts should keep their outlines."""
+"""Weight of the planes that hold seams of the texture in place, against those of the surface: charts should keep their
+outlines."""
 
 INFLUENCE_WEIGHT = 0.02
 """How much points that move with other joints resist each other, as a share of their distance: joints stay supple."""

@@ -19,9 +19,9 @@ from engine.geometry.handles import Handles, HeldSystem, nearest_rotations
 from engine.geometry.surface import vertex_areas
 
 MAX_ROUNDS = 100
-"""Most rounds of an as-rigid-as-possible deformation ..."""
-MIN_GAIN = 1e-5
-"""... which ends when a round lessens the energy by less than this share."""
+"""Rounds of an as-rigid-as-possible deformation, at most."""
+MIN_ENERGY_DECREASE = 1e-5
+"""Share of the energy by which a round has to lessen it for another round to follow."""
 
 
 class LaplacianDeformation:
@@ -135,7 +135,7 @@ class AsRigidAsPossible:
             moved = self._system.solve(self._spread @ _apply(turned, self._at_rest), hard, soft, self._system.rest)
             rotations = self._rotations(moved)
             now = self._energy(moved, rotations, soft)
-            if before - now <= MIN_GAIN * now:
+            if before - now <= MIN_ENERGY_DECREASE * now:
                 break
             before = now
         return moved

@@ -17,7 +17,7 @@ MIN_CONFIDENCE = 0.5
 """Confidence of a detection by which a picture is said to show several faces."""
 MAX_FACES = 20
 """Faces of a picture that are looked for, at most."""
-SEEN_SHARE = 1 / 12
+MIN_DETECTED_SHARE = 1 / 12
 """Width of a face, as a share of the side of the square that is looked at, from which the full-range detector misses none.
 Lone faces are found down to a half of it, and of the eighteen in a group of 1800 x 900 pixels, 0.07 wide, ten."""
 MIN_SECOND_FACE_WIDTH = 1 / 3
@@ -98,7 +98,7 @@ def find_faces(
             boxes = [box + corner for part in parts for box in _detected(detector, seen, part)]
             meshes = _looked_at(rgb, boxes, meshes, most, CROP_HALF_SIDES, confidence)
             least = max((MIN_SECOND_FACE_WIDTH * float(np.ptp(mesh[:, 0])) for mesh in meshes), default=0.0)
-            if side * SEEN_SHARE <= least or side < 2 * MIN_PART_PIXELS:
+            if side * MIN_DETECTED_SHARE <= least or side < 2 * MIN_PART_PIXELS:
                 break
             side = -(-side // 2)
     middles = [(mesh, mesh[:, :2].mean(axis=0)) for mesh in meshes]

@@ -19,9 +19,10 @@ WORKING_SIZE = 800
 """Longest side, in pixels, at which people are looked for and their matte is solved; larger pictures get it by guided
 upsampling."""
 
-SELFIE_SHARE, SELFIE_SHARE_OF_WHOLE = 2 / 3, 1 / 2
-"""Share of the selfie network in the belief, the rest is the body pose's (by trial on known alphas): in portraits, and in
-pictures that show somebody whole, who are what the body pose's network knows best."""
+SELFIE_SHARE = 2 / 3
+"""Share of the selfie network in the belief in portraits (by trial on known alphas); the rest is the body pose's."""
+SELFIE_SHARE_OF_WHOLE = 1 / 2
+"""The share of that network in pictures that show somebody whole, whom the body pose's network knows best."""
 
 
 def people_confidence(rgb: NDArray[np.uint8], whole: bool = False) -> Mask:

@@ -35,8 +35,10 @@ BARE_SKIN = (
 PATCH_RADIUS = 0.06
 """Eye distances around each of them within which is averaged."""
 
-SAMPLED_FPS, SAMPLED_SECONDS = 6.0, 30.0
-"""How often, and how far into it, a driver is looked at."""
+SAMPLED_FPS = 6.0
+"""Frames a second of a driver that are looked at."""
+SAMPLED_SECONDS = 30.0
+"""Seconds from its beginning up to which a driver is looked at."""
 
 
 @dataclass(frozen=True)

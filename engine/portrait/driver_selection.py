@@ -29,9 +29,14 @@ CRITERION_WEIGHTS: Mapping[str, float] = {
 }
 """What counts how much. The expression first: what of it the driver never shows, stays on the face all the time."""
 
-PROPORTIONS_SCALE, LIGHT_SCALE, PALETTE_SCALE, TURN_SCALE = 0.05, 0.4, 20.0, 10.0
-"""Differences that bring a score down to 0.6: root mean square in eye distances, slope of the logarithm of luminance,
-colour difference, degrees beyond `MAX_DRIVER_TURN_DEGREES`."""
+PROPORTIONS_SCALE = 0.05
+"""Difference of proportions that brings a score down to 0.6, root mean square in eye distances."""
+LIGHT_SCALE = 0.4
+"""Difference of light that brings a score down to 0.6, slope of the logarithm of luminance."""
+PALETTE_SCALE = 20.0
+"""Colour difference that brings a score down to 0.6."""
+TURN_SCALE = 10.0
+"""Degrees of turn beyond `MAX_DRIVER_TURN_DEGREES` that bring a score down to 0.6."""
 
 LIGHTNESS_WEIGHT = 0.5
 """How much a difference in lightness counts against one in hue: exposure says little about a palette."""

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.render.mipmap import look_up
 
-MAX_FOOTPRINT_RATIO, TOLERANCE_TEXELS = 4.0, 2.0
-"""Two pixels side by side show one surface where they are apart on the texture by no more than `MAX_FOOTPRINT_RATIO` times what a pixel
-covers of it, and `TOLERANCE_TEXELS` texels."""
+MAX_FOOTPRINT_RATIO = 4.0
+"""Two pixels side by side show one surface where they are apart on the texture by no more than this many times what a pixel
+covers of it, and `TOLERANCE_TEXELS`."""
+TOLERANCE_TEXELS = 2.0
+"""Texels by which they may be further apart than that."""
 
 
 class TexturedSurface(NamedTuple):

@@ -28,7 +28,7 @@ router = APIRouter(tags=["links"], route_class=RequestModelRoute)
 
 HINT_CHARACTERS = 6
 
-FROM_ANYWHERE = {
+CROSS_ORIGIN_HEADERS = {
     "Access-Control-Allow-Origin": "*",
     "Access-Control-Expose-Headers": "Content-Length, Content-Range, ETag",
     "Cross-Origin-Resource-Policy": "cross-origin",
@@ -107,7 +107,7 @@ def get_shared(token: str, response: Response, context: InContext) -> SharedOut:
         if job is None:
             raise _gone()
         made = artifacts.of_jobs(session, [job.id])[job.id]
-    response.headers.update({**FROM_ANYWHERE, "Cache-Control": "no-cache"})
+    response.headers.update({**CROSS_ORIGIN_HEADERS, "Cache-Control": "no-cache"})
     return SharedOut.of(link, token, job, made)
 
 
@@ -118,9 +118,11 @@ def get_shared_artifact(token: str, name: str, request: Request, context: InCont
         link = _good(session, token)
         artifact = artifacts.get(session, link.job_id, name) if opens_artifact(link, name) else None
     if artifact is None:
-        raise Problem(404, "artifact_not_found", "The link opens no artifact of this name.", headers=FROM_ANYWHERE)
+        raise Problem(
+            404, "artifact_not_found", "The link opens no artifact of this name.", headers=CROSS_ORIGIN_HEADERS
+        )
     response = deliver(artifact.stored, context.storage, request)
-    response.headers.update(FROM_ANYWHERE)
+    response.headers.update(CROSS_ORIGIN_HEADERS)
     return response
 
 
@@ -141,4 +143,4 @@ def _good(session: Session, token: str) -> PublicLink:
 
 def _gone() -> Problem:
     detail = "There is nothing at this link: it was revoked, has expired, or never was."
-    return Problem(404, "link_not_found", detail, headers=FROM_ANYWHERE)
+    return Problem(404, "link_not_found", detail, headers=CROSS_ORIGIN_HEADERS)

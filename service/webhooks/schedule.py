@@ -28,7 +28,10 @@ MAX_PAUSE = RETRY_DELAYS[-1] * (1 + JITTER_SHARE)
 PROGRESS_RETRIES = 2
 """Progress is not worth telling hours later: the job has ended by then, and that is told by itself."""
 
-FAILING_DAYS, FAILING_DELIVERIES = 5, 3
+FAILING_DAYS = 5
+"""Days without a successful attempt after which an endpoint is disabled."""
+FAILING_DELIVERIES = 3
+"""Deliveries that have to be given up in that time for it to be disabled."""
 
 
 def retry_delay(event: str, tries: int, retry_after: timedelta | None, chance: Random) -> timedelta | None:

@@ -24,8 +24,10 @@ from worker.job_files.content_types import content_type
 from worker.job_files.plain_files import FileRefused, open_plain
 from worker.retry_db import retry_db
 
-REPORT_BYTES, MAX_STAGES = 1_000_000, 40
-"""What is read of a report: the process that wrote it may be in a stranger's hands."""
+REPORT_BYTES = 1_000_000
+"""Bytes of a report that are read: the process that wrote it may be in a stranger's hands."""
+MAX_STAGES = 40
+"""Stages of a report that are read."""
 
 
 def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from signal import Signals
 
-FROM_OUTSIDE = ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")
+EXTERNAL_SIGNALS = ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")
 """What others do to a process, the kernel that runs out of memory among them: it says nothing about the input."""
 
 SIGNAL_REASONS = {
@@ -41,4 +41,4 @@ def death_in_words(death: str | None) -> str:
 
 def own_death(death: str | None) -> str | None:
     """The death if the process brought it about itself, None if it may have come from outside."""
-    return None if death in FROM_OUTSIDE else death
+    return None if death in EXTERNAL_SIGNALS else death

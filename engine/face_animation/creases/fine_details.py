@@ -39,8 +39,10 @@ SHADING_SHARE = 0.25
 """Share by which such wide ratios count in a head that does not turn."""
 NO_SHADING_TURN_DEGREES = 12.0
 """Degrees of turn at which they count no more."""
-CREASE_TURN_DEGREES, NO_CREASE_TURN_DEGREES = 8.0, 20.0
-"""Degrees of turn up to which a ratio is a crease's, and from which it is the nose's shadow and no crease's."""
+CREASE_TURN_DEGREES = 8.0
+"""Degrees of turn up to which a ratio is a crease's."""
+NO_CREASE_TURN_DEGREES = 20.0
+"""Degrees of turn from which on a ratio is the nose's shadow and no crease's."""
 MIN_RATIO = 0.7
 """No crease darkens by more: a lower ratio is a shadow or a misfit."""
 RATIO_STEP = (1 - MIN_RATIO) / 192

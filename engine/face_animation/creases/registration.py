@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast, shut_by_contrast
-from engine.face_animation.mouth.teeth import TEETH_SHOW_FROM
+from engine.face_animation.mouth.teeth import MIN_TEETH_OPENING
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
@@ -39,9 +39,11 @@ CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
 SMOOTHING_PIXELS = 4.0
 """Pixels of the crop over which the measured rest is averaged."""
-TRUSTED_RESIDUAL_PIXELS, MAX_RESIDUAL_PIXELS = 9.0, 12.0
-"""Pixels of the crop up to which the measured rest is believed, and from which on it is a residuals of the flow. On
-cheeks that a mouth stretches or lifts, tracker and skin part by up to 11 in 99 of 100 places."""
+TRUSTED_RESIDUAL_PIXELS = 9.0
+"""Pixels of the crop up to which the measured rest is believed."""
+MAX_RESIDUAL_PIXELS = 12.0
+"""Pixels of the crop from which on the measured rest is a residual of the flow. On cheeks that a mouth stretches or lifts,
+tracker and skin part by up to 11 in 99 of 100 places."""
 TRUST_SMOOTHING_FRAMES = 3.0
 """Frames over which belief comes and goes (width of a Gaussian): a rest that noise takes past the limit and back would make
 the skin jump."""
@@ -49,10 +51,10 @@ LIGHT_SMOOTHING_PIXELS = 20.0
 """Pixels over which the light of the two frames is made equal first."""
 CONTOUR_FADE_EYE_DISTANCES = 0.35
 """Within this distance of the face's contour, in eye distances, the flow fades out."""
-AS_TRACKED = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
-"""Lids, irises and lips: what opens and closes changes its looks, and the tracker knows it better."""
-BESIDE_LIPS = 0.08
-"""Eye distances beside the lips over which the flow fades in where the neutral frame's mouth is open: it takes teeth that
+TRACKED_VERTICES = (*RIGHT_EYE, *LEFT_EYE, *RIGHT_IRIS, *LEFT_IRIS, *LIPS_OUTER, *LIPS_INNER)
+"""Lids, irises and lips, which stay as tracked: what opens and closes changes its looks, and the tracker knows it better."""
+LIPS_FADE_EYE_DISTANCES = 0.08
+"""Eye distances beside the lips over which the flow fades in where the neutral frame's mouth is open. It takes teeth that
 come and go for lips that move, and vertices of the lips' red would fold over the skin."""
 
 
@@ -124,17 +126,17 @@ def _eased(belief: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _trust(rest: NDArray[np.float32]) -> NDArray[np.float32]:
-    """(468,) how far the flow is believed at each vertex: not at `AS_TRACKED`, nor at the rim, where it follows what
+    """(468,) how far the flow is believed at each vertex: not at `TRACKED_VERTICES`, nor at the rim, where it follows what
     lies behind the face, nor beside an open mouth."""
     oval = rest[list(FACE_OVAL)]
     inside = np.array([cv2.pointPolygonTest(oval, (float(x), float(y)), True) for x, y in rest])
     t = np.clip(inside / (CONTOUR_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE), 0, 1)
     weight = t * t * (3 - 2 * t)
-    if float(mouth_opening(rest)) > TEETH_SHOW_FROM:
+    if float(mouth_opening(rest)) > MIN_TEETH_OPENING:
         lips = rest[list(LIPS_OUTER)]
         beside = np.array([-cv2.pointPolygonTest(lips, (float(x), float(y)), True) for x, y in rest])
-        weight *= np.clip(beside / (BESIDE_LIPS * CROP_EYE_DISTANCE), 0, 1)
-    weight[[v for v in AS_TRACKED if v < len(weight)]] = 0
+        weight *= np.clip(beside / (LIPS_FADE_EYE_DISTANCES * CROP_EYE_DISTANCE), 0, 1)
+    weight[[v for v in TRACKED_VERTICES if v < len(weight)]] = 0
     return np.asarray(weight, np.float32)
 
 

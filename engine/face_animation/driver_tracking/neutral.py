@@ -24,8 +24,8 @@ from engine.perception.expression.measures import (
     MEASURES,
     MOUTH_MEASURES,
     REST_SPREAD,
+    SPREAD_BELOW_REST,
     SPREAD_BETWEEN_PEOPLE,
-    USUAL_BELOW,
     general_rest,
     lid_lowering,
     measure,
@@ -45,25 +45,28 @@ MAX_COMPARED_FRAMES = 2000
 COMPARED_AT_ONCE = 128
 """Frames whose distances from all others are in memory together."""
 
-AS_CALM = 0.5
-"""Frames whose mean square difference from what is looked for, in `REST_SPREAD`, is greater than the least by no more than this
-are as good; the head's turn and the gaze choose among them."""
+NEUTRAL_TOLERANCE = 0.5
+"""By how much more than the least a frame may differ from what is looked for and still be as good, mean square in
+`REST_SPREAD`. The head's turn and the gaze choose among such frames."""
 
-TURN_SCALE, GAZE_SCALE = 0.2, 0.1
-"""What counts as much as one `REST_SPREAD` of a measure: radians by which the head is turned, and eye widths by which the eyes
-look, elsewhere than the target's."""
+TURN_SCALE = 0.2
+"""Radians by which the head is turned elsewhere than the target's that count as much as one `REST_SPREAD` of a measure."""
+GAZE_SCALE = 0.1
+"""Eye widths by which the eyes look elsewhere than the target's that count as much as one `REST_SPREAD` of a measure."""
 
 TORN_MOUTH_SCALE = 0.05
-"""The same of a mouth that is torn aside, in eye distances."""
+"""Eye distances by which a mouth is torn aside that count as much as one `REST_SPREAD` of a measure."""
 
-TORN_MOUTH_FROM = 0.15
-"""Eye distances from which on a target's mouth is torn aside: under it, faces that are turned or painted seem so, too."""
+MIN_TORN_MOUTH = 0.15
+"""Eye distances by which a target's mouth is torn aside, at least: under it, faces that are turned or painted seem so,
+too."""
 
-WORN_EXPRESSION = 0.5
-"""Beyond this, in standard deviations of `SPREAD_BETWEEN_PEOPLE` past the first, a target wears an expression."""
+MIN_WORN_EXPRESSION = 0.5
+"""Standard deviations of `SPREAD_BETWEEN_PEOPLE`, past the first, from which on a target wears an expression."""
 
-CALM_FACE = 2.0
-"""Mean square of a calm face's differences from a face at rest, in standard deviations of `SPREAD_BETWEEN_PEOPLE`."""
+MAX_CALM_DIFFERENCE = 2.0
+"""Mean square by which a calm face differs from a face at rest, at most, in standard deviations of
+`SPREAD_BETWEEN_PEOPLE`."""
 
 Reason = Literal["chosen", "at_rest", "like_the_target", "nearest_to_rest"]
 
@@ -105,11 +108,11 @@ def choose_neutral_frame(track: FaceTrack, target: NDArray[np.floating], chosen:
     )
     face = np.where(track.found, face, np.inf)
     place = (turn_angles(track.meshes, target) / TURN_SCALE) ** 2 + _gaze_unlike(track.meshes, target)
-    frame = int(np.argmin(np.where(face <= face.min() + AS_CALM, len(MEASURES) * face + place, np.inf)))
+    frame = int(np.argmin(np.where(face <= face.min() + NEUTRAL_TOLERANCE, len(MEASURES) * face + place, np.inf)))
     taken = values[[frame]]
     if _face_unlike(taken, rest + worn)[0] < _face_unlike(taken, rest)[0]:
         return NeutralFrame(frame, "like_the_target")
-    return NeutralFrame(frame, "at_rest" if distance_from_rest(taken)[0] <= CALM_FACE else "nearest_to_rest")
+    return NeutralFrame(frame, "at_rest" if distance_from_rest(taken)[0] <= MAX_CALM_DIFFERENCE else "nearest_to_rest")
 
 
 def warn_if_never_at_rest(choice: NeutralFrame, warn: Callable[[str, str], None]) -> None:
@@ -158,7 +161,8 @@ def distance_from_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     differences, 1 is what people at rest differ by."""
     apart = values - general_rest()
     return np.asarray(
-        np.mean((apart / np.where(apart < 0, USUAL_BELOW, SPREAD_BETWEEN_PEOPLE))[:, FACE_MEASURES] ** 2, axis=1), float
+        np.mean((apart / np.where(apart < 0, SPREAD_BELOW_REST, SPREAD_BETWEEN_PEOPLE))[:, FACE_MEASURES] ** 2, axis=1),
+        float,
     )
 
 
@@ -169,7 +173,7 @@ def expression_beyond_rest(target: NDArray[np.floating]) -> NDArray[np.float64]:
     shown = (measure(np.asarray(target)[None])[0] - general_rest()) / SPREAD_BETWEEN_PEOPLE
     worn = np.zeros(len(MEASURES))
     worn[MOUTH_MEASURES] = np.maximum(shown[MOUTH_MEASURES] - 1, 0)
-    return np.asarray(np.where(worn > WORN_EXPRESSION, worn, 0) * SPREAD_BETWEEN_PEOPLE, float)
+    return np.asarray(np.where(worn > MIN_WORN_EXPRESSION, worn, 0) * SPREAD_BETWEEN_PEOPLE, float)
 
 
 def _face_unlike(values: NDArray[np.floating], wanted: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -187,7 +191,7 @@ def _torn(
     wanted = np.median(torn[nearest], axis=0)
     wanted *= min(1, TORN_MOUTH_SCALE / max(float(np.linalg.norm(wanted, axis=-1).mean()), 1e-6))
     shown = lip_asymmetry(np.asarray(target)[None])[0]
-    if np.linalg.norm(shown, axis=-1).mean() > TORN_MOUTH_FROM:
+    if np.linalg.norm(shown, axis=-1).mean() > MIN_TORN_MOUTH:
         wanted = shown
     return np.asarray((np.linalg.norm(torn - wanted, axis=-1).mean(axis=-1) / TORN_MOUTH_SCALE) ** 2, float)
 

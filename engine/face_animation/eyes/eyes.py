@@ -19,8 +19,10 @@ from engine.perception.landmarks import LEFT_EYE, LEFT_IRIS, RIGHT_EYE, RIGHT_IR
 EYE_VERTICES = ((RIGHT_EYE, RIGHT_IRIS, 33, 133), (LEFT_EYE, LEFT_IRIS, 263, 362))
 LAYER_MARGIN_EYE_WIDTHS = 0.5
 """Around the opening, in eye widths: how far the eyeball's layer reaches behind the lids."""
-MOVED_LIDS, MOVED_GAZE = 0.15, 0.03
-"""Change of the opening's area, and of the gaze in eye widths, from which the eyeball's layer is fully drawn."""
+FULL_OPENING_CHANGE = 0.15
+"""Change of the opening's area, as a share of it, from which the eyeball's layer is fully drawn."""
+FULL_GAZE_CHANGE = 0.03
+"""Change of the gaze, in eye widths, from which the eyeball's layer is fully drawn."""
 SHUT_SHARE = 0.1
 """Share of the picture's opening under which an eye is shut."""
 CLOSING_GAP_SHARES = (0.75, 0.3)
@@ -231,7 +233,7 @@ def _departure(eye: Eyeball, opening: NDArray[np.float32], look: NDArray[np.floa
     """How far the layer is drawn: 0 where lids and gaze are as in the picture, 1 where they are not, and 0
     again where the lids have met, so that nothing shines through their seam."""
     open_by = _open_by(eye, opening)
-    moved = max(abs(open_by - 1) / MOVED_LIDS, float(np.hypot(*look)) / MOVED_GAZE)
+    moved = max(abs(open_by - 1) / FULL_OPENING_CHANGE, float(np.hypot(*look)) / FULL_GAZE_CHANGE)
     return min(moved, 1.0) * min(max((open_by - SHUT_SHARE) / SHUT_SHARE, 0.0), 1.0)
 
 

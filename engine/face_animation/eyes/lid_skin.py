@@ -32,9 +32,10 @@ COLOUR_REACH_SHARE = 0.6
 """Share of the way from there up to below the brow that a lid's colours reach: upper lashes stand there in a picture."""
 LIGHTER_SKIN_SHARE = 0.5
 """Share of the skin above, its lighter part, whose colour a lid has: the rest is shadow, of the brow or in the crease."""
-MIN_CHEEK_SHARE, SOCKET_SHADE_SHARE = 0.68, 0.35
-"""A lid's brightness as a share of the cheek's: what is above it is in the socket's shadow, which a shut lid is not. Of what
-it would be darker, this share is left."""
+MIN_CHEEK_SHARE = 0.68
+"""A lid's brightness, as a share of the cheek's, under which it is in the socket's shadow, as a shut lid is not."""
+SOCKET_SHADE_SHARE = 0.35
+"""The share that is left of what the socket's shadow makes a lid darker."""
 CORNER_FADE_EYE_WIDTHS = 0.4
 """Eye widths from a corner over which this comes in."""
 COLOUR_BLUR_EYE_WIDTHS = 0.15

@@ -17,9 +17,11 @@ EYE_PIXELS = 48
 """Pixels of an eye's width at which it is cut out."""
 COLOUR_MARGIN = 0.2
 """Eye widths around the mesh's opening in which colours decide."""
-MIN_REACH_BELOW, MAX_REACH_BELOW = 0.03, 0.16
-"""Eye widths by which a drawn eye reaches below the mesh's lid, along all of it but its ends: less is the mesh's own error or a lash,
-more a shadow."""
+MIN_REACH_BELOW = 0.03
+"""Eye widths by which a drawn eye reaches below the mesh's lid, along all of it but its ends, at least: less is the mesh's
+own error or a lash."""
+MAX_REACH_BELOW = 0.16
+"""Eye widths by which a drawn eye reaches below the mesh's lid, at most: more is a shadow."""
 SKIN_FALLOFF = 0.4
 """Eye widths over which the skin below follows its lid."""
 

@@ -23,11 +23,14 @@ CONTOUR_MARGIN_EYE_DISTANCES = 0.08
 
 CONTOUR_WEIGHTS = np.interp(np.arange(len(FACE_OVAL)), (6, 8, 13, 15, 21, 23, 28, 30), (0, 1, 1, 0, 0, 1, 1, 0))
 """How far each vertex of `FACE_OVAL` takes part in keeping points inside: fully from the ears to the jaw."""
-KEPT_INSIDE_EYE_DISTANCES, FADE_OUT_EYE_DISTANCES = 0.4, 0.6
-"""Points up to the first distance from the contour, in eye distances, are kept inside it; those from there to the second
-say how far their side of the face is stretched."""
-MIN_KEPT_SHARE, MAX_GAIN = 0.1, 1.5
-"""Of its distance from the contour such a point keeps at least this share, and gains at most this over its side."""
+KEPT_INSIDE_EYE_DISTANCES = 0.4
+"""Eye distances from the contour up to which points are kept inside it."""
+FADE_OUT_EYE_DISTANCES = 0.6
+"""Eye distances from the contour up to which points beyond those say how far their side of the face is stretched."""
+MIN_KEPT_SHARE = 0.1
+"""Share of its distance from the contour that a point inside it keeps, at least."""
+MAX_GAIN = 1.5
+"""By how many times such a distance grows over that of its side of the face, at most."""
 CONTOUR_FALLOFF = 0.3
 """Eye distances along the contour over which a point takes it along."""
 SMOOTHING_ROUNDS = 2

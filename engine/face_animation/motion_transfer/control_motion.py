@@ -30,12 +30,14 @@ PLANE_SHARE = 0.65
 its depth is hardly seen there, and errs."""
 PLANE_TURN_DEGREES = (3.0, 10.0)
 """Degrees by which the picture's face is turned from which the plane begins to count so, and fully."""
-INSIDE_FROM = 0.12
+PLANE_RISE_EYE_DISTANCES = 0.12
 """Eye distances inside the contour over which the plane's share rises to the full one."""
-CORRECTED_FROM = 0.3
+FULL_CORRECTION_EYE_DISTANCES = 0.3
 """Eye distances from the face's rim at which tracked points correct the proxy fully."""
-TURN_TRUSTED, TURN_LOST = 15.0, 30.0
-"""Degrees of turn up to which tracked points of the head are trusted, and where no more."""
+TRUSTED_TURN_DEGREES = 15.0
+"""Degrees of turn up to which tracked points of the head are trusted."""
+LOST_TURN_DEGREES = 30.0
+"""Degrees of turn from which on tracked points of the head are trusted no more."""
 MAX_CORRECTION = 0.6
 """Largest correction of a point of the head, in eye distances."""
 CHUNK_FRAMES = 32
@@ -153,9 +155,9 @@ def tracked_correction(
     Beside the face the mesh knows better, and in a head that turns far the tracked points slip; there, in
     proportion to each point's `share` in the head, the correction fades. `rim` (P,) eye distances from the face.
     """
-    beside = np.clip(rim / CORRECTED_FROM, 0, 1) ** 2
+    beside = np.clip(rim / FULL_CORRECTION_EYE_DISTANCES, 0, 1) ** 2
     turn = np.rad2deg(np.arccos(np.clip(motion.rotation[:, 2, 2], -1, 1)))
-    trust = np.clip((TURN_LOST - turn) / (TURN_LOST - TURN_TRUSTED), 0, 1)
+    trust = np.clip((LOST_TURN_DEGREES - turn) / (LOST_TURN_DEGREES - TRUSTED_TURN_DEGREES), 0, 1)
     size = np.linalg.norm(carried, axis=-1)
     limited = np.minimum(1.0, MAX_CORRECTION * unit / np.maximum(size, 1e-6))
     kept = (1 - share) + share * beside * trust[:, None] * limited
@@ -186,7 +188,7 @@ def plane_share(target: NDArray[np.floating]) -> NDArray[np.float64]:
     return (
         PLANE_SHARE
         * np.clip((slant - PLANE_TURN_DEGREES[0]) / (PLANE_TURN_DEGREES[1] - PLANE_TURN_DEGREES[0]), 0, 1)
-        * _step(inside, 0, INSIDE_FROM)
+        * _step(inside, 0, PLANE_RISE_EYE_DISTANCES)
     )
 
 

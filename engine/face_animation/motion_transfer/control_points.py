@@ -26,7 +26,7 @@ MIN_VIEW_COSINE = 0.0
 """Cosine between the line of sight and a surface that is still seen."""
 CARRY_REACH = 0.7
 """Width of the kernel that carries tracked points to peripheral ones, in eye distances."""
-HARDLY_ANY = 0.1
+MIN_TRUSTED_SHARE = 0.1
 """With less than this share of the tracked points left, what they say fades."""
 
 
@@ -139,5 +139,5 @@ def carry_periphery(
     carried = phi.offsets(offsets).astype(np.float32)
     total = (trust[..., None] * carried).transpose(0, 2, 1) @ near.T
     weight = trust @ near.T
-    left = np.minimum(trust.mean(axis=1) / HARDLY_ANY, 1)[:, None, None]
+    left = np.minimum(trust.mean(axis=1) / MIN_TRUSTED_SHARE, 1)[:, None, None]
     return np.asarray(left * (total / np.maximum(weight, 1e-12)[:, None]).transpose(0, 2, 1), np.float32)

@@ -18,8 +18,10 @@ CROP_EYE_DISTANCE = CROP_EYES[1][0] - CROP_EYES[0][0]
 """Eye distance in the crop, pixels."""
 CORRECTED_SHARE = 0.6
 """Share of a residual that is corrected; the rest is the tracker's own scatter."""
-CORRECTED_SHARE_AT_LIPS, LIPS_FALLOFF = 0.35, 0.15
-"""The same at the lips, whose looks change most, and over how many eye distances beside them it rises to the other."""
+CORRECTED_SHARE_AT_LIPS = 0.35
+"""Share of a residual that is corrected at the lips, whose looks change most."""
+LIPS_FALLOFF = 0.15
+"""Eye distances from the lips over which that share rises to `CORRECTED_SHARE`, as a Gaussian."""
 KERNEL_WIDTH = 0.05
 """Root mean square distance of two faces' points, in eye distances, at which the frames are alike."""
 REGRESSION_RIDGE = 0.2

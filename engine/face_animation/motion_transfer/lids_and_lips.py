@@ -21,8 +21,10 @@ LID_SKIN = (
 """Vertices of the skin above the upper lid, each with the edge vertex that it follows half-way."""
 INNER_LIP_PAIRS = ((191, 95), (80, 88), (81, 178), (82, 87), (13, 14), (312, 317), (311, 402), (310, 318), (415, 324))
 """Facing vertices (upper, lower) of the inner lips."""
-CLOSED_GAP_SHARE, OPEN_GAP_SHARE = 0.3, 0.6
-"""Below this share of its usual gap an eye counts as shut; above the other its gap is carried as it is."""
+CLOSED_GAP_SHARE = 0.3
+"""Share of its usual gap below which an eye counts as shut."""
+OPEN_GAP_SHARE = 0.6
+"""Share of its usual gap above which an eye's gap is carried as it is."""
 MAX_GAP_RATIO = 1.5
 """An eye opens at most to this multiple of its gap in the picture."""
 

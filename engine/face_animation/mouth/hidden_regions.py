@@ -15,19 +15,26 @@ from engine.perception.landmarks import FACE_OVAL, LIPS_INNER, LIPS_OUTER
 
 LIP_EROSION_SHARE = 0.1
 """Section 5: the disk that erodes the mask of the lips has this share of the mouth's height as radius."""
-AREA_FROM, AREA_FULLY = 1.0, 2.0
-"""Section 5: the inside appears between once and twice the neutral mouth's own inner area."""
-GAP_FROM, GAP_FULLY = 1.3, 1.7
-"""Multiples of the neutral gap between the lips between which it appears as well (ours): a smile that becomes an O hardly
-grows in area."""
-MIN_INNER_AREA, MIN_GAP = 0.012, 0.04
-"""Floors of the neutral inner area, in squares of the mouth's width, and of its gap, in widths: a closed mouth has
-almost none."""
+APPEARING_AREA = 1.0
+"""Section 5: multiples of the neutral mouth's own inner area at which the inside begins to appear."""
+FULL_AREA = 2.0
+"""Section 5: multiples of that area at which the inside is wholly there."""
+APPEARING_GAP = 1.3
+"""Multiples of the neutral gap between the lips at which the inside begins to appear as well (ours): a smile that becomes
+an O hardly grows in area."""
+FULL_GAP = 1.7
+"""Multiples of that gap at which the inside is wholly there (ours)."""
+MIN_INNER_AREA = 0.012
+"""Floor of the neutral inner area, in squares of the mouth's width: a closed mouth has almost none."""
+MIN_GAP = 0.04
+"""Floor of the neutral gap between the lips, in widths of the mouth: a closed mouth has almost none."""
 MOUTH_MIDDLE_PAIRS = ((82, 87), (13, 14), (312, 317))
 """Facing vertices of the inner lips, where they part most."""
 
-TEETH_SATURATION, LIP_SATURATION = 0.2, 0.45
-"""Saturation of teeth, and of lips."""
+TEETH_SATURATION = 0.2
+"""Saturation of teeth, at most."""
+LIP_SATURATION = 0.45
+"""Saturation of lips, at least."""
 
 LUMINANCE_WEIGHTS = np.array([0.299, 0.587, 0.114], np.float32)
 
@@ -116,8 +123,8 @@ def _light(ratio: NDArray[np.float32]) -> NDArray[np.float32]:
 def unseen_mouth_share(mesh: NDArray[np.floating], palette: MouthPalette) -> float:
     """How much of what is seen in the mouth of a frame's face (478, 2) the target does not show, from 0 to 1."""
     inner = mesh[list(LIPS_INNER), :2].astype(np.float32)
-    grown = (float(cv2.contourArea(inner)) / palette.area - AREA_FROM) / (AREA_FULLY - AREA_FROM)
-    return float(np.clip(max(grown, (_gap(mesh) / palette.gap - GAP_FROM) / (GAP_FULLY - GAP_FROM)), 0, 1))
+    grown = (float(cv2.contourArea(inner)) / palette.area - APPEARING_AREA) / (FULL_AREA - APPEARING_AREA)
+    return float(np.clip(max(grown, (_gap(mesh) / palette.gap - APPEARING_GAP) / (FULL_GAP - APPEARING_GAP)), 0, 1))
 
 
 def transfer_mouth(

@@ -34,9 +34,10 @@ SKIN_BELOW_COLUMNS = (
 """What each of them goes on with, down to the jaw's contour."""
 BROW_VERTEX, CHIN_VERTEX = 10, 152
 """Where the face's axis begins and ends."""
-MIN_SKIN_SHARE, MAX_SKIN_SHARE = 0.2, 0.3
-"""Shares of its usual breadth: skin is never pressed together by more than the first, nor under the nose by more than on
-the driver's face, where that is below the second."""
+MIN_SKIN_SHARE = 0.2
+"""Share of its usual breadth that skin keeps, at least."""
+MAX_SKIN_SHARE = 0.3
+"""Share of its usual breadth that skin under the nose keeps, at least, where it does on the driver's face."""
 NEIGHBOUR_WEIGHTS = np.array([1, 2, 3, 2, 1]) / 9
 """How much columns of a lip draw their neighbours along."""
 

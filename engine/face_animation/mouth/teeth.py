@@ -23,7 +23,7 @@ from engine.face_animation.mouth.hidden_regions import (
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, mouth_opening
 
-TEETH_SHOW_FROM = 0.08
+MIN_TEETH_OPENING = 0.08
 """Opening of a mouth, its gap over its width, from which it shows teeth."""
 CLOSING_GAP_SHARES = (0.2, 0.6)
 """Shares of its gap at rest: a mouth that is closed to the second begins to press its inside together, teeth with the shadow
@@ -40,7 +40,7 @@ class Teeth:
 
 def find_teeth(rgb: NDArray[np.uint8], mesh: NDArray[np.floating]) -> Teeth | None:
     """The teeth of a target (H, W, 3) with its face at `mesh` (478, 3); None where its lips are closed."""
-    return Teeth(rgb, mesh[:, :2].astype(np.float32)) if float(mouth_opening(mesh)) > TEETH_SHOW_FROM else None
+    return Teeth(rgb, mesh[:, :2].astype(np.float32)) if float(mouth_opening(mesh)) > MIN_TEETH_OPENING else None
 
 
 def draw_teeth(frame: NDArray[np.uint8], teeth: Teeth, mesh: NDArray[np.floating], share: float = 1.0) -> None:

@@ -23,8 +23,8 @@ TRUNK_HALF_WIDTHS = ((0.45, 0.45), (1.3, 1.1), (1.7, 2.2), (1.8, 9.0))
 """Half widths of a trunk, in widths of the face, and how far below the face's middle, in its heights: neck, shoulders, arms."""
 TRUNK_BEHIND_HEAD = 0.2
 """Face heights by which a trunk counts as further away than a head: heads of those who stand in front hide trunks."""
-CLEAR_MARGIN = 0.5
-"""Face heights by which somebody is nearer than all others to be it clearly."""
+OWNER_MARGIN = 0.5
+"""Face heights by which a place is nearer to one person than to all others, to be clearly that person's."""
 MASK_BLUR = 0.7
 """Pixels over which one person's mask passes over into another's."""
 
@@ -41,7 +41,7 @@ def own_share(
     order = np.argsort(away, axis=0)
     nearest, second = (np.take_along_axis(away, order[k : k + 1], axis=0)[0] for k in (0, 1))
     nobody = resized(people, size) < 0.02
-    markers = np.where(second - nearest > CLEAR_MARGIN, order[0] + 2, 0).astype(np.int32)
+    markers = np.where(second - nearest > OWNER_MARGIN, order[0] + 2, 0).astype(np.int32)
     markers[nobody] = 1
     found = cv2.watershed(resized(np.ascontiguousarray(rgb), size), markers.copy())
     whose = np.where(found > 1, found - 2, order[0])  # borders, too, are somebody's

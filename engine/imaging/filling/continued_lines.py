@@ -20,12 +20,16 @@ from engine.imaging.filling.straight_lines import Line, lines_towards
 
 MAX_NEIGHBOUR_COSINE = float(np.cos(np.deg2rad(12)))
 """Cosine of the angle from which on two lines that reach the hole side by side may both be."""
-PROFILE_HALF_WIDTH, CORE_HALF_WIDTH = 5, 2
-"""Pixels on either side of a line that its profile holds, and those of them that have to be known in every row."""
+PROFILE_HALF_WIDTH = 5
+"""Pixels on either side of a line that its profile holds."""
+CORE_HALF_WIDTH = 2
+"""Pixels on either side of a line that have to be known in every row."""
 SAMPLES_PER_PIXEL = 2
 """Samples of a profile for each pixel across the line."""
-MAX_SUPPORT, MIN_SUPPORT = 96, 20
-"""Pixels along a line from which it is known, at most and at least."""
+MAX_SUPPORT = 96
+"""Pixels along a line from which it is known, at most."""
+MIN_SUPPORT = 20
+"""Pixels along a line from which it is known, at least."""
 MIN_EXPLAINED_SHARE = 0.6
 """Share of those pixels that must look like the line: what crosses it does not."""
 MIN_UNMATCHED_LENGTH = 30

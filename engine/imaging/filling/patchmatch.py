@@ -33,8 +33,10 @@ GRAIN_POWER = 8
 """Power of a patch's inverse cost by which it counts where grain is to be kept: enough for the best patch to
 stand alone where it is clearly best, and for seams between equals to blend."""
 
-BAND_PATCHES, MAX_BANDS = 6000, 4
-"""Patches that make a band of their own worth while, and how many bands at most."""
+BAND_PATCHES = 6000
+"""Patches that make a band of their own worth while."""
+MAX_BANDS = 4
+"""Bands of a picture, at most."""
 
 
 def colour_planes(image: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -21,8 +21,10 @@ MIN_SEGMENT_LENGTH = 8.0
 """Pixels of the shortest segment that is looked at."""
 MIN_COLLINEAR_COSINE = float(np.cos(np.deg2rad(3)))
 """Cosine of the largest angle between two segments of one line."""
-MAX_OFFSET, MAX_OFFSET_PER_PIXEL = 1.0, 0.004
-"""Pixels by which a segment's ends may be off the line where it begins, and for each pixel of distance from there."""
+MAX_OFFSET = 1.0
+"""Pixels by which a segment's ends may be off the line where it begins."""
+MAX_OFFSET_PER_PIXEL = 0.004
+"""Pixels by which they may be off it besides, for each pixel of distance from there."""
 MAX_LINES = 120
 """Lines that are looked at, at most."""
 

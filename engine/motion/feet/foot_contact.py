@@ -23,11 +23,15 @@ Contacts = NDArray[np.bool_]
 REFERENCE_LEG = 0.85
 """Metres of the legs for which lengths and speeds are given here: those of others are in proportion."""
 
-CONTACT_HEIGHT, RELEASE_HEIGHT = 0.05, 0.08
-"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot begins to stand, and while it goes on standing."""
+CONTACT_HEIGHT = 0.05
+"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot begins to stand."""
+RELEASE_HEIGHT = 0.08
+"""Metres, for legs of `REFERENCE_LEG`: heel or ball are lower while a foot goes on standing."""
 
-CONTACT_SPEED, RELEASE_SPEED = 0.4, 0.7
-"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot begins to stand, and while it goes on."""
+CONTACT_SPEED = 0.4
+"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot begins to stand."""
+RELEASE_SPEED = 0.7
+"""Metres a second, for legs of `REFERENCE_LEG`: heel or ball are slower while a foot goes on standing."""
 
 MAX_DRIFT = 0.06
 """Metres, for legs of `REFERENCE_LEG`: a foot whose ball wanders farther than this from its place, shuffles."""

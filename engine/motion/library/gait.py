@@ -19,8 +19,12 @@ from engine.motion.library.posture import Arm, Foot, Posture, embody
 
 Array = NDArray[np.float64]
 
-WALK_SECONDS, WALK_STRIDE, WALK_STANCE = 1.1, 1.5, 0.62
-"""A walk's cycle; its way in leg lengths; the share of it in which a foot stands."""
+WALK_SECONDS = 1.1
+"""Seconds of a walk's cycle."""
+WALK_STRIDE = 1.5
+"""Leg lengths of way in a walk's cycle."""
+WALK_STANCE = 0.62
+"""Share of a walk's cycle in which a foot stands."""
 
 WALK_PITCH: Keys = (
     *((0.0, -20.0), (0.07, -3.0), (0.1, 0.0), (0.33, 0.0), (0.42, 8.0), (0.52, 26.0), (0.62, 50.0), (0.66, 56.0)),
@@ -28,10 +32,16 @@ WALK_PITCH: Keys = (
 )
 WALK_LIFT: Keys = ((0.0, 0.0), (0.62, 0.0), (0.68, 0.035), (0.76, 0.065), (0.84, 0.04), (0.93, 0.03))
 
-RUN_SECONDS, RUN_STRIDE, RUN_STANCE = 0.7, 2.6, 0.3
-RUN_HEIGHT, RUN_RISE = -0.075, 0.03
-"""Leg lengths: where the hips are as the feet leave the ground and touch it, and how far they rise in the air: gravity's
-way up and down in a fifth of the cycle."""
+RUN_SECONDS = 0.7
+"""Seconds of a run's cycle."""
+RUN_STRIDE = 2.6
+"""Leg lengths of way in a run's cycle."""
+RUN_STANCE = 0.3
+"""Share of a run's cycle in which a foot stands."""
+RUN_HEIGHT = -0.075
+"""Leg lengths above standing at which the hips are as the feet leave the ground and touch it."""
+RUN_RISE = 0.03
+"""Leg lengths by which the hips rise in the air: gravity's way up and down in a fifth of the cycle."""
 
 RUN_PITCH: Keys = (
     *((0.0, -4.0), (0.04, 0.0), (0.14, 0.0), (0.19, 14.0), (0.26, 42.0), (0.31, 62.0), (0.44, 82.0), (0.58, 66.0)),

@@ -10,8 +10,12 @@ from engine.motion.library.curves import curve_through, hermite_curve
 from engine.motion.library.posture import Arm, Foot, Posture, embody
 from engine.motion.library.standing import STANDING_FEET
 
-TAKE_OFF_SECONDS, LANDING_SECONDS, END_SECONDS = 0.78, 1.2, 2.2
-"""Seconds: when the feet leave the ground and touch it again; the end of the clip."""
+TAKE_OFF_SECONDS = 0.78
+"""Seconds at which the feet leave the ground."""
+LANDING_SECONDS = 1.2
+"""Seconds at which they touch it again."""
+END_SECONDS = 2.2
+"""Seconds at which the clip ends."""
 
 TAKE_OFF_LEG_LENGTHS_PER_SECOND = 2.4
 """Leg lengths a second at which the body leaves the ground: what gravity makes of the time in the air."""

@@ -18,8 +18,12 @@ MEASURES = (
 """Lengths are in eye distances of the face turned to the front; the eyes' opening is over their own width; angles in
 radians: `yaw` > 0 turns the face to the picture's right, `pitch` > 0 upwards, `roll` > 0 clockwise as seen."""
 
-MOUTH_MEASURES, LID_MEASURES, FACE_MEASURES = slice(0, 4), slice(7, 9), slice(0, 9)
-"""Which of them are the mouth's, the lids', and the face's own, without the head's turn."""
+MOUTH_MEASURES = slice(0, 4)
+"""The measures of the mouth among `MEASURES`."""
+LID_MEASURES = slice(7, 9)
+"""The measures of the lids among `MEASURES`."""
+FACE_MEASURES = slice(0, 9)
+"""The measures of the face itself among `MEASURES`, without the head's turn."""
 
 REST_SPREAD = np.array([0.06, 0.10, 0.07, 0.07, 0.04, 0.04, 0.03, 0.08, 0.08, 0.25, 0.20, 0.20])
 """By how much each of `MEASURES` may differ from rest on a face that shows nothing: twice to three times what it
@@ -28,15 +32,16 @@ varies by while people wait (from the idle performances and the quiet stretches 
 SPREAD_BETWEEN_PEOPLE = np.array([0.03, 0.10, 0.04, 0.04, 0.10, 0.08, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
 """By how much the measures at rest differ between people."""
 
-USUAL_BELOW = np.array([0.03, 0.10, 0.04, 0.04, 0.05, 0.05, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
-"""The same below the general rest: brows lie higher by much on some people, and lower by much only where they frown."""
+SPREAD_BELOW_REST = np.array([0.03, 0.10, 0.04, 0.04, 0.05, 0.05, 0.05, 0.06, 0.06, 0.20, 0.20, 0.20])
+"""By how much measures at rest that lie below the general rest differ from it between people. Brows lie higher by much on
+some people, and lower by much only where they frown."""
 
-LIDS_VARY = 0.2
+LID_VARIATION = 0.2
 """The share of how far lids are usually open by which they vary while they are."""
 
-JAW_TAKES_CORNERS = 0.25
-"""An opening jaw takes the corners of the mouth down by this share of the opening (0.22 to 0.29 in the built-in
-performances of surprise, whose corners do nothing of themselves): what is left is their own doing."""
+CORNER_DROP_PER_OPENING = 0.25
+"""The share of the mouth's opening by which the jaw takes the corners down (0.22 to 0.29 in the built-in performances of
+surprise, whose corners do nothing of themselves). What is left is their own doing."""
 
 
 def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -50,8 +55,8 @@ def measure(meshes: NDArray[np.floating]) -> NDArray[np.float32]:
         [
             mouth_open,
             np.linalg.norm(face[:, 61] - face[:, 291], axis=1),
-            nose - face[:, 61, 1] + JAW_TAKES_CORNERS * mouth_open,
-            nose - face[:, 291, 1] + JAW_TAKES_CORNERS * mouth_open,
+            nose - face[:, 61, 1] + CORNER_DROP_PER_OPENING * mouth_open,
+            nose - face[:, 291, 1] + CORNER_DROP_PER_OPENING * mouth_open,
             lids - face[:, [107, 336], 1].mean(axis=1),
             lids - face[:, [70, 300], 1].mean(axis=1),
             np.abs(face[:, 55, 0] - face[:, 285, 0]),
@@ -71,7 +76,7 @@ def lid_lowering(values: NDArray[np.floating], usual: NDArray[np.floating]) -> N
     """(N,) by which share of how far they are `usual`ly open (2,) the lids of measures (N, 12) are lowered, beyond what these
     vary by."""
     return np.asarray(
-        np.clip(1 - LIDS_VARY - values[:, LID_MEASURES] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float
+        np.clip(1 - LID_VARIATION - values[:, LID_MEASURES] / np.maximum(usual, 1e-3), 0, 1).max(axis=1), float
     )
 
 

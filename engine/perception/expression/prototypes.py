@@ -34,17 +34,21 @@ CLEAR_MOVEMENTS: Mapping[str, float] = {
 shares of how far they are open at rest. They lie at about two thirds of what the normal built-in performances reach at
 their height, and above what talking, nodding and waiting people reach in the clips of `benchmarks/moments`."""
 
-GAPING_EYE_DISTANCES, PARTED_EYE_DISTANCES = 0.45, 0.05
-"""Eye distances: a mouth that is open wider than the first shouts or yawns, whatever its corners do; up to the second
-it counts as closed."""
+GAPING_EYE_DISTANCES = 0.45
+"""Eye distances: a mouth that is open wider shouts or yawns, whatever its corners do."""
+PARTED_EYE_DISTANCES = 0.05
+"""Eye distances up to which an open mouth counts as closed."""
 
 MAX_POUT_EYE_DISTANCES = 0.06
 """Eye distances by which a mouth may be narrower in sadness; beyond, it purses its lips or speaks."""
 
-WHOLE_BROW, MOUTH_DRAWN, BROWS_PARTED = 0.015, 0.06, 0.02
-"""Eye distances. They tell surprise from fear, which share raised brows and wide eyes: in surprise the outer end of a
-brow comes more than 0.7 of the inner end's way, the mouth narrows and the brows part; in fear the outer end stays
-behind (AU 1 with 4) and the mouth is drawn wide (AU 20)."""
+OUTER_BROW_SCALE = 0.015
+"""Eye distances by which the outer end of a brow comes more than 0.7 of the inner end's way in surprise. In fear, which
+shares raised brows and wide eyes with it, the outer end stays behind (AU 1 with 4)."""
+MOUTH_WIDTH_SCALE = 0.06
+"""Eye distances by which the mouth narrows in surprise, and is drawn wide in fear (AU 20)."""
+BROW_GAP_SCALE = 0.02
+"""Eye distances by which the brows part in surprise."""
 
 MAX_WINK_YAW = 0.45
 """Radians of yaw from rest, beyond which one eye is seen too obliquely to tell a wink."""
@@ -99,7 +103,7 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
     eyes = [MEASURES.index("right_eye_open"), MEASURES.index("left_eye_open")]
     lids = moved[:, eyes].T / np.maximum(rest[eyes], 0.1)[:, None]
     shut = np.sort(-lids, axis=0) / CLEAR_MOVEMENTS["eye_shut"]
-    brow = (outer - 0.7 * inner) / WHOLE_BROW
+    brow = (outer - 0.7 * inner) / OUTER_BROW_SCALE
     return Movements(
         corners_up=corners.min(axis=0) / CLEAR_MOVEMENTS["corners_up"],
         corners_down=-corners.max(axis=0) / CLEAR_MOVEMENTS["corners_down"],
@@ -115,7 +119,7 @@ def movements(moved: NDArray[np.floating], rest: NDArray[np.floating]) -> Moveme
         eyes_narrower=-lids.mean(axis=0) / CLEAR_MOVEMENTS["eyes_narrower"],
         one_eye_shut=shut[1],
         other_eye_shut=np.maximum(shut[0], 0),
-        like_surprise=brow - of["mouth_wide"] / MOUTH_DRAWN + apart / BROWS_PARTED,
+        like_surprise=brow - of["mouth_wide"] / MOUTH_WIDTH_SCALE + apart / BROW_GAP_SCALE,
         mouth_open=of["mouth_open"],
         mouth_narrower=-of["mouth_wide"],
         yaw=of["yaw"],

@@ -13,15 +13,18 @@ from engine.perception.segmentation import selfie_mask
 MAX_POINTS = 100
 WORKING_HEIGHT = 360
 """Frames are tracked at about this height; points outside the face need no more."""
-FORWARD_BACKWARD = 1.0
+MAX_FORWARD_BACKWARD_PIXELS = 1.0
 """A point that does not come back to within this many working pixels is not trusted in that frame."""
 MAX_DRIFT_PIXELS = 3.0
 """How far, in working pixels, the match against the first frame may be from the frame-to-frame track."""
-FOUND_AGAIN = 12.0
-"""The same after frames without a face, from where the face would carry it."""
+MAX_DRIFT_PIXELS_AFTER_LOSS = 12.0
+"""How far, in working pixels, the match against the first frame may be from where the face would carry the point, after
+frames without a face."""
 FLOW_WINDOW = (21, 21)
-TRACKING_PYRAMID_LEVELS, ANCHOR_PYRAMID_LEVELS = 2, 1
-"""Levels of the pyramid above the frame: from one frame to the next, and where the track says about where it is."""
+TRACKING_PYRAMID_LEVELS = 2
+"""Levels of the pyramid above the frame for a match from one frame to the next."""
+ANCHOR_PYRAMID_LEVELS = 1
+"""Levels of the pyramid above the frame for a match against the first frame: the track says about where it is."""
 FADE_FRAMES = 17
 """Frames over which a point that is lost, or found again, loses or gains its say."""
 MATCH_TERMINATION = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 10, 0.03)
@@ -100,7 +103,9 @@ class PeripheryTracker:
         moved[self._broken] = carry(self._start[self._broken])
         # against the first frame, from where the track is now: takes the drift out
         anchored, sound = _match(self._first, grey, self._start, moved, ANCHOR_PYRAMID_LEVELS)
-        sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(self._broken, FOUND_AGAIN, MAX_DRIFT_PIXELS)
+        sound &= np.linalg.norm(anchored - moved, axis=1) < np.where(
+            self._broken, MAX_DRIFT_PIXELS_AFTER_LOSS, MAX_DRIFT_PIXELS
+        )
         sound &= _comes_back(self._first, grey, self._start, anchored, ANCHOR_PYRAMID_LEVELS)
         self._broken &= ~sound
         loose = ~sound
@@ -150,7 +155,7 @@ def _comes_back(
 ) -> NDArray[np.bool_]:
     """The forward-backward check: whether what was matched from `a` to `there` in `b` is matched back."""
     back, found = _match(b, a, there, points, levels)
-    return found & (np.linalg.norm(back - points, axis=1) < FORWARD_BACKWARD)
+    return found & (np.linalg.norm(back - points, axis=1) < MAX_FORWARD_BACKWARD_PIXELS)
 
 
 def _choose(rgb: NDArray[np.uint8], mesh: NDArray[np.float32], scale: float) -> NDArray[np.float32]:

@@ -98,7 +98,7 @@ PRESSED_BY: Mapping[str, Mapping[str, float]] = {
 }
 """How strongly each face unit presses in each group."""
 
-AT_REST = {
+REST_STRENGTHS = {
     "nasolabial_left": 0.16,
     "nasolabial_right": 0.18,
     "under_eye_left": 0.22,
@@ -106,7 +106,7 @@ AT_REST = {
     "forehead_left": 0.07,
     "forehead_right": 0.07,
 }
-"""What thirty years have left behind."""
+"""How strongly groups are pressed on a face at rest: what thirty years have left behind."""
 
 
 def carve() -> Wrinkles:
@@ -132,7 +132,7 @@ def wrinkle_relief(wrinkles: Wrinkles, units: Mapping[str, float]) -> NDArray[np
     total = np.zeros(CHART_SHAPE, np.float32)
     for name, relief in zip(wrinkles.names, wrinkles.relief, strict=True):
         strength = sum(share * max(units.get(unit, 0.0), 0.0) for unit, share in PRESSED_BY[name].items())
-        strength = AT_REST.get(name, 0.0) + strength
+        strength = REST_STRENGTHS.get(name, 0.0) + strength
         if strength > 0.01:
             total += np.float32(strength) * relief
     return total

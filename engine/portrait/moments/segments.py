@@ -15,8 +15,10 @@ from engine.performances.catalogue import Strength
 from engine.portrait.moments.gestures import gestures
 from engine.portrait.moments.rest import distance_from_rest
 
-ONSET_CLARITY, OFFSET_CLARITY = 1.0, 0.5
-"""A segment begins where a state is clearly shown, and lasts while half of it still is (hysteresis)."""
+ONSET_CLARITY = 1.0
+"""How clearly a state shows, at least, where a segment begins (hysteresis)."""
+OFFSET_CLARITY = 0.5
+"""How clearly a state shows, at least, for its segment to last."""
 
 HELD_SECONDS: Mapping[State, float] = {"wink": 0.25}
 MIN_HELD_SECONDS = 0.35
@@ -34,14 +36,18 @@ REST_MARGIN_SECONDS = 0.15
 MAX_INWARD_SHARE = 0.25
 """The share of a gesture's length by which it may begin later or end earlier: to and fro passes by rest."""
 
-CALM_UNREST, MAX_UNREST = 1.0, 2.0
-"""The unrest with which a segment may begin and end; up to the second where there is none calmer, at a lower score."""
+CALM_UNREST = 1.0
+"""The unrest with which a segment may begin and end."""
+MAX_UNREST = 2.0
+"""The unrest with which a segment may begin and end where there is none calmer, at a lower score."""
 
 MIN_WAITING_SECONDS = 2.5
 """Seconds at rest that make a segment of waiting."""
 
-CUT_SEGMENT_SECONDS, MAX_SEGMENT_SECONDS = 8.0, 20.0
-"""Seconds: talking and waiting are cut at rest after the first; what lasts longer than the second is no moment."""
+CUT_SEGMENT_SECONDS = 8.0
+"""Seconds after which talking and waiting are cut at rest."""
+MAX_SEGMENT_SECONDS = 20.0
+"""Seconds of a segment, at most: what lasts longer is none."""
 
 STRONG_CLARITY = 1.5
 """How clearly a state must show to be called strong."""

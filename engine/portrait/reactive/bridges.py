@@ -23,10 +23,12 @@ UNSEEN_PIXELS = (0.25, 0.8)
 """Pixels by which it may be off in any case, of the head and of the furthest point: nobody sees less."""
 TAPER_SHARE = 0.5
 """Share of a bridge in which it speeds up and slows down; in the middle it goes evenly."""
-CALM_STEP = 0.5
+MAX_BRIDGE_STEP = 0.5
 """The longest step of a bridge against the longest in all clips: a head that goes back to rest does not snap back."""
-MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES = 3, 12
-"""Frames of a bridge."""
+MIN_BRIDGE_FRAMES = 3
+"""Frames of the shortest bridge."""
+MAX_BRIDGE_FRAMES = 12
+"""Frames of the longest bridge."""
 HOLD_FRAMES = 2
 """Frames of rest after each bridge, which cost next to nothing: a player that stops late shows nothing else."""
 MAX_FRAMES_PER_KEYFRAME = 32
@@ -116,7 +118,7 @@ def find_exits(poses: Sequence[Pose], step: PoseDistance, pace: PoseDistance) ->
         last = _furthest(offsets, resting, chosen, chosen, step)
         at += [len(frames) - 1] * (last - first + 1)
     far = [PoseDistance.between(offsets[frame]).against(pace) for frame in frames]
-    steps = [one / (CALM_STEP * (1 - TAPER_SHARE / 2)) for one in far]
+    steps = [one / (MAX_BRIDGE_STEP * (1 - TAPER_SHARE / 2)) for one in far]
     lengths = tuple(int(np.clip(np.ceil(one) - 1, MIN_BRIDGE_FRAMES, MAX_BRIDGE_FRAMES)) for one in steps)
     return ExitBridges(tuple(frames), lengths, tuple(at))
 

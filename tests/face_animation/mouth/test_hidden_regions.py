@@ -11,10 +11,10 @@ from made_face import DARK, SKIN, in_crop, opened, painted, placed
 from numpy.typing import NDArray
 
 from engine.face_animation.mouth.hidden_regions import (
-    AREA_FROM,
-    AREA_FULLY,
-    GAP_FROM,
-    GAP_FULLY,
+    APPEARING_AREA,
+    APPEARING_GAP,
+    FULL_AREA,
+    FULL_GAP,
     MIN_INNER_AREA,
     MouthPalette,
     match_palette,
@@ -96,7 +96,7 @@ def change(mesh: NDArray, driver, palette: MouthPalette) -> NDArray[np.float64]:
 
 def test_a_mouth_not_opener_than_the_picture_s_is_left_alone(closed, driver, palette) -> None:
     assert not change(closed, driver, palette).any()
-    assert not change(with_area(closed, 0.98 * AREA_FROM * palette.area), driver, palette).any()
+    assert not change(with_area(closed, 0.98 * APPEARING_AREA * palette.area), driver, palette).any()
 
 
 def test_the_inside_appears_between_once_and_twice_the_area(closed, driver, palette) -> None:
@@ -109,7 +109,7 @@ def test_the_inside_appears_between_once_and_twice_the_area(closed, driver, pale
         return float(change(mesh, driver, known)[inner_mask(mesh, -2)].mean())
 
     for share in (1.1, 1.25, 1.5, 1.75, 2.0, 2.6, 10.0):
-        assert seen(share) / seen(AREA_FULLY) == pytest.approx(min(share - AREA_FROM, 1), abs=0.03)
+        assert seen(share) / seen(FULL_AREA) == pytest.approx(min(share - APPEARING_AREA, 1), abs=0.03)
 
 
 def test_lips_that_part_show_the_inside_though_the_mouth_grows_no_larger(closed, driver, palette) -> None:
@@ -121,9 +121,9 @@ def test_lips_that_part_show_the_inside_though_the_mouth_grows_no_larger(closed,
         known = replace(palette, area=1e9, gap=gap / share)
         return float(change(mesh, driver, known)[inner_mask(mesh, -2)].mean())
 
-    assert seen(0.99 * GAP_FROM) == 0
-    assert seen((GAP_FROM + GAP_FULLY) / 2) / seen(GAP_FULLY) == pytest.approx(0.5, abs=0.03)
-    assert seen(10) == seen(GAP_FULLY) > 0
+    assert seen(0.99 * APPEARING_GAP) == 0
+    assert seen((APPEARING_GAP + FULL_GAP) / 2) / seen(FULL_GAP) == pytest.approx(0.5, abs=0.03)
+    assert seen(10) == seen(FULL_GAP) > 0
 
 
 def test_a_closed_mouth_s_area_has_a_floor(closed, palette) -> None:
