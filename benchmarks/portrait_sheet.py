@@ -39,7 +39,7 @@ COMPARED_PERFORMANCES = (
     ("surprise-strong", "woman_funny_faces_d6", (5.9, 7.0)),
     ("idle", "woman_frown_surprise_d3", (2.0, 3.5)),
 )
-"""Performances, and the clips and seconds that `moments.json` marks as the same."""
+"""Performances, and the clips and seconds that `driver_segments.json` marks as the same."""
 SHOWN_FRAMES = 6
 """Frames that are shown of each video."""
 CELL_SIZE = (220, 220)
@@ -76,7 +76,7 @@ def performances(out: Path, options: Mapping[str, Any]) -> None:
 
 
 def _driven(label: str, driver: Path, part: Part = None) -> Row:
-    return Row([np.full((1, 1, 3), PAPER_GREY_LEVEL, np.uint8), *_moments(driver, part)], label)
+    return Row([np.full((1, 1, 3), PAPER_GREY_LEVEL, np.uint8), *_frames(driver, part)], label)
 
 
 def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path, part: Part = None) -> Row:
@@ -84,10 +84,10 @@ def _acted(picture: Path, driver: Path, options: Mapping[str, Any], cache: Path,
     with TemporaryDirectory() as folder:
         made = animate(picture, driver, folder, cache=cache, **options).path
         rest = read_image(Path(folder) / "preview.jpg").rgb
-        return Row([rest, *_moments(made, part)], picture.stem)
+        return Row([rest, *_frames(made, part)], picture.stem)
 
 
-def _moments(path: Path, part: Part) -> list[NDArray[np.uint8]]:
+def _frames(path: Path, part: Part) -> list[NDArray[np.uint8]]:
     """`SHOWN_FRAMES` frames of a part of a video, evenly spread."""
     frames = [fitted(frame.rgb, CELL_SIZE) for frame in read_video(path, trim=part)]
     return [frames[int((k + 0.5) * len(frames) / SHOWN_FRAMES)] for k in range(SHOWN_FRAMES)]

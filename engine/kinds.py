@@ -7,8 +7,8 @@ from types import MappingProxyType
 
 from engine import character, motion_check, portrait
 from engine.kind import Kind
-from engine.portrait import moments
+from engine.portrait import driver_segments
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
-    {kind.name: kind for kind in (portrait.KIND, moments.KIND, character.KIND, motion_check.KIND)}
+    {kind.name: kind for kind in (portrait.KIND, driver_segments.KIND, character.KIND, motion_check.KIND)}
 )

@@ -45,5 +45,5 @@ def get_driver_poster(name: str, request: Request, caller: Reader, context: InCo
 @stored_file("/{name}/moments/{moment}/poster", router, "get_moment_poster", DELIVERY_RESPONSES)
 def get_moment_poster(name: str, moment: str, request: Request, caller: Reader, context: InContext) -> Response:
     """A small picture (JPEG) of a moment at its height."""
-    stored, storage = service.moment_poster(context, caller.owner, name, moment)
+    stored, storage = service.segment_poster(context, caller.owner, name, moment)
     return deliver(stored, storage, request)

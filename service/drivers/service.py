@@ -39,7 +39,7 @@ def stored(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
 
 
 def poster(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
-    """The small picture that shows a driver; of the user's own, the search for moments takes it: nothing is decoded
+    """The small picture that shows a driver; of the user's own, the search for segments takes it: nothing is decoded
     outside of jobs."""
     with context.database.read() as session:
         driver = repository.get(session, DRIVERS, owner, name)
@@ -48,15 +48,15 @@ def poster(context: Context, owner: str, name: str) -> tuple[Stored, Storage]:
     return _picture(context, driver, POSTER_NAME)
 
 
-def moment_poster(context: Context, owner: str, name: str, moment: str) -> tuple[Stored, Storage]:
-    """The small picture that shows one moment of a driver of the user's own."""
+def segment_poster(context: Context, owner: str, name: str, segment_name: str) -> tuple[Stored, Storage]:
+    """The small picture that shows one segment of a driver of the user's own."""
     with context.database.read() as session:
         driver = repository.get(session, DRIVERS, owner, name)
     if driver is not None:
         inspection = of_drivers(context, [driver])[name]
-        if moment not in [one.name for one in segments(inspection)]:
-            raise missing_segment(name, moment)
-    return _picture(context, driver, f"{moment}.jpg")
+        if segment_name not in [one.name for one in segments(inspection)]:
+            raise missing_segment(name, segment_name)
+    return _picture(context, driver, f"{segment_name}.jpg")
 
 
 def _picture(context: Context, driver: Kept | None, artifact: str) -> tuple[Stored, Storage]:

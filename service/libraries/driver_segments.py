@@ -1,4 +1,4 @@
-"""What a search found in a driver: the segments of it that hold emotions and gestures (the API calls them moments)."""
+"""What a search found in a driver: the segments of it that hold emotions and gestures."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Segments(BaseModel):
     """All that was found; `seconds`: how long the video is."""
 
     seconds: Seconds
-    moments: Annotated[tuple[Segment, ...], Field(max_length=200)]
+    segments: Annotated[tuple[Segment, ...], Field(max_length=200, alias="moments")]
 
 
 def of_drivers(context: Context, drivers: Sequence[Kept]) -> dict[str, Inspection[Segments]]:
@@ -49,7 +49,7 @@ def of_drivers(context: Context, drivers: Sequence[Kept]) -> dict[str, Inspectio
 
 def segments(inspection: Inspection[Segments]) -> tuple[Segment, ...]:
     """The segments that a search has found."""
-    return inspection.document.moments if inspection.document is not None else ()
+    return inspection.document.segments if inspection.document is not None else ()
 
 
 def segment(context: Context, owner: str, name: str, segment_name: str) -> tuple[str, Segment]:

@@ -133,7 +133,7 @@ def estimate_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     for a driver may laugh through most of a clip; likeness alone would not, for people differ.
 
     It is a face that anybody would call calm, in however few frames this one is, for what the driver shows there stands for
-    the target, who is taken to be at rest. `moments.rest.own_rest` looks for a habit instead, which may be a smile.
+    the target, who is taken to be at rest. `driver_segments.rest.own_rest` looks for a habit instead, which may be a smile.
     """
     seen = values[np.unique(np.linspace(0, len(values) - 1, min(MAX_COMPARED_FRAMES, len(values))).astype(int))].astype(
         float

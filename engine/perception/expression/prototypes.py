@@ -32,7 +32,7 @@ CLEAR_MOVEMENTS: Mapping[str, float] = {
 }
 """Differences from the person's own rest at which a movement is clearly there, in eye distances; those of the eyes are
 shares of how far they are open at rest. They lie at about two thirds of what the normal built-in performances reach at
-their height, and above what talking, nodding and waiting people reach in the clips of `benchmarks/moments`."""
+their height, and above what talking, nodding and waiting people reach in the clips of `benchmarks/driver_segments`."""
 
 GAPING_EYE_DISTANCES = 0.45
 """Eye distances: a mouth that is open wider shouts or yawns, whatever its corners do."""

@@ -54,7 +54,7 @@ class PoseDistance:
 
 
 @dataclass(frozen=True)
-class Segment:
+class BridgeSegment:
     """A bridge in its file: the `start` of its frames, and how many (`length`) lead to rest. `HOLD_FRAMES` frames at rest
     follow; where it is the first after a whole picture, that one comes before it (`opens`)."""
 
@@ -72,15 +72,15 @@ class ExitBridges:
     lengths: tuple[int, ...]
     at: tuple[int, ...]
 
-    def segments(self) -> list[Segment]:
+    def segments(self) -> list[BridgeSegment]:
         """Where the bridges lie in their file."""
-        placed: list[Segment] = []
+        placed: list[BridgeSegment] = []
         end, room = 0, 0
         for length in self.lengths:
             opens = room < length + HOLD_FRAMES
             if opens:
                 end, room = end + 1, MAX_FRAMES_PER_KEYFRAME
-            placed.append(Segment(end, length, opens))
+            placed.append(BridgeSegment(end, length, opens))
             end, room = end + length + HOLD_FRAMES, room - length - HOLD_FRAMES
         return placed
 
@@ -137,7 +137,7 @@ def _furthest(
     return last
 
 
-def bridge(pose: Pose, segment: Segment, rest: NDArray[np.float32]) -> Iterator[Pose]:
+def bridge(pose: Pose, segment: BridgeSegment, rest: NDArray[np.float32]) -> Iterator[Pose]:
     """The frames of a bridge's segment: the poses between this one and rest, with what comes before and after."""
     if segment.opens:
         yield pose.eased(0.0, rest)

@@ -29,7 +29,7 @@ from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, eye_distance
 from engine.performances import video
-from engine.portrait.moments.rest import own_rest
+from engine.portrait.driver_segments.rest import own_rest
 
 REST = 12
 """The only frame of the clip with a closed mouth, open eyes and a face from the front."""

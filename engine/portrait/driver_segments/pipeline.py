@@ -1,4 +1,4 @@
-"""The moments of a driving video, stage by stage: watch it, find the segments, take a picture of each."""
+"""The segments of a driving video, stage by stage: watch it, find the segments, take a picture of each."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from engine.media.video import read_video
 from engine.perception.expression.measures import REST_SPREAD
 from engine.performances import State
 from engine.performances.catalogue import POSTER_SIDE, Strength
-from engine.portrait.moments.rest import own_rest
-from engine.portrait.moments.segments import Segment, find_segments
-from engine.portrait.moments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, FaceMeasurements, measure_video_face
+from engine.portrait.driver_segments.rest import own_rest
+from engine.portrait.driver_segments.segments import Segment, detect_segments
+from engine.portrait.driver_segments.watching import MAX_WATCHED_SIDE, WATCHED_FPS, FaceMeasurements, measure_video_face
 from engine.run import Run, write_report
 
-STAGES = {"watch": 12.0, "find_portions": 0.5, "posters": 2.0}
+STAGES = {"watch": 12.0, "find_segments": 0.5, "posters": 2.0}
 """The stages and their usual share of the time."""
 
 POSTER_MARGIN_SHARE = 0.35
@@ -31,7 +31,7 @@ POSTER_MARGIN_SHARE = 0.35
 
 
 @dataclass(frozen=True)
-class Moment:
+class DriverSegment:
     """A segment of a video that holds a state.
 
     name : the state's, with a number from the second best on. start, end, apex : seconds from the video's beginning;
@@ -57,47 +57,47 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Moments:
-    """All moments of a video, in the order of the states, the best of each first; `rest`: when the face is most at
+class DriverSegments:
+    """All segments of a video, in the order of the states, the best of each first; `rest`: when the face is most at
     rest, in seconds."""
 
     rest: float
-    moments: tuple[Moment, ...]
+    segments: tuple[DriverSegment, ...]
 
 
 def work(inputs: Mapping[str, Given], out: Path, run: Run) -> None:
-    """Find the moments of `inputs["driver"]`; leaves `moments.json`, a picture of each, `poster.jpg` (the face at
+    """Find the segments of `inputs["driver"]`; leaves `moments.json`, a picture of each, `poster.jpg` (the face at
     rest) and `report.json` in `out`."""
     driver = inputs["driver"]
     assert isinstance(driver, Path)
     run.plan(STAGES)
     watched = run.stage("watch", measure_video_face, driver, run.limits, run.tick, shared=True)
-    with run.timed("find_portions"):
-        moments = moments_of(watched)
+    with run.timed("find_segments"):
+        found = named_segments(watched)
     with run.timed("posters"):
-        wanted = {"poster.jpg": moments.rest} | {one.poster: one.apex for one in moments.moments}
+        wanted = {"poster.jpg": found.rest} | {one.poster: one.apex for one in found.segments}
         for done, (name, time) in enumerate(wanted.items()):
             write_thumbnail(out / name, picture(driver, time, watched, run.limits), synthetic=False)
             run.tick((done + 1) / len(wanted))
-    write_moments(out / "moments.json", moments, watched)
+    write_segments(out / "moments.json", found, watched)
     seen = float(watched.found.mean())
     inputs_ = {"seconds": round(watched.seconds, 3), "fps": WATCHED_FPS, "frames": len(watched.found)}
     write_report(out / "report.json", "moments", run, inputs_, {"driver_face_share": seen})
 
 
-def moments_of(watched: FaceMeasurements) -> Moments:
-    """The moments of a video that was watched."""
+def named_segments(watched: FaceMeasurements) -> DriverSegments:
+    """The segments of a video that was watched."""
     rest = own_rest(watched.values[watched.found])
     apart = np.linalg.norm((watched.values - rest) / REST_SPREAD, axis=1)
-    segments = find_segments(watched.values, watched.found, rest, WATCHED_FPS)
+    segments = detect_segments(watched.values, watched.found, rest, WATCHED_FPS)
     at_rest = int(np.argmin(np.where(watched.found, apart, np.inf)))
-    return Moments(at_rest / WATCHED_FPS, tuple(_named(segments, watched.seconds)))
+    return DriverSegments(at_rest / WATCHED_FPS, tuple(_named(segments, watched.seconds)))
 
 
-def write_moments(path: Path, moments: Moments, watched: FaceMeasurements) -> None:
+def write_segments(path: Path, found: DriverSegments, watched: FaceMeasurements) -> None:
     """Write `moments.json`."""
-    listed = [{**asdict(one), "seconds": one.seconds, "poster": one.poster} for one in moments.moments]
-    document = {"seconds": round(watched.seconds, 3), "rest": round(moments.rest, 3), "moments": listed}
+    listed = [{**asdict(one), "seconds": one.seconds, "poster": one.poster} for one in found.segments]
+    document = {"seconds": round(watched.seconds, 3), "rest": round(found.rest, 3), "moments": listed}
     path.write_text(json.dumps(document, indent=2) + "\n")
 
 
@@ -119,12 +119,12 @@ def picture(path: Path, time: float, watched: FaceMeasurements, limits: Limits) 
     return np.asarray(drawn, np.uint8)
 
 
-def _named(segments: list[Segment], seconds: float) -> list[Moment]:
-    named: list[Moment] = []
+def _named(segments: list[Segment], seconds: float) -> list[DriverSegment]:
+    named: list[DriverSegment] = []
     for one in segments:
         number = 1 + sum(other.state == one.state for other in named)
         named.append(
-            Moment(
+            DriverSegment(
                 name=one.state if number == 1 else f"{one.state}-{number}",
                 state=one.state,
                 strength=one.strength,

@@ -1,4 +1,4 @@
-"""A new driver of one's own is searched for moments; a job can name one; they go with the driver."""
+"""A new driver of one's own is searched for segments; a job can name one; they go with the driver."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 from running import Running, eventually
 
-from benchmarks.moments import Stretch, Tally, join, judge
+from benchmarks.driver_segments import Stretch, Tally, join, judge
 from engine.performances import STATES
-from engine.portrait.moments.pipeline import Moment
+from engine.portrait.driver_segments.pipeline import DriverSegment
 
 KINDS = "tiny_kind:KIND,engine.kinds:KINDS"
 
@@ -63,8 +63,8 @@ def test_what_a_driver_shows_is_told_and_can_be_looked_at(
 ) -> None:
     assert mine["moments_status"] == "ready" and mine["seconds"] == pytest.approx(6.2, abs=0.1)
     fields = ("name", "state", "strength", "start", "end", "apex", "score")
-    moments = [Moment(**{field: one[field] for field in fields}) for one in mine["moments"]]
-    assert judge({state: Tally() for state in STATES}, moments, clip[1]) == []
+    segments = [DriverSegment(**{field: one[field] for field in fields}) for one in mine["moments"]]
+    assert judge({state: Tally() for state in STATES}, segments, clip[1]) == []
     assert mine in searching.client.get("/v1/drivers").json()["items"]
     for one in mine["moments"]:
         assert one["url"] == f"/v1/drivers/me/video#t={one['start']:g},{one['end']:g}"
@@ -78,7 +78,7 @@ def test_what_a_driver_shows_is_told_and_can_be_looked_at(
     assert (answer.status_code, answer.json()["code"]) == (404, "moment_not_found")
 
 
-def test_a_job_is_driven_by_a_moment_alone(searching: Running, mine: dict[str, Any]) -> None:
+def test_a_job_is_driven_by_a_segment_alone(searching: Running, mine: dict[str, Any]) -> None:
     anger = next(one for one in mine["moments"] if one["name"] == "anger")
     portrait = searching.client.get("/v1/drivers/happy/poster").content
     file = searching.client.post("/v1/files", files={"file": ("face.jpg", portrait)}).json()["id"]

@@ -1,7 +1,7 @@
-"""How well the moments of a driver are found: `python -m benchmarks.moments`.
+"""How well the segments of a driver are found: `python -m benchmarks.driver_segments`.
 
 Two kinds of truth. By construction: the built-in performances, joined in random orders into long clips, hold what
-their names say, and those of waiting hold no emotion. By eye: `moments.json` says what the real clips of the test
+their names say, and those of waiting hold no emotion. By eye: `driver_segments.json` says what the real clips of the test
 media hold (`must`), and what one may see in them or not (`may`: neither right nor wrong).
 
 A segment is right where its height lies in a stretch of the same state, or where both share 0.3 of what they cover
@@ -30,8 +30,8 @@ from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
 from engine.media.video import read_video
 from engine.performances import STATES, names, performance, video
-from engine.portrait.moments import find_moments
-from engine.portrait.moments.pipeline import Moment
+from engine.portrait.driver_segments import find_segments
+from engine.portrait.driver_segments.pipeline import DriverSegment
 
 SEEDS = (1, 2, 3, 4)
 MIN_OVERLAP = 0.3
@@ -87,13 +87,13 @@ def tilted_and_dark(rgb: NDArray[np.uint8]) -> NDArray[np.uint8]:
 ALTERATIONS = {"as they are": None, "mirrored and small": mirrored_and_small, "tilted and dark": tilted_and_dark}
 
 
-def is_right(moment: Moment, stretch: Stretch) -> bool:
+def is_right(segment: DriverSegment, stretch: Stretch) -> bool:
     """Whether a segment tells of a stretch."""
-    if moment.state != stretch.state:
+    if segment.state != stretch.state:
         return False
-    common = min(moment.end, stretch.end) - max(moment.start, stretch.start)
-    together = max(moment.end, stretch.end) - min(moment.start, stretch.start)
-    return stretch.start <= moment.apex <= stretch.end or common / together >= MIN_OVERLAP
+    common = min(segment.end, stretch.end) - max(segment.start, stretch.start)
+    together = max(segment.end, stretch.end) - min(segment.start, stretch.start)
+    return stretch.start <= segment.apex <= stretch.end or common / together >= MIN_OVERLAP
 
 
 @dataclass
@@ -116,18 +116,21 @@ class Tally:
 
 
 def judge(
-    tallies: Mapping[str, Tally], moments: Sequence[Moment], must: Sequence[Stretch], may: Sequence[Stretch] = ()
+    tallies: Mapping[str, Tally],
+    segments: Sequence[DriverSegment],
+    must: Sequence[Stretch],
+    may: Sequence[Stretch] = (),
 ) -> list[str]:
     """Count what is right, by state; what is wrong or missed, in words."""
     faults = []
-    for moment in moments:
-        if any(is_right(moment, stretch) for stretch in must):
-            tallies[moment.state].right += 1
-        elif not any(is_right(moment, stretch) for stretch in may):
-            tallies[moment.state].wrong += 1
-            faults.append(f"wrong: {moment.name} {moment.start:.2f} to {moment.end:.2f} s")
+    for segment in segments:
+        if any(is_right(segment, stretch) for stretch in must):
+            tallies[segment.state].right += 1
+        elif not any(is_right(segment, stretch) for stretch in may):
+            tallies[segment.state].wrong += 1
+            faults.append(f"wrong: {segment.name} {segment.start:.2f} to {segment.end:.2f} s")
     for stretch in must:
-        if any(is_right(moment, stretch) for moment in moments):
+        if any(is_right(segment, stretch) for segment in segments):
             tallies[stretch.state].found += 1
         else:
             tallies[stretch.state].missed += 1
@@ -155,17 +158,17 @@ def main() -> None:
             path = Path(folder) / f"{seed}.mp4"
             truth = join(in_random_order(seed), path, mirrored=seed % 2 == 0)
             started = perf_counter()
-            moments = find_moments(path).moments
+            segments = find_segments(path).segments
             spent, seconds = spent + perf_counter() - started, seconds + truth[-1].end
-            faults += [f"order {seed}: {fault}" for fault in judge(tables[JOINED_TITLE], moments, truth)]
+            faults += [f"order {seed}: {fault}" for fault in judge(tables[JOINED_TITLE], segments, truth)]
         for title, alter in ALTERATIONS.items():
             for name, (must, may) in labels().items():
                 path = media(f"driving/{name}")
                 if alter is not None:
                     frames = (alter(frame.rgb) for frame in read_video(path, fps=25, longest_side=640))
                     path = write_clip(Path(folder) / name, frames)
-                moments = find_moments(path).moments
-                faults += [f"{name}, {title}: {fault}" for fault in judge(tables[title], moments, must, may)]
+                segments = find_segments(path).segments
+                faults += [f"{name}, {title}: {fault}" for fault in judge(tables[title], segments, must, may)]
     for title, tallies in tables.items():
         every = Tally(
             *(sum(getattr(t, one) for t in tallies.values()) for one in ("right", "wrong", "found", "missed"))

@@ -39,7 +39,7 @@ def own_rest(values: NDArray[np.floating]) -> NDArray[np.float64]:
     It is a habit: a segment ends where the face has come back to what it comes back to, be that a little amused. A calm face
     that is seen in fewer than `NEIGHBOUR_SHARE` of the frames is an exception. `neutral.estimate_rest` looks for that one, however
     rare: in this place it finds two more of 80 joined performances, one wrongly, and misses a smile in the real clips
-    (`benchmarks/moments`).
+    (`benchmarks/driver_segments`).
     """
     neighbours = min(max(MIN_NEIGHBOURS, round(NEIGHBOUR_SHARE * len(values))), len(values) - 1)
     apart = np.sort(cdist(values / REST_SPREAD, values / REST_SPREAD), axis=1)[:, : neighbours + 1]

@@ -1,8 +1,11 @@
-"""The moments of one's own driver: which segments of a long video hold which emotion or gesture.
+"""The segments of one's own driver: which parts of a long video hold which emotion or gesture.
 
-from engine.portrait.moments import find_moments
-for moment in find_moments("me.mp4").moments:
-    print(moment.name, moment.start, moment.end)
+from engine.portrait.driver_segments import find_segments
+for segment in find_segments("me.mp4").segments:
+    print(segment.name, segment.start, segment.end)
+
+In public a segment is called a moment, and there alone: in the name of the kind and its options, in `moments.json`, in the
+addresses, schemas and codes of the API (`service/drivers`), in its client, on the page and in its guide.
 
 Reading order: `watching` (a face measured frame by frame), `rest` (against itself at rest),
 `perception.expression.prototypes` and `gestures` (what shows), `segments` (from where to where), `pipeline` (names,
@@ -19,21 +22,21 @@ from pydantic import BaseModel
 
 from engine.kind import Given, Input, Kind, Needs
 from engine.media.limits import Limits
-from engine.portrait.moments.options import MomentsOptions
+from engine.portrait.driver_segments.options import MomentsOptions
 from engine.run import Run
 
 if TYPE_CHECKING:
-    from engine.portrait.moments.pipeline import Moments
+    from engine.portrait.driver_segments.pipeline import DriverSegments
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
-    from engine.portrait.moments.pipeline import work  # the service reads KIND alone: it stays light
+    from engine.portrait.driver_segments.pipeline import work  # the service reads KIND alone: it stays light
 
     work(inputs, out, run)
 
 
 def _prepare() -> None:
-    from engine.portrait.moments import pipeline  # noqa: F401 - importing it is the preparation
+    from engine.portrait.driver_segments import pipeline  # noqa: F401 - importing it is the preparation
 
 
 KIND = Kind(
@@ -49,7 +52,7 @@ KIND = Kind(
 )
 
 
-def find_moments(path: str | Path, limits: Limits | None = None) -> Moments:
+def find_segments(path: str | Path, limits: Limits | None = None) -> DriverSegments:
     """The segments of a video that hold emotions and gestures.
 
     Raises
@@ -57,10 +60,10 @@ def find_moments(path: str | Path, limits: Limits | None = None) -> Moments:
     engine.errors.InputError : the video cannot be read, or shows no face; says what to do.
     FileNotFoundError : there is no such video.
     """
-    from engine.portrait.moments.pipeline import moments_of
-    from engine.portrait.moments.watching import measure_video_face
+    from engine.portrait.driver_segments.pipeline import named_segments
+    from engine.portrait.driver_segments.watching import measure_video_face
 
-    return moments_of(measure_video_face(Path(path), limits or Limits()))
+    return named_segments(measure_video_face(Path(path), limits or Limits()))
 
 
-__all__ = ["KIND", "find_moments"]
+__all__ = ["KIND", "find_segments"]

@@ -36,7 +36,7 @@ RHYTHMS: Mapping[State, Rhythm] = {
     "talk": Rhythm("mouth_open", 0.05, 0.11, 0.85, 0.85, 5),
 }
 """A nod covers 3 degrees at least and comes twice, a shake 4 degrees, each way within three quarters of a second: heads
-that listen or look about move by less or more slowly (idle performances, clips of `benchmarks/moments`). A mouth that
+that listen or look about move by less or more slowly (idle performances, clips of `benchmarks/driver_segments`). A mouth that
 talks opens and shuts by a twentieth of the eyes' distance, five ways or more without a longer pause."""
 
 MAX_TALKING_OPENING = 0.38

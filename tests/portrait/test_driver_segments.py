@@ -1,4 +1,4 @@
-"""The moments of a driver: what is there is found, and what is not there is not."""
+"""The segments of a driver: what is there is found, and what is not there is not."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from made_clip import write_frames
 from numpy.typing import NDArray
 
-from benchmarks.moments import Stretch, Tally, is_right, join, judge, labels
+from benchmarks.driver_segments import Stretch, Tally, is_right, join, judge, labels
 from engine.errors import InputError
 from engine.export.still import THUMBNAIL_BYTES
 from engine.media.image import read_image
@@ -21,12 +21,12 @@ from engine.perception.expression.prototypes import show
 from engine.perception.faces import find_faces
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.performances import STATES
-from engine.portrait.moments import find_moments
-from engine.portrait.moments.gestures import swings
-from engine.portrait.moments.pipeline import Moment, work
-from engine.portrait.moments.rest import distance_from_rest, own_rest
-from engine.portrait.moments.segments import MAX_UNREST, Segment, find_segments
-from engine.portrait.moments.watching import WATCHED_FPS, measure_video_face
+from engine.portrait.driver_segments import find_segments
+from engine.portrait.driver_segments.gestures import swings
+from engine.portrait.driver_segments.pipeline import DriverSegment, work
+from engine.portrait.driver_segments.rest import distance_from_rest, own_rest
+from engine.portrait.driver_segments.segments import MAX_UNREST, Segment, detect_segments
+from engine.portrait.driver_segments.watching import WATCHED_FPS, measure_video_face
 from engine.run import Run
 
 Mesh = NDArray[np.floating]
@@ -44,43 +44,45 @@ def joined(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Stretch
 
 
 @pytest.fixture(scope="module")
-def found(joined: tuple[Path, list[Stretch]]) -> tuple[Moment, ...]:
-    return find_moments(joined[0]).moments
+def found(joined: tuple[Path, list[Stretch]]) -> tuple[DriverSegment, ...]:
+    return find_segments(joined[0]).segments
 
 
 def test_everything_that_was_joined_is_found_and_nothing_else(
-    joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
+    joined: tuple[Path, list[Stretch]], found: tuple[DriverSegment, ...]
 ) -> None:
     assert judge({state: Tally() for state in STATES}, found, joined[1]) == []
-    assert [moment.name for moment in found if moment.state == "anger"] == ["anger", "anger-2"]
+    assert [segment.name for segment in found if segment.state == "anger"] == ["anger", "anger-2"]
     strong = next(one for one in joined[1][::-1] if one.state == "anger")
-    best = next(moment for moment in found if moment.name == "anger")
+    best = next(segment for segment in found if segment.name == "anger")
     assert is_right(best, strong) and best.apex > strong.start, "the clearer one comes first"
 
 
 def test_segments_begin_and_end_at_rest_and_do_not_overlap(
-    joined: tuple[Path, list[Stretch]], found: tuple[Moment, ...]
+    joined: tuple[Path, list[Stretch]], found: tuple[DriverSegment, ...]
 ) -> None:
     watched = measure_video_face(joined[0], Limits())
     unresting = distance_from_rest(watched.values - own_rest(watched.values[watched.found]))
-    for moment in found:
-        first, last = round(moment.start * WATCHED_FPS), round(moment.end * WATCHED_FPS) - 1
-        assert max(unresting[first], unresting[min(last, len(unresting) - 1)]) <= 1, moment
-        assert moment.start <= moment.apex <= moment.end <= watched.seconds
-        assert moment.seconds == pytest.approx(moment.end - moment.start) and 0 < moment.score <= 1
-        others = [one for one in found if one.state == moment.state and one is not moment]
-        assert all(one.end <= moment.start or one.start >= moment.end for one in others)
-    assert len({moment.name for moment in found}) == len(found)
-    assert [STATES.index(moment.state) for moment in found] == sorted(STATES.index(moment.state) for moment in found)
+    for segment in found:
+        first, last = round(segment.start * WATCHED_FPS), round(segment.end * WATCHED_FPS) - 1
+        assert max(unresting[first], unresting[min(last, len(unresting) - 1)]) <= 1, segment
+        assert segment.start <= segment.apex <= segment.end <= watched.seconds
+        assert segment.seconds == pytest.approx(segment.end - segment.start) and 0 < segment.score <= 1
+        others = [one for one in found if one.state == segment.state and one is not segment]
+        assert all(one.end <= segment.start or one.start >= segment.end for one in others)
+    assert len({segment.name for segment in found}) == len(found)
+    assert [STATES.index(segment.state) for segment in found] == sorted(
+        STATES.index(segment.state) for segment in found
+    )
 
 
-def test_a_mirrored_clip_has_the_same_moments(tmp_path: Path) -> None:
+def test_a_mirrored_clip_has_the_same_segments(tmp_path: Path) -> None:
     order = ["wink", "happy", "shake", "fear"]
     plain, mirrored = tmp_path / "plain.mp4", tmp_path / "mirrored.mp4"
     join(order, plain)
     join(order, mirrored, mirrored=True)
-    one, other = find_moments(plain).moments, find_moments(mirrored).moments
-    assert [moment.name for moment in one] == [moment.name for moment in other]
+    one, other = find_segments(plain).segments, find_segments(mirrored).segments
+    assert [segment.name for segment in one] == [segment.name for segment in other]
     for a, b in zip(one, other, strict=True):
         assert a.start == pytest.approx(b.start, abs=0.3) and a.end == pytest.approx(b.end, abs=0.3)
 
@@ -88,8 +90,8 @@ def test_a_mirrored_clip_has_the_same_moments(tmp_path: Path) -> None:
 @pytest.mark.parametrize("clip", ["man_smile_d9.mp4", "woman_frown_surprise_d3.mp4"])
 def test_real_people_are_understood(media: Callable[[str], Path], clip: str) -> None:
     must, may = labels()[clip]
-    moments = find_moments(media(f"driving/{clip}")).moments
-    assert judge({state: Tally() for state in STATES}, moments, must, may) == []
+    segments = find_segments(media(f"driving/{clip}")).segments
+    assert judge({state: Tally() for state in STATES}, segments, must, may) == []
 
 
 def test_a_smile_is_the_difference_between_two_photographs_of_one_woman(media: Callable[[str], Path]) -> None:
@@ -108,7 +110,7 @@ def test_artifacts(joined: tuple[Path, list[Stretch]], tmp_path: Path) -> None:
     assert {one["state"] for one in document["moments"]} == set(STATES)
     for one in document["moments"]:
         assert read_image(tmp_path / one["poster"]).rgb.shape == (256, 256, 3)
-        assert (tmp_path / one["poster"]).stat().st_size <= THUMBNAIL_BYTES, "a shelf shows many of them"
+        assert (tmp_path / one["poster"]).stat().st_size <= THUMBNAIL_BYTES, "the page shows many of them"
     rest = read_image(tmp_path / "poster.jpg").rgb
     happy = read_image(tmp_path / "happy.jpg").rgb
     quiet, smiling = (measure(find_faces(rgb)[0][None])[0] for rgb in (rest, happy))
@@ -119,7 +121,7 @@ def test_artifacts(joined: tuple[Path, list[Stretch]], tmp_path: Path) -> None:
 def test_a_video_without_a_face_is_refused(tmp_path: Path) -> None:
     frames = [np.full((128, 128, 3), shade, np.uint8) for shade in range(30)]
     with pytest.raises(InputError) as refused:
-        find_moments(write_frames(tmp_path / "grey.mp4", frames))
+        find_segments(write_frames(tmp_path / "grey.mp4", frames))
     assert refused.value.code == "no_face_in_driver"
 
 
@@ -196,7 +198,7 @@ def film(acting: Callable[[Mesh, float], Mesh], seconds: float, height: float = 
 
 def told(meshes: Mesh) -> list[Segment]:
     values = measure(meshes)
-    return find_segments(values, np.ones(len(values), bool), own_rest(values), WATCHED_FPS)
+    return detect_segments(values, np.ones(len(values), bool), own_rest(values), WATCHED_FPS)
 
 
 ACTED = {"happy": smile, "surprise": startle, "anger": frown, "sadness": mourn, "fear": dread, "wink": wink}
@@ -258,11 +260,11 @@ def test_a_segment_ends_where_the_face_is_lost() -> None:
     values = measure(film(smile, 1.5, height=1.4))
     seen = np.ones(len(values), bool)
     seen[int(3.9 * WATCHED_FPS) : int(4.3 * WATCHED_FPS)] = False
-    (found,) = (one for one in find_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy")
+    (found,) = (one for one in detect_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy")
     assert seen[found.first : found.last + 1].all()
     seen[int(2.9 * WATCHED_FPS) : int(4.3 * WATCHED_FPS)] = False
     assert [
-        one.state for one in find_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy"
+        one.state for one in detect_segments(values, seen, own_rest(values), WATCHED_FPS) if one.state == "happy"
     ] == []
 
 

@@ -1,4 +1,4 @@
-"""What a user may choose about a search for moments."""
+"""What a user may choose about a search for segments."""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ from scipy.ndimage import label, median_filter
 from engine.perception.expression.prototypes import show
 from engine.performances import STATES, State
 from engine.performances.catalogue import Strength
-from engine.portrait.moments.gestures import gestures
-from engine.portrait.moments.rest import distance_from_rest
+from engine.portrait.driver_segments.gestures import gestures
+from engine.portrait.driver_segments.rest import distance_from_rest
 
 ONSET_CLARITY = 1.0
 """How clearly a state shows, at least, where a segment begins (hysteresis)."""
@@ -84,7 +84,7 @@ class Segment:
         return min(self.clearly / 2, 1.0) / max(self.rests, 1.0)
 
 
-def find_segments(
+def detect_segments(
     values: NDArray[np.floating], found: NDArray[np.bool_], rest: NDArray[np.floating], fps: float
 ) -> list[Segment]:
     """The segments worth offering, in the order of the states, the best of each first.
