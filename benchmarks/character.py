@@ -3,13 +3,13 @@
     python -m benchmarks.character [PICTURE...] [--seconds 2]
 
 Without pictures: all people of the test media. The process is warmed up first; stages are kept, as the service does. "To
-GLB" is everything but the video and the quality, of a revision too: with a joint moved by hand, with a stroke over the labels, with another
-motion. The quality is that of the GLB, read back (`benchmarks.known_truth.written_character`): "of the mask" is its silhouette, posed
-by `pictured` and drawn by OpenCV, "reported" what the report says; "front" the PSNR against the picture inside the mask;
-"flipped" the share of the pixels in view that show a triangle's back; "stretched" the share of edges that become more than
-three times as long as pictured, the worst moment of all built-in clips. "Off" is, in turn, how far the file's vertices are
-from the character's, its weights' sums from one, its joints at rest times their inverse bind matrices from the identity.
-Pictures that fail are told, and the exit status is 1.
+GLB" is everything but the video and the quality, of a revision too: with a joint moved by hand, with a stroke over the
+labels, with another motion. The quality is that of the GLB, read back (`benchmarks.known_truth.written_character`): "of the
+mask" is its silhouette, posed by `pictured` and drawn by OpenCV, "reported" what the report says. "Front" is the PSNR
+against the picture inside the mask, "flipped" the share of the pixels in view that show a triangle's back. "Stretched" is
+the share of edges that become more than three times as long as pictured, the worst moment of all built-in clips. "Off" is,
+in turn, how far the file's vertices are from the character's, its weights' sums from one, its joints at rest times their
+inverse bind matrices from the identity. Pictures that fail are told, and the exit status is 1.
 """
 
 from __future__ import annotations

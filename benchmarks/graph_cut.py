@@ -3,7 +3,7 @@
     python -m benchmarks.graph_cut [--nodes 40000] [--labels 75] [--sweeps 6]
 
 Made as the textures of a person are, filmed by 75 cameras in a ring: triangles of a sphere, of which each is seen by the
-cameras within 45 degrees of its normal; the data say how well, times the area; seams say how far the views' colours are
+cameras within 45 degrees of its normal. The data say how well, times the area. Seams say how far the views' colours are
 apart at six samples of an edge, times its length. Prints the seconds, the energies and the edges between labels.
 """
 

@@ -10,9 +10,10 @@ from typing import Any
 class GalateaError(Exception):
     """What a user can do something about. Anything else that is raised is a bug.
 
-    `code` is stable (`no_face`, `video_unreadable`, ...); `detail` is one sentence that says what to
-    do; `correctable` names the corrections (`landmarks`, `face_index`, ...) that could mend it; `found` is what helps
-    with that, as JSON: the boxes of the faces to choose from, for instance.
+    code : stable (`no_face`, `video_unreadable`, ...).
+    detail : one sentence that says what to do.
+    correctable : the corrections (`landmarks`, `face_index`, ...) that could mend it.
+    found : what helps with that, as JSON, such as the boxes of the faces to choose from.
     """
 
     def __init__(

@@ -29,8 +29,11 @@ class NotAName(GalateaError, ValueError):
 class ApiError(GalateaError):
     """The service refused a request: a problem document (RFC 9457).
 
-    `status` is that of HTTP, `code` is stable and safe to compare with, `detail` says what to do, `errors` points at
-    each field that is wrong (`pointer`, `code`, `detail`), by `request_id` the request is found in the service's log.
+    status : that of HTTP.
+    code : stable and safe to compare with.
+    detail : what to do.
+    errors : each field that is wrong (`pointer`, `code`, `detail`).
+    request_id : by it the request is found in the service's log.
     """
 
     def __init__(

@@ -1,9 +1,9 @@
 """Fitting the template to a person in one picture or several: pose, shape and place from landmarks.
 
 The role of F. Bogo et al., Keep it SMPL: Automatic Estimation of 3D Human Pose and Shape from a Single Image, ECCV 2016,
-with other data terms: besides the landmarks in the picture (their equation 2, with the same robust penalty), the
-directions of limbs in space as perception believes them, which settle what lies in front and what behind, and the
-contour of the person's mask. Priors keep joints within what bodies can do (their 3.2) and the shape near the mean
+with other data terms. Besides the landmarks in the picture (their equation 2, with the same robust penalty) these are the
+directions of limbs in space as perception believes them, and the contour of the person's mask. The directions settle what
+lies in front and what behind. Priors keep joints within what bodies can do (their 3.2) and the shape near the mean
 (equation 6). Several views add up their data.
 """
 

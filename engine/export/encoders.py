@@ -126,14 +126,14 @@ ENTRIES_OPTIONS = {
     "x264-params": "keyint=infinite:scenecut=0:bframes=0:mbtree=0:qcomp=1:ipratio=1:aq-mode=0",
 }
 """H.264 for a video with entries. All of it is coded equally fine, whole pictures and what changes, flat and textured
-parts, so that the grain of one video goes on in the next: at a jump to a frame that shows nearly the same (0.95 grey
-levels in the mean) 0.98 were seen, with the usual settings 1.8; and no frame is sharper than the one before."""
+parts: the grain of one video goes on in the next, and no frame is sharper than the one before. At a jump to a frame that
+shows nearly the same (0.95 grey levels in the mean) 0.98 were seen, with the usual settings 1.8."""
 
 
 _SEAM_QUANTISER = 6
-"""Of the first frame of an H.264 video that loops, and of its last."""
+"""Quantiser of the first frame of an H.264 video that loops, and of its last."""
 _SEAM_FRAMES = 12
-"""Over so many at its end the quantiser goes down to it from `_SEAM_START`, about the usual one."""
+"""Frames at the end of such a video over which the quantiser goes down to `_SEAM_QUANTISER`."""
 _SEAM_START = 20
 
 _LOOPED_WEBM = {"crf": "14", "cpu-used": "4"}

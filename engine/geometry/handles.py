@@ -18,9 +18,10 @@ NO_ROTATION_WEIGHT = 1e-12
 class Handles:
     """Hard and soft targets of a surface of V vertices; where they are to be is said later, many times if need be.
 
-    `held` (H,) int: vertices that reach their targets exactly, no vertex twice. `drawn` (S, V) sparse: points of the
-    surface as weights of its vertices, each row summing to one, that come near their targets: the square of what is left, in
-    the square of the vertices' unit, times the `weights` (S,) >= 0, is weighed against the surface's own resistance.
+    held : (H,) int, vertices that reach their targets exactly, no vertex twice.
+    drawn : (S, V) sparse, points of the surface that come near their targets, as weights of its vertices: each row sums to one.
+    weights : (S,) >= 0, of the square of what is left, in the square of the vertices' unit, against the surface's own
+        resistance.
     """
 
     held: NDArray[np.intp]

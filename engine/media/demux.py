@@ -50,9 +50,13 @@ class Header:
 
 @dataclass(frozen=True)
 class Timetable:
-    """When the frames are to be shown: `times` (n,) float64 seconds on the file's clock, ascending; `last` seconds
-    that the last one stays; `cut` whether the file ends before what its header announces; `has_sound` whether there is any
-    beside, for a track of it may be empty."""
+    """When the frames are to be shown.
+
+    times : (n,) float64 seconds on the file's clock, ascending.
+    last : seconds that the last frame stays.
+    cut : whether the file ends before what its header announces.
+    has_sound : whether there is any beside, for a track of it may be empty.
+    """
 
     times: np.ndarray
     last: float

@@ -1,8 +1,8 @@
 """Phone video in high dynamic range (HLG, PQ) and wide gamut, brought to sRGB.
 
-Light as the display would give it (ITU-R BT.2100) is set against the white of ordinary video at 203 cd/m2 (BT.2408);
-highlights are rolled off by the curve of BT.2390 (section 5.4.1), so that all below a knee at about 90 cd/m2, faces
-among it, keeps its light exactly; colours outside sRGB move towards grey of the same luminance.
+Light as the display would give it (ITU-R BT.2100) is set against the white of ordinary video at 203 cd/m2 (BT.2408).
+Highlights are rolled off by the curve of BT.2390 (section 5.4.1): all below a knee at about 90 cd/m2, faces among it, keeps
+its light exactly. Colours outside sRGB move towards grey of the same luminance.
 
 Per pixel: code values to light (a table), a gain that depends on the luminance alone (a table), a matrix, and sRGB's
 curve (a table).

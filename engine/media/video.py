@@ -26,9 +26,14 @@ Warn = Callable[[str, str], None]
 class VideoInfo:
     """What a video is.
 
-    `width`, `height` in pixels as shown (upright, pixels square); `fps` frames a second, for a variable rate a usual
-    rate that hardly loses a frame; `frames` how many `read_video` gives of itself (fewer where the file is damaged);
-    `seconds`; `hdr` "hlg", "pq" or None; `codec` by FFmpeg's name.
+    width, height : pixels as shown (upright, pixels square).
+    fps : frames a second, for a variable rate a usual rate that hardly loses a frame.
+    frames : how many `read_video` gives of itself; fewer where the file is damaged.
+    seconds : how long it plays.
+    has_sound : whether there is any.
+    variable_rate : whether its frames stay for different times.
+    hdr : "hlg", "pq" or None.
+    codec : by FFmpeg's name.
     """
 
     width: int

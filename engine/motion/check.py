@@ -16,10 +16,13 @@ from engine.motion.retargeting.retarget import clean_motion
 class CheckedMotion:
     """What is in a motion.
 
-    `joints` are the names of its joints and `parents` those of their parents, None for roots; `mapping` is
-    `{our joint: its joint}`, and `missing` our joints that must have one and have none: `refused` says so then, and the
-    motion is of use only with overrides, if at all. `loops` whether it is played on and on; None where that is not known,
-    either.
+    fps, frames, seconds : how long it plays.
+    joints : the names of its joints.
+    parents : the names of their parents, None for roots.
+    mapping : `{our joint: its joint}`.
+    loops : whether it is played on and on; None where that is not known, either.
+    missing : our joints that must have one of its joints and have none.
+    refused : says so then: the motion is of use only with overrides, if at all.
     """
 
     fps: float

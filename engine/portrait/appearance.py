@@ -1,9 +1,9 @@
 """What a face looks like, in a few numbers by which a driver can be compared with a target.
 
-A driver fits a target the better, the more alike are: the proportions of the faces (equation 1 carries distances from
-one to the other), the light (the mouth's inside and the creases come with the driver's shading), the palette (the
-mouth's inside is recoloured by as much as it differs), and the more of the target's expression occurs in the driver
-(differences are taken against the frame that shows what the target shows).
+A driver fits a target the better, the more alike they are. Proportions of the faces: equation 1 carries distances from one
+to the other. Light: the mouth's inside and the creases come with the driver's shading. Palette: the mouth's inside is
+recoloured by as much as it differs. And expression: differences are taken against the frame that shows what the target
+shows.
 """
 
 from __future__ import annotations

@@ -38,8 +38,8 @@ def camera_at(
     Parameters
     ----------
     move : "fixed"; "orbit" swings around the upright axis through `target` and back, `reach` degrees to either side;
-        "parallax" slides sideways by `reach` of the distance to `target`, looking in the same direction, its lens
-        shifted so that the target's plane stays where it is in the picture and all else moves against it.
+        "parallax" slides sideways by `reach` of the distance to `target`, looking in the same direction. Its lens is
+        shifted then: the target's plane stays where it is in the picture, and all else moves against it.
     target : (3,) metres, a point in front of the camera.
     """
     swing = float(np.sin(2 * np.pi * second / period))

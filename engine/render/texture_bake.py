@@ -1,7 +1,7 @@
 """Pictures onto the texture of a surface: each texel gets the colours of the pixels that show it.
 
-A view gives to a texel what it sees of it: nothing behind other parts of the surface (depth buffer), nothing beside an
-edge of them, where cameras that are a little off take the wrong one, and the less the more it is seen from the side.
+A view gives to a texel what it sees of it, the less the more it is seen from the side. It gives nothing behind other parts
+of the surface (depth buffer), and nothing beside an edge of them, where cameras that are a little off take the wrong one.
 """
 
 from __future__ import annotations

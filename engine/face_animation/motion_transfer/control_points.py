@@ -32,10 +32,14 @@ MIN_TRUSTED_SHARE = 0.1
 
 @dataclass(frozen=True)
 class ControlPoints:
-    """Rest positions in the target: `points` (C, 2) pixels, first the 478 of the face's mesh, then
-    `peripheral` points, then those on the border. `usable` (C,) is False for points of the face that the
-    picture sees from behind, where they say nothing about the pixels there, for those beside its contour, which carries
-    them, and for the irises, which stay behind the lids that move over them."""
+    """Rest positions in the target.
+
+    points : (C, 2) float64 pixels, first the 478 of the face's mesh, then those around it, then those on the border.
+    peripheral : how many lie around the face.
+    usable : (C,) bool, False for three kinds of points of the face: those that the picture sees from behind, where they say
+        nothing about the pixels there; those beside its contour, which carries them; and the irises, which stay behind the
+        lids that move over them.
+    """
 
     points: NDArray[np.float64]
     peripheral: int

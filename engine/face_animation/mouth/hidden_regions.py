@@ -45,10 +45,16 @@ LOWER_INNER_LIP = (78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308)
 
 @dataclass(frozen=True)
 class MouthPalette:
-    """How the driver's colours become the target's: `gain` (3,) for the light; `tint` (3,) of the target's
-    skin at luminance 1, and `chroma`, how far its palette departs from that tint (0 in black and white);
-    `brightest` luminance that its face shows, which teeth do not exceed by much;
-    `area` the neutral mouth's inner area, px^2; `gap` between its lips and `height` of both, px."""
+    """How the driver's colours become the target's.
+
+    gain : (3,) float32, for the light.
+    tint : (3,) float32, of the target's skin at luminance 1.
+    chroma : how far the target's palette departs from that tint; 0 in black and white.
+    brightest : luminance that the target's face shows, which teeth do not exceed by much.
+    area : the neutral mouth's inner area, px^2.
+    gap : between its lips, px.
+    height : of both lips, px.
+    """
 
     gain: NDArray[np.float32]
     tint: NDArray[np.float32]
@@ -165,9 +171,9 @@ def transfer_mouth(
 
 @njit(fastmath=True, nogil=True)
 def _blend(below, mouth, healed, driver, alpha):  # type: ignore[no-untyped-def]
-    """The mouth over what is `below`, in place. Of what heals its edge the brightness counts everywhere, the colour where
-    a pixel of the `driver` is lip, gum or tongue rather than tooth: what the lips of two people differ by in colour is true
-    of the one, and would make the others green."""
+    """The mouth over what is `below`, in place. Of what heals its edge the brightness counts everywhere, the colour where a
+    pixel of the `driver` is lip, gum or tongue rather than tooth. What the lips of two people differ by in colour is true
+    of lips, and would make teeth green."""
     height, width = alpha.shape
     for y in range(height):
         for x in range(width):

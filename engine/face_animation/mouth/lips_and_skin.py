@@ -1,7 +1,7 @@
 """Lips beside the skin around them: they press it together, and do not go over it.
 
 What the skin above the driver's upper lip has room for, or that of the chin, a target with a shorter lip or chin may not
-have: carried over as it is, a mouth that is torn open smears over the skin, or the skin over it. So the skin gives way up
+have. Carried over as it is, a mouth that is torn open smears over the skin, or the skin over it. So the skin gives way up
 to the nose, and down to the jaw, and where it cannot any more, the lips stop.
 """
 

@@ -2,10 +2,10 @@
 
 What stands behind a person is built of straight lines: frames, shelves, tiles, the edge of a door. Patches continue them
 only roughly, and lose those that are thinner than a pixel of the small picture they start from. Here a line
-(`engine.imaging.filling.straight_lines`) is laid through its own pixels to a fraction of one, and painted into the hole with its
-profile, the colours across it (the structure propagation of Sun et al., "Image completion with structure propagation",
-SIGGRAPH 2005, for lines that need no drawing by hand). One that goes on beyond the hole is carried through; one that does
-not, as far as it is known to be straight.
+(`engine.imaging.filling.straight_lines`) is laid through its own pixels to a fraction of one, and painted into the hole
+with its profile, the colours across it. It is the structure propagation of Sun et al., "Image completion with structure
+propagation", SIGGRAPH 2005, for lines that need no drawing by hand. One that goes on beyond the hole is carried through;
+one that does not, as far as it is known to be straight.
 """
 
 from __future__ import annotations

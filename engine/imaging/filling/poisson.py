@@ -1,10 +1,9 @@
 """Seamless cloning: Laplace's equation inside a mask, fast enough to be solved for every frame.
 
-Pérez, Gangnet, Blake, "Poisson image editing", SIGGRAPH 2003: what is pasted keeps its gradients if the
-membrane that interpolates the differences along the mask's edge is added to it. The membrane is found by
-full multigrid. The masks are irregular, so a coarse grid must know where the fine mask ends: each link of
-a coarse pixel that runs into the mask's edge ends there, at its true distance (Shortley and Weller 1938),
-which keeps every grid an accurate picture of the same problem.
+Pérez, Gangnet, Blake, "Poisson image editing", SIGGRAPH 2003: what is pasted keeps its gradients if the membrane that
+interpolates the differences along the mask's edge is added to it. The membrane is found by full multigrid. The masks are
+irregular, so a coarse grid must know where the fine mask ends: each link of a coarse pixel that runs into the mask's edge
+ends there, at its true distance (Shortley and Weller 1938). So every grid is an accurate picture of the same problem.
 """
 
 from __future__ import annotations

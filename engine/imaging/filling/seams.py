@@ -1,9 +1,9 @@
 """Seams between patches that were copied side by side, healed in the gradient domain.
 
-Where two neighbours come from different places their colours may jump although neither place shows an edge.
-The picture is put together anew from the gradients of the places that its pixels come from (Pérez et al.,
-"Poisson image editing", 2003; so do Darabi et al., "Image melding", 2012): jumps that no source shows
-spread out to nothing, edges and grain that a source shows stay.
+Where two neighbours come from different places their colours may jump although neither place shows an edge. The picture is
+put together anew from the gradients of the places that its pixels come from (Pérez et al., "Poisson image editing", 2003;
+so do Darabi et al., "Image melding", 2012). Jumps that no source shows spread out to nothing; edges and grain that a source
+shows stay.
 """
 
 from __future__ import annotations

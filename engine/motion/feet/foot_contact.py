@@ -42,9 +42,12 @@ MIN_CONTACT_SECONDS = 0.07
 
 @dataclass(frozen=True)
 class FeetReport:
-    """How well feet stand, before and after they were held: `sliding_speed` cm/s, the mean speed over the ground of the
-    slower of heel and ball while the foot stands; `sinking_depth` cm, the deepest that a sole goes under the ground;
-    `standing` the share of frames in which some foot stands."""
+    """How well feet stand, before and after they were held.
+
+    sliding_before, sliding_after : cm/s, the mean speed over the ground of the slower of heel and ball while the foot stands.
+    sinking_before, sinking_after : cm, the deepest that a sole goes under the ground.
+    standing : the share of frames in which some foot stands.
+    """
 
     sliding_before: float
     sliding_after: float

@@ -32,9 +32,18 @@ ELBOW_AXES = {"Left": (0.0, -1.0, 0.0), "Right": (0.0, 1.0, 0.0)}
 
 @dataclass(frozen=True)
 class Arm:
-    """An arm, measured from hanging at the side, palm inwards: `swing` forward, `lift` away from the body, `twist` of
-    the upper arm (the bent forearm outwards), `elbow` bent, `palm` turned (thumb outwards), `wrist` bent to the palm,
-    `shrug` of the shoulder; `curl` of each finger's joints. `rests` in [0, 1]: how far the hand is laid on the thigh."""
+    """An arm, measured from hanging at the side, palm inwards; degrees.
+
+    swing : forward.
+    lift : away from the body.
+    twist : of the upper arm, the bent forearm outwards.
+    elbow : bent.
+    palm : turned, the thumb outwards.
+    wrist : bent to the palm.
+    shrug : of the shoulder.
+    curl : of each finger's joints.
+    rests : how far the hand is laid on the thigh, in [0, 1].
+    """
 
     swing: Value = 0.0
     lift: Value = 8.0
@@ -49,8 +58,12 @@ class Arm:
 
 @dataclass(frozen=True)
 class Foot:
-    """A foot: where its ball is, from where it is at rest (`aside` to the left, `up`, `ahead`), `pitch` (positive: the
-    heel is up and the foot stands on its ball; negative: on its heel), and `yaw` of the toes outwards."""
+    """A foot.
+
+    aside, up, ahead : where its ball is, from where it is at rest; the first to the left.
+    pitch : degrees. Positive: the heel is up and the foot stands on its ball; negative: on its heel.
+    yaw : degrees, of the toes outwards.
+    """
 
     aside: Value = 0.0
     up: Value = 0.0

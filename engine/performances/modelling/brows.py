@@ -20,12 +20,13 @@ BROW_LINE = [(0.0090, 0.8040), (0.0155, 0.8060), (0.0250, 0.8082), (0.0345, 0.80
 
 @dataclass(frozen=True)
 class RootedHairs:
-    """Hairs rooted in the fine skin.
+    """S hairs of K points, rooted in the fine skin.
 
-    `corners` (S, 3) the vertices of the triangle at each root, `share` (S, 3) its barycentrics there;
-    `offsets` (S, K, 3) metres from the root along (sideways to the sitter's left, up, out) of the root's own
-    frame; `widths` (S, K) metres; `eye` (S,): 0 or 1, the eye whose centre gives the direction out; -1: the skin's
-    normal does.
+    corners : (S, 3) int32, the vertices of the triangle at each root.
+    share : (S, 3) float32, the root's barycentrics there.
+    offsets : (S, K, 3) float32 metres from the root along its own frame: sideways to the sitter's left, up, out.
+    widths : (S, K) float32 metres.
+    eye : (S,) int8, 0 or 1: the eye whose centre gives the direction out; -1 where the skin's normal does.
     """
 
     corners: NDArray[np.int32]

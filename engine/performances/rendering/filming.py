@@ -1,9 +1,9 @@
 """A performance as a film: moments in which much changes are lit in full, those between them carry their light.
 
-Lighting a scene takes ten times as long as finding what the camera sees of it. Between two key frames a face moves
-by little, and every point of its surface keeps nearly the light that it had: so each point that the camera sees in
-between is looked up in both key frames, where its own surface shows it, and blended by time. The shape, the rims
-and the hair are those of the very moment; a frame that shows too much of what neither key frame saw becomes one.
+Lighting a scene takes ten times as long as finding what the camera sees of it. Between two key frames a face moves by
+little, and every point of its surface keeps nearly the light that it had. So each point that the camera sees in between is
+looked up in both key frames, where its own surface shows it, and blended by time. The shape, the rims and the hair are
+those of the very moment; a frame that shows too much of what neither key frame saw becomes one.
 
 The idea is that of B. Walter et al., Interactive Rendering using the Render Cache, 1999: surface points are
 reprojected, not pixels.
