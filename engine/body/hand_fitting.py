@@ -28,10 +28,11 @@ FINGER_SIGMA = (0.12, 0.6, 0.7)
 CURL_RATIO = 0.6
 """How much the last joint of a finger bends for what the one before it does: one tendon bends both."""
 CURL_SIGMA = 0.3
-"""Radians by which it usually does otherwise."""
+"""Radians by which that joint usually does otherwise."""
 MIN_ANGLES = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
+"""Radians to which joints turn at least, from the hand at rest, in which fingers are bent a little."""
 MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
-"""Radians to which they turn at least and at most from the hand at rest, in which fingers are bent a little."""
+"""Radians to which joints turn at most, from the hand at rest."""
 
 LANDMARK_SIGMA = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""

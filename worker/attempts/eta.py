@@ -9,8 +9,8 @@ from collections.abc import Callable
 MIN_FRACTION = 0.02
 MIN_SECONDS = 1.0
 JUMP_FRACTION = 0.05
+"""A fraction that grows by this much in `JUMP_SECONDS` was not worked for: the stage had been stored before."""
 JUMP_SECONDS = 0.5
-"""A fraction that grows by this much in this time was not worked for: the stage had been stored before."""
 
 
 class Eta:

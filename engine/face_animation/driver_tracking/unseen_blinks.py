@@ -26,9 +26,11 @@ SKIN_RING_PIXELS = 4
 """Pixels around the eye's outline in which its skin is seen."""
 IRIS_PERCENTILE = 15
 """Percentile of grey within the outline that stands for the iris."""
-SHUT_CONTRAST, OPEN_CONTRAST = np.array((0.52, 0.62)), np.array((0.64, 0.74))
-"""Shares of the neutral frame's darkness, and of its edges: below the first an eye is shut, from the second on the tracker
-is believed. Whichever open frame of the real clips is taken as neutral, no open eye falls below the second."""
+SHUT_CONTRAST = np.array((0.52, 0.62))
+"""Shares of the neutral frame's darkness, and of its edges, below which an eye is shut."""
+OPEN_CONTRAST = np.array((0.64, 0.74))
+"""Shares of the neutral frame's darkness, and of its edges, from which on the tracker is believed. Whichever open frame of
+the real clips is taken as neutral, no open eye falls below them."""
 MIN_DARKNESS = 0.3
 """Eyes of less darkness in the neutral frame, as behind dark glasses, tell nothing."""
 MIN_BLINK_SECONDS = 0.1

@@ -25,9 +25,11 @@ from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, 
 
 MIN_TEETH_OPENING = 0.08
 """Opening of a mouth, its gap over its width, from which it shows teeth."""
-CLOSING_GAP_SHARES = (0.2, 0.6)
-"""Shares of its gap at rest: a mouth that is closed to the second begins to press its inside together, teeth with the shadow
-of the lips on them, up to the first; a strip of bare teeth would shine between its lips."""
+PRESSED_GAP_SHARE = 0.2
+"""Share of its gap at rest at which a closing mouth has pressed its inside together."""
+PRESSING_GAP_SHARE = 0.6
+"""Share of its gap at rest at which a closing mouth begins to press its inside together, teeth with the shadow of the lips on
+them: a strip of bare teeth would shine between its lips."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,7 @@ def teeth_positions(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> N
 def _share(rest: NDArray[np.floating], mesh: NDArray[np.floating]) -> float:
     """How much teeth keep their shape between the lips of a face at `mesh` (478, 2), at `rest` (478, 2) fully."""
     ratio = float(np.linalg.norm(mesh[13] - mesh[14]) / np.linalg.norm(rest[13] - rest[14]))
-    return float(np.clip((ratio - CLOSING_GAP_SHARES[0]) / (CLOSING_GAP_SHARES[1] - CLOSING_GAP_SHARES[0]), 0, 1))
+    return float(np.clip((ratio - PRESSED_GAP_SHARE) / (PRESSING_GAP_SHARE - PRESSED_GAP_SHARE), 0, 1))
 
 
 def _opening(mesh: NDArray[np.floating]) -> tuple[NDArray[np.floating], NDArray[np.floating], NDArray[np.floating]]:

@@ -37,7 +37,7 @@ MAX_DRIFT = 0.06
 """Metres, for legs of `REFERENCE_LEG`: a foot whose ball wanders farther than this from its place, shuffles."""
 
 MIN_CONTACT_SECONDS = 0.07
-"""Seconds that a foot must stand, and seconds for which it may seem not to."""
+"""Seconds that a foot must stand, at least; a gap that is shorter is none."""
 
 
 @dataclass(frozen=True)

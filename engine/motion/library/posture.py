@@ -60,7 +60,7 @@ class Arm:
 class Foot:
     """A foot.
 
-    aside, up, ahead : where its ball is, from where it is at rest; the first to the left.
+    aside, up, ahead : where its ball is, in leg lengths from where it is at rest; the first to the left.
     pitch : degrees. Positive: the heel is up and the foot stands on its ball; negative: on its heel.
     yaw : degrees, of the toes outwards.
     """

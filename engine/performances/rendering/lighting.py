@@ -16,8 +16,9 @@ FILL_BOX = (50.0, 8.0, 70.0, 60.0)
 """Softboxes: azimuth, elevation, width and height in degrees."""
 
 KEY_IRRADIANCE = np.array([2.05, 1.98, 1.86], np.float32)
+"""Irradiance of the key softbox on a surface that faces it."""
 FILL_IRRADIANCE = np.array([0.42, 0.44, 0.47], np.float32)
-"""Their irradiance on a surface that faces them."""
+"""Irradiance of the fill softbox on a surface that faces it."""
 
 ZENITH_RADIANCE, HORIZON_RADIANCE, FLOOR_RADIANCE = (
     np.array([0.14, 0.145, 0.155]),
