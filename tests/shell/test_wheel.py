@@ -21,7 +21,7 @@ from engine.media.video import probe_video
 from engine.performances import poster
 
 PACKAGES = ("engine", "service", "worker", "shell", "galatea", "galatea_client")
-BESIDE = ("pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE")
+BUILD_FILES = ("pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE")
 PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet")
 
 
@@ -38,7 +38,7 @@ def build(folder: Path, page: bool) -> Path:
     source = folder / "source"
     for name in PACKAGES:
         shutil.copytree(ROOT / name, source / name, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in BESIDE:
+    for name in BUILD_FILES:
         shutil.copy(ROOT / name, source)
     if page:
         assert (ROOT / "web" / "dist" / "index.html").is_file(), "the page is not built: run `make setup`"

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import type { Point } from './geometry';
 
 /** How much nearer the lens shows what the stage shows, and its width on the screen. */
-const NEARER = 2.5;
+const MAGNIFICATION = 2.5;
 const PIXELS = 120;
 
 interface Props {
@@ -17,7 +17,7 @@ interface Props {
 }
 
 export function Magnifier({ at: [x, y], scale, hand, children }: Props) {
-  const width = PIXELS / scale / NEARER;
+  const width = PIXELS / scale / MAGNIFICATION;
   return (
     <svg
       class={`magnifier ${hand === 'left' ? 'right' : 'left'}`}

@@ -16,9 +16,10 @@ import { words as characterWords } from '../words';
 
 const words = characterWords.joints;
 
-/** What one press of a key does, as a share of the picture's longer side; with Shift so many times as far. */
+/** How far one press of a key moves, as a share of the picture's longer side. */
 const NUDGE = 1 / 600;
-const FAR = 8;
+/** How many times as far it moves with Shift. */
+const SHIFT_FACTOR = 8;
 const GROW = 1.03;
 /** Pixels of the screen between the skeleton and the frame around it. */
 const MARGIN = 22;
@@ -93,7 +94,7 @@ export default function JointEditor({ url, size, start, found, onDone, onClose }
   };
 
   const key = (event: KeyboardEvent): void => {
-    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? FAR : 1);
+    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? SHIFT_FACTOR : 1);
     const moves = arrows(unit, (dx, dy) => {
       if (all || chosen) change(named(moved(points, share, dx, dy)));
     });

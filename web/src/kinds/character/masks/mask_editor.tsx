@@ -16,9 +16,11 @@ import '../../../styles/mask_editor.css';
 
 const words = characterWords.painter;
 
-/** What one press of a key does: a share of the picture's longer side, and of the brush's width. */
+/** How far one press of a key moves, as a share of the picture's longer side. */
 const NUDGE = 1 / 300;
-const FAR = 8;
+/** How many times as far it moves with Shift. */
+const SHIFT_FACTOR = 8;
+/** How many times as wide one press of a key makes the brush. */
 const WIDER = 1.2;
 
 type AnyStroke = MaskStroke | LabelStroke;
@@ -99,7 +101,7 @@ export default function MaskEditor({ url, size, what, mask, labels, fresh, onDon
     action(taken);
   };
   const key = (event: KeyboardEvent): void => {
-    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? FAR : 1);
+    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? SHIFT_FACTOR : 1);
     const actions = {
       ...arrows(unit, lead),
       ...zoomKeys(zoomTo),

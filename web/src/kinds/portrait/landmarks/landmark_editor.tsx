@@ -14,9 +14,11 @@ import { facePlaced } from './template';
 
 const words = strings.landmarks;
 
-/** What one press of a key, or of a button, does: pixels of the picture's longer side, shares, radians. */
+/** How far one press of a key moves, as a share of the picture's longer side. */
 const NUDGE = 1 / 600;
-const FAR = 8;
+/** How many times as far it moves with Shift. */
+const SHIFT_FACTOR = 8;
+/** What one press of a key, or of a button, does besides: a factor, or radians. */
 const GROW = 1.03;
 const TURN = Math.PI / 90;
 
@@ -47,7 +49,7 @@ export default function LandmarkEditor({ url, size, found, onDone, onClose }: Pr
   const next = (by: 1 | -1): void => select(following(selection, by));
 
   const key = (event: KeyboardEvent): void => {
-    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? FAR : 1);
+    const unit = Math.max(...size) * NUDGE * (event.shiftKey ? SHIFT_FACTOR : 1);
     const actions = {
       ...arrows(unit, (dx, dy) => change(moved(points, share, dx, dy))),
       pageup: () => next(-1),
