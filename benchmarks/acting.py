@@ -24,7 +24,7 @@ from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.neutral import choose_neutral_frame
 from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
-from engine.face_animation.tracking_refinement import observe_driver, refine_tracking
+from engine.face_animation.tracking_refinement import ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.media.image import write_image
 from engine.media.limits import Limits
@@ -51,8 +51,8 @@ class Acting:
         given = self.track, self.neutral
         residuals = None
         if self.looked:
-            observations, strip = observe_driver(*given), keep_ratio_images(*given)
-            residuals = refine_tracking(*given, observations, strip, self.target, self.rig.details, self.options)
+            driver = ObservedDriver(*given, observe_driver(*given), keep_ratio_images(*given))
+            residuals = refine_tracking(driver, self.target, self.rig.details, self.options)
         animation = FaceAnimation(
             RiggedTarget(self.target, self.layers, self.rig), RegisteredDriver(*given, residuals), self.options, parts
         )

@@ -21,6 +21,7 @@ from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import (
     DriverObservations,
+    ObservedDriver,
     observe_driver,
     refine_tracking,
 )
@@ -66,8 +67,8 @@ class DriverPerformance:
 
     def residuals_on(self, target: PreparedTarget, options: ActingOptions, run: Run) -> LandmarkResiduals:
         """By how much the target's landmarks miss where it acts this out."""
-        seen = self.track, self.neutral, self.observations, self.ratios
-        given = *seen, target.face, target.details(), options
+        driver = ObservedDriver(self.track, self.neutral, self.observations, self.ratios)
+        given = driver, target.face, target.details(), options
         return run.stage("look_again", refine_tracking, *given, run.tick, run.idle_cores)
 
 

@@ -50,6 +50,17 @@ class DriverObservations:
     seen: NDArray[np.float32]
 
 
+@dataclass(frozen=True)
+class ObservedDriver:
+    """A driver that the second look can draw and compare: its `track` on the skin, the index of its `neutral` frame, the
+    `observations` of it, and its `ratios`, one for each frame."""
+
+    track: FaceTrack
+    neutral: int
+    observations: DriverObservations
+    ratios: RatioStrip
+
+
 def observe_driver(track: FaceTrack, neutral: int) -> DriverObservations:
     """Look at the driver's most different faces, without what was seen before or after."""
     frames = _most_different(track, neutral)
@@ -57,10 +68,7 @@ def observe_driver(track: FaceTrack, neutral: int) -> DriverObservations:
 
 
 def refine_tracking(
-    track: FaceTrack,
-    neutral: int,
-    observations: DriverObservations,
-    ratios: RatioStrip,
+    driver: ObservedDriver,
     target: TargetFace,
     details: DetailRegion,
     options: ActingOptions,
@@ -73,7 +81,7 @@ def refine_tracking(
 
     Parameters
     ----------
-    ratios : the driver's, one for each frame. details : where its creases go to.
+    details : where the driver's creases go to.
     options : how the target follows.
     cores : how many may look: more than are idle would only be in the way of what works beside.
 
@@ -81,7 +89,8 @@ def refine_tracking(
     -------
     No residuals if the tracker sees no face on the target itself.
     """
-    frames = observations.frames.tolist()
+    track, neutral = driver.track, driver.neutral
+    frames = driver.observations.frames.tolist()
     some = replace(track, meshes=track.meshes[frames], periphery=track.periphery[frames], trust=track.trust[frames])
     layers = single_layer(target)
     animation = FaceAnimation(
@@ -93,7 +102,7 @@ def refine_tracking(
 
     def made(k: int) -> NDArray[np.uint8]:
         window = _seen_by(places[k], target.rgb.shape[:2])
-        drawn = animation.draw(motions[k], ratios.ratio(frames[k]), window)[..., :3]
+        drawn = animation.draw(motions[k], driver.ratios.ratio(frames[k]), window)[..., :3]
         place = places[k].copy()
         place[:, 2] += place[:, :2] @ (window.left, window.top)
         crop = cv2.warpAffine(drawn, place, CROP_SHAPE[::-1], flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
@@ -101,7 +110,7 @@ def refine_tracking(
 
     meant = np.stack([face @ place[:, :2].T + place[:, 2] for face, place in zip(placed, places, strict=True)])
     faces = np.stack([track.in_crop(frame) for frame in frames])
-    measured = (_see(made, len(frames), tick, cores()) - meant) - (observations.seen - faces)
+    measured = (_see(made, len(frames), tick, cores()) - meant) - (driver.observations.seen - faces)
     measured -= measured[0]  # at rest there is none
     known = np.asarray(np.isfinite(measured).all(axis=(1, 2)))
     return fit_residuals(faces[known], measured[known]) if known[0] else no_residuals()

@@ -16,7 +16,7 @@ from engine.face_animation.creases.fine_details import detail_region, keep_ratio
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
-from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, observe_driver, refine_tracking
+from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import separate_layers
 from engine.media.limits import Limits
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
@@ -50,7 +50,7 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 2), Limits())
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, observations = keep_ratio_images(track, 0), observe_driver(track, 0)
-    residuals = refine_tracking(track, 0, observations, ratios, target, rig.details, options.acting())
+    residuals = refine_tracking(ObservedDriver(track, 0, observations, ratios), target, rig.details, options.acting())
     plain = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, 0), options.acting())
     better = FaceAnimation(RiggedTarget(target, layers, rig), RegisteredDriver(track, 0, residuals), options.acting())
     meant = [plain.face(motion) for motion in plain.motions()]
@@ -79,5 +79,5 @@ def test_where_the_tracker_sees_no_face_nothing_is_corrected(woman_white, mouth_
     target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
     target = replace(target, rgb=np.full_like(target.rgb, 128))
     track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 0.3), Limits())
-    given = track, 0, observe_driver(track, 0), keep_ratio_images(track, 0)
-    assert len(refine_tracking(*given, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0
+    driver = ObservedDriver(track, 0, observe_driver(track, 0), keep_ratio_images(track, 0))
+    assert len(refine_tracking(driver, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0
