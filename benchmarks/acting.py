@@ -26,6 +26,7 @@ from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.tracking_refinement import ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import Layers, separate_layers
+from engine.media.excerpt import Excerpt
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from engine.perception.face_track.track import FaceTrack
@@ -73,6 +74,6 @@ def read_target(folder: Path, rgb: NDArray[np.uint8], options: PortraitOptions) 
 
 def read_driver(path: Path, target: TargetFace, neutral: int | None) -> tuple[FaceTrack, int]:
     """A clip as a driver for a target, its meshes on the skin."""
-    track = track_driver(path, None, None, Limits())
+    track = track_driver(Excerpt(path))
     chosen = choose_neutral_frame(track, target.mesh, neutral).frame
     return replace(track, meshes=register_track(track, chosen).meshes), chosen

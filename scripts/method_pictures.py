@@ -22,6 +22,7 @@ from engine.face_animation.rig import Rig, rig_target
 from engine.face_animation.target_face import TargetFace
 from engine.face_animation.warping.layers import Layers, separate_layers
 from engine.imaging.composite import composite_over, upsample_twice, warp_layer
+from engine.media.excerpt import Excerpt
 from engine.media.limits import Limits
 from engine.performances import video
 from engine.portrait.options import PortraitOptions
@@ -42,7 +43,7 @@ def main() -> None:
     target = find_target_face(_portrait(), options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
     rig = rig_target(target, layers)
-    track = track_driver(video(SHOWN_PERFORMANCE), None, (0.0, SHOWN_SECONDS + 0.5), Limits())
+    track = track_driver(Excerpt(video(SHOWN_PERFORMANCE), trim=(0.0, SHOWN_SECONDS + 0.5)))
     neutral = choose_neutral_frame(track, target.mesh, None).frame
     register_track(track, neutral)
     ratios = list(keep_ratio_images(track, neutral))

@@ -26,6 +26,7 @@ from engine.face_animation.tracking_refinement import (
     refine_tracking,
 )
 from engine.face_animation.warping.layers import Layers, separate_layers
+from engine.media.excerpt import Excerpt
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.models import matting_model
 from engine.run import ConcurrentStage, Run
@@ -76,8 +77,8 @@ def follow_driver(
     driver: Path, fps: float | None, trim: tuple[float, float] | None, face_index: int, run: Run
 ) -> ConcurrentStage[FaceTrack]:
     """Begin to follow one of the driver's faces, which nothing else has to wait for."""
-    given = driver, fps, trim, run.limits, face_index
-    return run.beside("track_driver", track_driver, *given, run.tick, run.warn, shared=True)
+    excerpt = Excerpt(driver, fps, trim, run.limits)
+    return run.beside("track_driver", track_driver, excerpt, face_index, run.tick, run.warn, shared=True)
 
 
 def analyse_driver(

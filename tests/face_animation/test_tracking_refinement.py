@@ -18,6 +18,7 @@ from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
 from engine.face_animation.tracking_refinement import OBSERVED_FRAMES, ObservedDriver, observe_driver, refine_tracking
 from engine.face_animation.warping.layers import separate_layers
+from engine.media.excerpt import Excerpt
 from engine.media.limits import Limits
 from engine.perception.face_track.face_crop import CROP_SHAPE, crop_place
 from engine.perception.faces import FaceTracker
@@ -47,7 +48,7 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     target = find_target_face(small("photo_woman_white.png", 600), options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
     rig = rig_target(target, layers)
-    track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 2), Limits())
+    track = track_driver(Excerpt(mouth_opens, trim=(OPENS[0], OPENS[0] + 2)))
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, observations = keep_ratio_images(track, 0), observe_driver(track, 0)
     residuals = refine_tracking(ObservedDriver(track, 0, observations, ratios), target, rig.details, options.acting())
@@ -78,6 +79,6 @@ def test_where_the_tracker_sees_no_face_nothing_is_corrected(woman_white, mouth_
     options = PortraitOptions()
     target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
     target = replace(target, rgb=np.full_like(target.rgb, 128))
-    track = track_driver(mouth_opens, None, (OPENS[0], OPENS[0] + 0.3), Limits())
+    track = track_driver(Excerpt(mouth_opens, trim=(OPENS[0], OPENS[0] + 0.3)))
     driver = ObservedDriver(track, 0, observe_driver(track, 0), keep_ratio_images(track, 0))
     assert len(refine_tracking(driver, target, detail_region(target.rgb, target.mesh), options.acting()).faces) == 0

@@ -12,6 +12,7 @@ from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
 from engine.face_animation.warping.layers import separate_layers
+from engine.media.excerpt import Excerpt
 from engine.media.limits import Limits
 from engine.portrait.options import PortraitOptions
 from engine.portrait.target import find_target_face
@@ -21,7 +22,7 @@ def test_a_window_of_a_frame_is_that_part_of_it(woman_white: Path, mouth_opens: 
     options = PortraitOptions()
     target = find_target_face(woman_white, options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
-    track = track_driver(mouth_opens, None, OPENS, Limits())
+    track = track_driver(Excerpt(mouth_opens, trim=OPENS))
     ratios = keep_ratio_images(track, 0)
     animation = FaceAnimation(
         RiggedTarget(target, layers, rig_target(target, layers)), RegisteredDriver(track, 0), options.acting()

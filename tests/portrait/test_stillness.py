@@ -17,6 +17,7 @@ from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.rig import rig_target
 from engine.face_animation.warping.layers import Layers, separate_layers
+from engine.media.excerpt import Excerpt
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
 from engine.perception.landmarks import FACE_OVAL
@@ -105,7 +106,7 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     options = PortraitOptions()
     target = find_target_face(tmp_path / "wall.png", options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
-    track = track_driver(driver, None, None, Limits())
+    track = track_driver(Excerpt(driver))
     track = replace(track, meshes=register_track(track, 0).meshes)
     rig = rig_target(target, layers)
     black = Layers(layers.person, np.zeros_like(layers.plate))

@@ -6,18 +6,14 @@ The analysis is kept by content, so that a driver seen before costs no decoding 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 from engine.errors import InputError
-from engine.media.limits import Limits
+from engine.media.excerpt import Excerpt
 from engine.perception.face_track.track import FaceTrack, NoFaceSeen, NoSuchFace, track_face
 
 
 def track_driver(
-    path: Path,
-    fps: float | None,
-    trim: tuple[float, float] | None,
-    limits: Limits,
+    excerpt: Excerpt,
     face_index: int = 0,
     tick: Callable[[float], None] = lambda fraction: None,
     warn: Callable[[str, str], None] = lambda code, message: None,
@@ -30,7 +26,7 @@ def track_driver(
     what reading the video may raise.
     """
     try:
-        track = track_face(path, fps, trim, limits, face_index, tick, warn)
+        track = track_face(excerpt, face_index, tick, warn)
     except NoFaceSeen:
         raise InputError(
             "no_face_in_driver",

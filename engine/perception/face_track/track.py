@@ -9,12 +9,11 @@ from array import array
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.media.limits import Limits
+from engine.media.excerpt import Excerpt
 from engine.media.timing import SHORTEST_SPAN
 from engine.media.video import probe_video, read_video
 from engine.perception.face_track.covered_face import CoveredFace
@@ -96,22 +95,20 @@ class FaceTrack:
 
 
 def track_face(
-    path: Path,
-    fps: float | None,
-    trim: tuple[float, float] | None,
-    limits: Limits,
+    excerpt: Excerpt,
     face_index: int = 0,
     tick: Callable[[float], None] = lambda fraction: None,
     warn: Callable[[str, str], None] = lambda code, message: None,
 ) -> FaceTrack:
     """Follow a face through a video: the largest one that its first frame with any shows, or the `face_index`-th.
 
-    `fps`, `trim`, `limits` and `warn` are as of `read_video`.
+    `warn` is as of `read_video`.
 
     Raises
     ------
     NoFaceSeen, NoSuchFace, and what reading the video may raise.
     """
+    path, fps, trim, limits = excerpt.path, excerpt.fps, excerpt.trim, excerpt.limits
     info = probe_video(path, limits)
     expected = max(1, round(info.seconds * fps) if fps else info.frames)
     meshes = array("f")  # grows in place; thousands of small arrays would lie all over the memory

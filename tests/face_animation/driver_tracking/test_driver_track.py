@@ -17,8 +17,8 @@ from engine.face_animation.creases.fine_details import keep_ratio_images
 from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.loop import close_loop
+from engine.media.excerpt import Excerpt
 from engine.media.image import read_image
-from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.held_face import EASE_BACK
@@ -29,7 +29,6 @@ from engine.perception.landmarks import eye_distance, eye_opening, mouth_opening
 from engine.run import Run
 from engine.store import StageStore
 
-LIMITS = Limits()
 BLANK_FRAMES = slice(10, 16)
 MOVED_PIXELS = 60
 """Pixels to the right at which the face comes back."""
@@ -47,7 +46,7 @@ def whole(frames, tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="module")
 def track(whole: Path) -> FaceTrack:
-    return track_driver(whole, None, None, LIMITS)
+    return track_driver(Excerpt(whole))
 
 
 def unfiltered(path: Path) -> NDArray[np.float32]:
@@ -88,8 +87,8 @@ def test_an_analysis_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
     stored = []
     for _ in range(2):
         run = Run(store=StageStore(tmp_path))
-        stored.append(run.stage("track_driver", track_driver, whole, None, None, LIMITS, 0, run.tick, run.warn))
-    fresh = track_driver(whole, None, None, LIMITS)
+        stored.append(run.stage("track_driver", track_driver, Excerpt(whole), 0, run.tick, run.warn))
+    fresh = track_driver(Excerpt(whole))
     assert run.reused == ["track_driver"]
     kept = stored[1]
     for name in ("meshes", "found", "periphery", "trust", "crop_places"):
@@ -103,7 +102,7 @@ def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, 
     """The clip of the sharpest face: its track, its registration and its ratio images together."""
     run = Run(store=StageStore(tmp_path))
     clip = media("driving/woman_talk_aoc.mp4")
-    track = run.stage("track", track_driver, clip, None, (0.0, 1.5), LIMITS, 0, run.tick, run.warn)
+    track = run.stage("track", track_driver, Excerpt(clip, trim=(0.0, 1.5)), 0, run.tick, run.warn)
     registration = run.stage("register", register_track, track, 0, run.tick)
     run.stage("ratios", keep_ratio_images, replace(track, meshes=registration.meshes), 0, run.tick)
     size = sum(p.stat().st_size for p in tmp_path.rglob("*") if p.is_file())
@@ -120,7 +119,7 @@ def vanished(frames, tmp_path_factory) -> tuple[FaceTrack, list[str], NDArray[np
     ]
     path = write_frames(tmp_path_factory.mktemp("driver") / "vanished.mp4", acted)
     codes: list[str] = []
-    return track_driver(path, None, None, LIMITS, warn=lambda code, message: codes.append(code)), codes, shift
+    return track_driver(Excerpt(path), warn=lambda code, message: codes.append(code)), codes, shift
 
 
 def test_where_the_face_is_gone_it_holds(vanished) -> None:
@@ -171,18 +170,18 @@ def test_a_driver_of_several_faces_is_told_and_lets_choose(frames, tmp_path: Pat
     path = write_frames(tmp_path / "both.mp4", both)
     codes: list[str] = []
     for index in (0, 1):
-        track = track_driver(path, None, None, LIMITS, index, warn=lambda code, message: codes.append(code))
+        track = track_driver(Excerpt(path), index, warn=lambda code, message: codes.append(code))
         assert ((track.meshes[..., 0].mean(axis=1) > side) == bool(index)).all()
         assert len(track.faces) == 2
     assert codes == ["several_faces_in_driver"] * 2
     with pytest.raises(InputError) as caught:
-        track_driver(path, None, None, LIMITS, 2)
+        track_driver(Excerpt(path), 2)
     assert (caught.value.code, caught.value.correctable) == ("driver_face_out_of_range", ("driver_face_index",))
 
 
 def test_a_face_that_comes_later_holds_from_the_beginning(frames, tmp_path: Path) -> None:
     late = [np.full_like(frames[0], 128)] * 4 + frames[:8]
-    track = track_driver(write_frames(tmp_path / "late.mp4", late), None, None, LIMITS)
+    track = track_driver(Excerpt(write_frames(tmp_path / "late.mp4", late)))
     assert not track.found[:4].any() and track.found[4:].all()
     assert np.isfinite(track.meshes).all()
     assert np.abs(track.meshes[:4] - track.meshes[4]).max() < 2
@@ -194,15 +193,15 @@ def test_a_driver_without_a_face_is_refused(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     frames = [rng.integers(0, 255, (120, 160, 3), np.uint8) for _ in range(6)]
     with pytest.raises(InputError) as caught:
-        track_driver(write_frames(tmp_path / "noise.mp4", frames), None, None, LIMITS)
+        track_driver(Excerpt(write_frames(tmp_path / "noise.mp4", frames)))
     assert caught.value.code == "no_face_in_driver"
     assert caught.value.correctable == ("driver",)
 
 
 def test_rate_and_part_are_the_asked_ones(whole: Path) -> None:
-    half = track_driver(whole, 12.5, (0.2, 1.0), LIMITS)
+    half = track_driver(Excerpt(whole, 12.5, (0.2, 1.0)))
     assert len(half) == 10 and half.fps == 12.5
-    full = track_driver(whole, None, (0.2, 1.0), LIMITS)
+    full = track_driver(Excerpt(whole, trim=(0.2, 1.0)))
     assert len(full) == 20 and full.fps == 25
 
 
@@ -213,7 +212,7 @@ def test_rate_and_part_are_the_asked_ones(whole: Path) -> None:
 def test_lips_open_most_on_the_same_frame(clip, tmp_path: Path, name: str, start: float, end: float) -> None:
     """Against the unfiltered landmarks, to the frame; somewhere within the clip."""
     path = write_frames(tmp_path / "lips.mp4", clip(name, start, end))
-    track = track_driver(path, None, None, LIMITS)
+    track = track_driver(Excerpt(path))
     peak = int(mouth_opening(unfiltered(path)).argmax())
     assert 2 < peak < len(track) - 3
     assert int(mouth_opening(track.meshes).argmax()) == peak
@@ -246,7 +245,7 @@ def test_points_around_the_head_follow_it(still, tmp_path: Path) -> None:
         )
         for s in shifts
     ]  # fmt: skip
-    track = track_driver(write_frames(tmp_path / "moved.mp4", moved), None, None, LIMITS)
+    track = track_driver(Excerpt(write_frames(tmp_path / "moved.mp4", moved)))
     assert track.periphery.shape[1] > 20
     assert track.trust.mean() > 0.8
     away = track.periphery - track.periphery[0] - np.array(shifts)[:, None]
@@ -260,7 +259,7 @@ def test_points_around_are_found_again_where_the_face_comes_back(still, tmp_path
     """The portrait is gone and comes back further to the right, where nothing has followed its points."""
     gone = [np.full_like(still, 128)] * 4
     seen = [still] * 6 + gone + [shifted(still, 40)] * 30
-    track = track_driver(write_frames(tmp_path / "again.mp4", seen), None, None, LIMITS)
+    track = track_driver(Excerpt(write_frames(tmp_path / "again.mp4", seen)))
     moved = track.periphery - track.periphery[0]
     assert np.abs(moved[:10]).max() < 1
     assert track.trust[-1].mean() > 0.5
@@ -271,7 +270,7 @@ def test_points_around_are_found_again_where_the_face_comes_back(still, tmp_path
 def test_what_is_around_holds_still_with_the_face(still, tmp_path: Path) -> None:
     """Where nothing is seen, no point moves, and none loses its say."""
     path = write_frames(tmp_path / "dark.mp4", [still] * 12 + [np.zeros_like(still)] * 24 + [still] * 12)
-    track = track_driver(path, None, None, LIMITS)
+    track = track_driver(Excerpt(path))
     gone = slice(12, 36)
     assert not track.found[gone].any()
     assert np.abs(track.periphery[gone] - track.periphery[11]).max() < 0.1
@@ -301,14 +300,14 @@ def test_what_covers_a_face_is_none_whatever_its_colour(
         covers(frame, track.meshes[k], colour, shaded) if hidden.start <= k < hidden.stop else frame
         for k, frame in enumerate(frames)
     ]
-    seen = track_driver(write_frames(tmp_path / "covered.mp4", acted), None, None, LIMITS)
+    seen = track_driver(Excerpt(write_frames(tmp_path / "covered.mp4", acted)))
     assert not seen.found[hidden].any()
     assert seen.found[: hidden.start].all() and seen.found[hidden.stop + 2 :].all()
 
 
 @pytest.mark.parametrize("name", ["man_smile_d9.mp4", "woman_talk_aoc.mp4", "woman_funny_faces_d6.mp4"])
 def test_no_turn_nor_grimace_is_taken_for_a_cover(media, name: str) -> None:
-    assert track_driver(media(f"driving/{name}"), 12.0, None, LIMITS).found.all()
+    assert track_driver(Excerpt(media(f"driving/{name}"), 12.0)).found.all()
 
 
 def test_a_face_with_nothing_around_it_to_follow_has_no_points_in_any_frame() -> None:

@@ -20,8 +20,8 @@ from engine.face_animation.driver_tracking.neutral import (
     expression_beyond_rest,
     warn_if_never_at_rest,
 )
+from engine.media.excerpt import Excerpt
 from engine.media.image import read_image
-from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.features import lip_asymmetry, measure_expression
 from engine.perception.expression.measures import MEASURES, REST_SPREAD, general_rest, measure
@@ -275,7 +275,7 @@ def test_what_a_target_wears_is_beyond_what_people_differ_by(rest: NDArray) -> N
 @pytest.mark.parametrize("target", ["photo_bw_dylan.jpg", "photo_like_girl_dark.jpg", "painting_kahlo.png"])
 def test_a_lively_driver_s_only_calm_moment_is_found(media, target: str) -> None:
     """Of its nine seconds, brows up and lips parted or rounded, only the first frames are calm."""
-    track = track_driver(media("driving/woman_wow_d10.mp4"), None, (0.0, 4.0), Limits())
+    track = track_driver(Excerpt(media("driving/woman_wow_d10.mp4"), trim=(0.0, 4.0)))
     with FaceTracker() as tracker:
         mesh = tracker(read_image(media(f"portraits/{target}")).rgb)[0]
     assert taken(track, mesh) <= 2

@@ -14,7 +14,7 @@ from engine.face_animation.creases.registration import register_track
 from engine.face_animation.driver_tracking.driver import track_driver
 from engine.face_animation.driver_tracking.unseen_blinks import eye_contrast
 from engine.face_animation.motion_transfer.lids_and_lips import LID_PAIRS, LID_SKIN, lid_ratio
-from engine.media.limits import Limits
+from engine.media.excerpt import Excerpt
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.landmarks import LEFT_EYE, RIGHT_EYE
 
@@ -88,7 +88,7 @@ def test_lids_and_their_skin_are_paired_in_the_same_order() -> None:
 def test_a_blink_that_the_tracker_misses(media) -> None:
     """A lowered head whose lids have no lashes to be seen: the tracker keeps the left eye half open for a quarter of a
     second, and whoever looks sees both eyes shut."""
-    track = track_driver(media("driving/man_talk_tps.mp4"), None, (5.2, 6.4), Limits())
+    track = track_driver(Excerpt(media("driving/man_talk_tps.mp4"), trim=(5.2, 6.4)))
     tracked = lid_ratio(track.meshes, track.meshes[0])
     seen = lid_ratio(register_track(track, 0).meshes, track.meshes[0])
     middles = [3, 10]
@@ -100,13 +100,13 @@ def test_a_blink_that_the_tracker_misses(media) -> None:
 @pytest.mark.parametrize("neutral", [0, 119])
 def test_eyes_that_the_tracker_follows_stay_as_tracked(media, neutral: int) -> None:
     """Open, narrowed and shut, on a face that moves its brows and its head, beginning with shut ones."""
-    track = track_driver(media("driving/woman_frown_surprise_d3.mp4"), None, (6.0, 10.0), Limits())
+    track = track_driver(Excerpt(media("driving/woman_frown_surprise_d3.mp4"), trim=(6.0, 10.0)))
     tracked, seen = (lid_ratio(m, track.meshes[neutral]) for m in (track.meshes, register_track(track, neutral).meshes))
     np.testing.assert_allclose(seen, tracked, atol=0.05)
 
 
 def test_eyes_stay_open_behind_glasses_on_a_head_that_moves_fast(media) -> None:
     """Frames in which blur or a reflection takes the iris' contrast, among others in which whoever looks sees open eyes."""
-    track = track_driver(media("driving/man_laugh_d12.mp4"), None, (0.0, 1.76), Limits())
+    track = track_driver(Excerpt(media("driving/man_laugh_d12.mp4"), trim=(0.0, 1.76)))
     seen = lid_ratio(register_track(track, 1).meshes, track.meshes[1])
     assert seen[18:44, [3, 10]].min() > 0.6
