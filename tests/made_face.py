@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.rigid import fit_similarity
+from engine.media.film_strip import FilmStripWriter
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
-from engine.perception.face_track.film_strip import FilmStripWriter
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LEFT_IRIS, LIPS_INNER, LIPS_OUTER, RIGHT_EYE, RIGHT_IRIS

@@ -24,8 +24,8 @@ from engine.geometry.rigid import fit_similarity
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
+from engine.media.film_strip import FilmStrip, FilmStripWriter
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
-from engine.perception.face_track.film_strip import FilmStrip, FilmStripWriter
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import FACE_OVAL, LEFT_EYE, LIPS_INNER, RIGHT_EYE, eye_distance, fiducials
 

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.media.excerpt import Excerpt
+from engine.media.film_strip import FilmStrip, FilmStripWriter
 from engine.media.timing import SHORTEST_SPAN
 from engine.media.video import probe_video, read_video
 from engine.perception.face_track.covered_face import CoveredFace
 from engine.perception.face_track.face_crop import FaceCrop, crop_face
-from engine.perception.face_track.film_strip import FilmStrip, FilmStripWriter
 from engine.perception.face_track.held_face import HeldFace
 from engine.perception.face_track.periphery import PeripheryTracker
 from engine.perception.landmarks import MESH_SIZE
