@@ -23,12 +23,14 @@ NEAREST = 1e-9
 
 @dataclass(frozen=True)
 class Bundle:
-    """Cameras and points, in one unit of length.
+    """C cameras, their L lenses and P points, in one unit of length.
 
-    `rotations` (C, 3, 3), `translations` (C, 3): from the world to each camera.
-    `lenses` (L, 3): focal length in pixels, k1, k2; `centres` (L, 2): principal points, pixels.
-    `lens_of` (C,): which of the lenses each camera has.
-    `points` (P, 3).
+    rotations : (C, 3, 3) float64, from the world to each camera.
+    translations : (C, 3) float64, likewise.
+    lenses : (L, 3) float64, focal length in pixels, k1, k2.
+    centres : (L, 2) float64, principal points, pixels.
+    lens_of : (C,) int, which of the lenses each camera has.
+    points : (P, 3) float64.
     """
 
     rotations: NDArray[np.float64]

@@ -21,8 +21,12 @@ from engine.geometry.schur_complement import back_substitute, eliminate_points
 
 LOSS_SCALE = 1.0
 """Pixels of error from which on an observation is doubted."""
-FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING = 1e-4, 1e-10, 1e8
-"""Shares of the system's diagonal that are added to it: in the beginning, at least, and when the search is given up."""
+FIRST_DAMPING = 1e-4
+"""Share of the system's diagonal that is added to it in the beginning."""
+MIN_DAMPING = 1e-10
+"""Share of the diagonal that is added, at least."""
+MAX_DAMPING = 1e8
+"""Share of the diagonal with which the search is given up."""
 CAMERA_PARAMETERS, LENS_PARAMETERS = 6, 3
 
 
@@ -67,7 +71,7 @@ def adjust(
     seen = seen[np.argsort(seen.point, kind="stable")]
     cost = robust_cost(reprojection_errors(bundle, seen), loss_scale)
     damping, steps = FIRST_DAMPING, 0
-    while steps < most_steps and damping < MOST_DAMPING:
+    while steps < most_steps and damping < MAX_DAMPING:
         candidate = _step(bundle, seen, freedom, loss_scale, damping)
         there = np.inf if candidate is None else robust_cost(reprojection_errors(candidate, seen), loss_scale)
         if candidate is None or not there <= cost:
@@ -75,7 +79,7 @@ def adjust(
             continue
         steps += 1
         settled = cost - there <= converged * cost
-        bundle, cost, damping = candidate, there, max(damping / 5, LEAST_DAMPING)
+        bundle, cost, damping = candidate, there, max(damping / 5, MIN_DAMPING)
         if settled:
             break
     return Adjustment(bundle, cost, steps)
