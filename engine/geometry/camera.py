@@ -92,6 +92,11 @@ class Camera:
         """t (3,): the world's origin as the camera has it, x right, y down, z forwards, metres."""
         return np.asarray(-self.rotation @ np.array(self.eye))
 
+    @property
+    def projection(self) -> NDArray[np.float64]:
+        """K [R | t] (3, 4): from homogeneous points of the world to homogeneous pixels, the lens's distortion left aside."""
+        return np.asarray(self.intrinsics @ np.hstack([self.rotation, self.translation[:, None]]))
+
     @overload
     def project(self, points: NDArray[np.floating]) -> NDArray[np.float32]: ...
 

@@ -146,3 +146,12 @@ def test_a_resized_or_cut_picture_has_its_camera(name: str) -> None:
     part = camera.cropped(30, 50, (100, 120))
     np.testing.assert_allclose(part.project(points, np.float64)[:, :2] + [30, 50], seen, atol=1e-9)
     assert part.size == (100, 120)
+
+
+def test_the_projection_matrix_sees_points_where_the_camera_does() -> None:
+    camera = Camera((0.3, 1.2, 2.0), 500.0, (100.0, 80.0), (160, 200), aspect=1.1).aimed(
+        (0.5, 1.4, 1.8), (0.0, 1.0, 0.1)
+    )
+    points = np.random.default_rng(5).normal([0, 1, 0], 0.3, (20, 3))
+    seen = np.c_[points, np.ones(20)] @ camera.projection.T
+    assert np.allclose(np.c_[seen[:, :2] / seen[:, 2:], seen[:, 2]], camera.project(points, np.float64))
