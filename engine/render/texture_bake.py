@@ -10,7 +10,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,13 +19,8 @@ from engine.geometry.surface import vertex_normals
 from engine.geometry.texture_atlas import TextureAtlas
 from engine.imaging.filling.nearest import nearest_in
 from engine.render.rasteriser import Raster, rasterise
+from engine.render.visibility import DEPTH_JUMP, DEPTH_SLACK, DepthBuffer, depth_buffer, shows, view_cosines
 
-DEPTH_SLACK = 4e-3
-"""By how much a point may lie behind what the depth buffer has and still be seen, in the unit of the vertices (metres)."""
-DEPTH_JUMP = 3e-2
-"""A jump of depth from which two pixels side by side show two parts of the surface, in the same unit."""
-JUMP_MARGIN_PIXELS = 5
-"""Pixels across about such a jump in which nothing is taken."""
 MAX_VIEW_DEGREES = 45.0
 """Degrees between a view and the surface's normal up to which it gives anything."""
 STRIP_TEXELS = 1 << 18
@@ -57,9 +51,9 @@ class ViewWeighting:
     power: float = 1.0
     """Of the cosine to the normal: 0 gives all alike, much makes the most frontal win."""
     depth_slack: float = DEPTH_SLACK
-    """As `DEPTH_SLACK` says, in the unit of the vertices."""
+    """As `engine.render.visibility.DEPTH_SLACK` says, in the unit of the vertices."""
     depth_jump: float = DEPTH_JUMP
-    """As `DEPTH_JUMP` says, in the unit of the vertices."""
+    """As `engine.render.visibility.DEPTH_JUMP` says, in the unit of the vertices."""
 
 
 @dataclass(frozen=True)
@@ -113,16 +107,15 @@ def bake(
     sums, weights = np.zeros((size * size, 3), np.float32), np.zeros(size * size, np.float32)
     for view in views:
         _check(view, len(faces))
-        cosine = _cosines(view.camera, points, towards)
+        cosine = view_cosines(view.camera, points, towards)
         pixels = view.camera.project(points)
-        seen = rasterise(pixels, faces, view.camera.size, perspective=True)
-        depth, edge = seen.depth, _beside_edges(seen.depth, weighting.depth_jump)
+        buffer = depth_buffer(view.camera, points, faces, weighting.depth_jump)
         fronting = (cosine[faces] > 0).any(1) & (pixels[faces, 2] > 0).all(1)
         if view.paints is not None:
             fronting &= view.paints
         own = np.flatnonzero(fronting[shown])
         trust = np.ones(view.camera.size, np.float32) if view.trust is None else view.trust
-        pixels_seen = _ViewPixels(view.picture, np.asarray(trust, np.float32), depth, edge)
+        pixels_seen = _ViewPixels(view.picture, np.asarray(trust, np.float32), buffer)
         least = np.cos(np.radians(weighting.max_degrees))
         terms = _WeightTerms(view.gain, least, weighting.power, weighting.depth_slack)
         for start in range(0, len(own), STRIP_TEXELS):
@@ -191,33 +184,12 @@ def _check(view: View, triangles: int) -> None:
         raise ValueError("a view paints other triangles than the surface has")
 
 
-def _cosines(camera: Camera, points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float32]:
-    """(V,) of the angle between each normal and the way back to the camera; -1 behind it."""
-    pixels = camera.project(points)
-    before = pixels[:, 2] > 0
-    out = np.full(len(points), -1, np.float32)
-    rays = camera.rays(pixels[before, :2])
-    out[before] = -(rays * normals[before]).sum(1) / np.linalg.norm(rays, axis=1)
-    return out
-
-
-def _beside_edges(depth: NDArray[np.float32], jump: float) -> NDArray[np.bool_]:
-    """(H, W) close to where the depth jumps, or the surface ends: a slope, however steep, does not jump."""
-    known = np.where(np.isfinite(depth), depth, np.float32(0))
-    framed = np.pad(known, 1, mode="reflect", reflect_type="odd")
-    down = np.abs(framed[:-2, 1:-1] - 2 * known + framed[2:, 1:-1])
-    across = np.abs(framed[1:-1, :-2] - 2 * known + framed[1:-1, 2:])
-    jumps = (np.maximum(down, across) > jump).astype(np.uint8)
-    return np.asarray(cv2.dilate(jumps, np.ones((JUMP_MARGIN_PIXELS, JUMP_MARGIN_PIXELS), np.uint8)) > 0)
-
-
 class _ViewPixels(NamedTuple):
-    """What a view has of each pixel (H, W): its colour, how far it is trusted, its depth, and whether that jumps beside it."""
+    """What a view has of each pixel (H, W): its colour, how far it is trusted, and the depth of the surface."""
 
     picture: np.ndarray
     trust: np.ndarray
-    depth: np.ndarray
-    edge: np.ndarray
+    buffer: DepthBuffer
 
 
 class _WeightTerms(NamedTuple):
@@ -240,24 +212,17 @@ def _gather(
     weights: np.ndarray,
 ) -> None:
     """Add what a view shows at `where` (N, 3), at cosines `facing` (N,) to the normal, to the `texels` (N,) that are there."""
-    picture, trust, depth, edge = view
+    picture, trust, buffer = view
     gain, least, power, slack = terms
-    height, width = depth.shape
+    height, width = trust.shape
     for i in range(len(texels)):
         x, y = where[i, 0], where[i, 1]
-        if not (facing[i] >= least) or not (  # NaN: beyond what a lens shows
-            x >= 0 and y >= 0 and x <= width - 1 and y <= height - 1
-        ):
-            continue
-        if edge[int(y + 0.5), int(x + 0.5)]:
+        if not facing[i] >= least or not shows(buffer, x, y, where[i, 2], slack):
             continue
         left, top = max(min(int(x), width - 2), 0), max(min(int(y), height - 2), 0)
         right, bottom = min(left + 1, width - 1), min(top + 1, height - 1)
         fx, fy = x - left, y - top
         a, b, c, d = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
-        nearest = a * depth[top, left] + b * depth[top, right] + c * depth[bottom, left] + d * depth[bottom, right]
-        if where[i, 2] > nearest + slack:
-            continue
         # pixels that are not trusted lend no colour either
         a, b = a * trust[top, left], b * trust[top, right]
         c, d = c * trust[bottom, left], d * trust[bottom, right]
