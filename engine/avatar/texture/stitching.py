@@ -1,0 +1,60 @@
+"""From the fitted mesh and frames with their cameras to the texture: the paper's section 3.5, one step after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.texture.exposure import exposure_gains
+from engine.avatar.texture.labels import UNSEEN, FaceLabels, best_views, stitched
+from engine.avatar.texture.levelling import level_seams
+from engine.avatar.texture.painting import paint
+from engine.avatar.texture.view_samples import sample_views
+from engine.avatar.texture.views import ChartedSurface, FrameView
+from engine.errors import InputError
+from engine.geometry.surface import triangle_areas
+from engine.render.texture_bake import pad_charts, texel_raster
+from engine.render.texture_fill import fill_over_surface
+
+TEXTURE_SIZE = 4096
+
+
+@dataclass(frozen=True)
+class StitchedTexture:
+    """`texture` (S, S, 3) uint8 sRGB, whole: padded beside its charts. `seen` (S, S) bool: texels whose colours a frame gave.
+    `charts` (S, S) int32: the chart of each texel, -1 beside them. `gains` (N, 3) of the frames. `labels` of the faces, and
+    `best`, by the frames that show each best, to compare with."""
+
+    texture: NDArray[np.uint8]
+    seen: NDArray[np.bool_]
+    charts: NDArray[np.int32]
+    gains: NDArray[np.float32]
+    labels: FaceLabels
+    best: FaceLabels
+
+
+def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE) -> StitchedTexture:
+    """The texture of `surface`, `size` texels along a side, from `views`, whose pictures are read twice.
+
+    Raises InputError `person_unseen` where no frame shows any of the surface.
+    """
+    samples = sample_views(surface, views)
+    gains = exposure_gains(samples)
+    areas = triangle_areas(surface.vertices, surface.triangles)
+    best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
+    del samples
+    if (labels.labels == UNSEEN).all():
+        raise InputError(
+            "person_unseen", "No frame shows the person: film again, all around, with the whole body in view."
+        )
+    raster = texel_raster(surface.atlas, size)
+    charts = np.where(raster.triangle >= 0, surface.atlas.charts[raster.triangle], -1).astype(np.int32)
+    painted = paint(surface, raster, labels.labels, views, gains)
+    level_seams(painted, charts)
+    texture = painted.colours
+    fill_over_surface(texture, painted.known, raster, surface.vertices, surface.triangles)
+    del raster
+    return StitchedTexture(pad_charts(texture, charts >= 0, charts), painted.known, charts, gains, labels, best)

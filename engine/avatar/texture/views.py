@@ -1,0 +1,48 @@
+"""What the texture is made of: the fitted surface on its charts, and frames with their cameras."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.geometry.camera import Camera
+from engine.geometry.texture_atlas import TextureAtlas
+
+
+@dataclass(frozen=True)
+class ChartedSurface:
+    """A surface that is textured: `vertices` (V, 3) metres and `triangles` (T, 3) int32, counter-clockwise seen from outside,
+    not cut along the seams of the texture; triangle `t` lies on the texture as the atlas' triangle `t`. `stitched` (T,)
+    bool: the triangles that take colours from frames; the others only hide what lies behind them.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    atlas: TextureAtlas
+    stitched: NDArray[np.bool_]
+
+    def __post_init__(self) -> None:
+        count = len(self.triangles)
+        if len(self.atlas.corners) != count or self.stitched.shape != (count,):
+            raise ValueError("the atlas, or what is stitched, has other triangles than the surface")
+
+
+@dataclass(frozen=True)
+class FrameView:
+    """A frame by its camera. `read` gives the picture (H, W, 3) uint8, of the camera's size, anew each time it is asked: of a
+    film's frames only one is held at a time. `person`, where it is known, gives (H, W) bool: which pixels show the person.
+    """
+
+    camera: Camera
+    read: Callable[[], NDArray[np.uint8]]
+    person: Callable[[], NDArray[np.bool_]] | None = None
+
+    def picture(self) -> NDArray[np.uint8]:
+        """The picture. Raises ValueError where it has another size than its camera."""
+        found = self.read()
+        if found.shape != (*self.camera.size, 3) or found.dtype != np.uint8:
+            raise ValueError(f"a frame is (H, W, 3) uint8, of its camera's size {self.camera.size}: {found.shape}")
+        return found
