@@ -7,8 +7,8 @@ in the comments.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import cv2
@@ -22,7 +22,7 @@ from engine.export.gltf_materials import Material, add_materials
 from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
-from engine.geometry.morph_target import MorphTarget
+from engine.geometry.morph_target import MorphTarget, MorphTrack
 from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
@@ -71,6 +71,8 @@ class CharacterModel:
     morphs: Sequence[MorphTarget] = ()
     """Shapes of `mesh`; their names stand in the mesh's `extras.targetNames`, where viewers look for them. With normals of
     their own unless the character is `unlit`."""
+    expressions: Mapping[str, MorphTrack] = field(default_factory=dict)
+    """What the morph targets do during clips, by the clips' names: as many frames as the clip has, at its rate."""
     materials: Sequence[Material] = SKIN_MATERIALS
     """What the mesh is made of."""
     material_of: NDArray[np.integer] | None = None
@@ -163,8 +165,14 @@ def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character",
     ]
     if model.levels:
         _add_levels(gltf, shown)
+    if unknown := set(model.expressions) - {clip.name for clip in model.clips}:
+        raise ValueError(f"expressions of clips that are not there: {', '.join(sorted(unknown))}")
     for clip in model.clips:
         _add_animation(gltf, buffer, clip, skeleton)
+        if clip.name in model.expressions:
+            _add_expressions(
+                gltf, buffer, clip, model.expressions[clip.name].of([m.name for m in model.morphs]), shown[0]
+            )
     # a skinned mesh is a root: its node's place does not count (3.7.3.3), and some engines warn about parents
     gltf.scenes = [gl.Scene(name=name, nodes=[len(skeleton.names), shown[0]])]
     gltf.scene = 0
@@ -294,3 +302,18 @@ def _add_animation(gltf: gl.GLTF2, buffer: Buffer, clip: Clip, skeleton: Skeleto
                 held = buffer.add(keys.times[:1], bounds=True, shared=f"{shared} times")
             track(int(joint), "rotation", held, np.ascontiguousarray(keys.rotations[:1, joint]))
     gltf.animations.append(animation)
+
+
+def _add_expressions(gltf: gl.GLTF2, buffer: Buffer, clip: Clip, weights: NDArray[np.float32], node: int) -> None:
+    """Weights (F, M) of all morph targets of a mesh's node, in the animation that was added last, which is that of the clip."""
+    if len(weights) != len(clip.rotations):
+        raise ValueError(f"the clip {clip.name!r} has {len(clip.rotations)} frames, its expressions {len(weights)}")
+    animation = gltf.animations[-1]
+    if clip.loops or len(weights) == 1:
+        weights = np.concatenate([weights, weights[:1]])  # as `tracks` closes a loop, and holds a single frame
+    clock = animation.samplers[0].input
+    animation.samplers.append(
+        gl.AnimationSampler(input=clock, output=buffer.add(weights.ravel()), interpolation="LINEAR")
+    )
+    target = gl.AnimationChannelTarget(node=node, path="weights")
+    animation.channels.append(gl.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))

@@ -153,11 +153,13 @@ def _draw_over(
 @dataclass(frozen=True)
 class Actor:
     """Who acts in a film: a `subject`, its `clip`, and where the origin of its own world lies in the film's, `place` (3,)
-    metres."""
+    metres. `rest_at`: the vertices at rest (V, 3) float32 in a frame of the clip, where its shape changes, as a face's does;
+    called side by side."""
 
     subject: PreparedCharacter
     clip: Clip
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rest_at: Callable[[int], NDArray[np.float32]] | None = None
 
 
 def film_cast(
@@ -188,7 +190,9 @@ def film_cast(
         standing, cover = [], None
         for actor, moves in zip(cast, transforms, strict=True):
             subject, mesh = actor.subject, actor.subject.mesh
-            posed = skin(mesh.vertices, mesh.bones, mesh.weights, moves[min(frame, len(moves) - 1)])
+            now = min(frame, len(moves) - 1)
+            rest = mesh.vertices if actor.rest_at is None else actor.rest_at(now)
+            posed = skin(rest, mesh.bones, mesh.weights, moves[now])
             x, y, z = (np.array(camera.eye) - actor.place).tolist()
             standing.append((subject, posed, replace(camera, eye=(x, y, z))))
         for subject, posed, seen_from in standing:

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from template_character import still, template_character
 
 from engine.avatar.turntable import backdrop, orbit_camera, turntable
 from engine.geometry.skinned_mesh import SkinnedMesh
-from tests.template_character import still, template_character
 
 SIZE = (72, 128)
 

@@ -10,15 +10,15 @@ import pytest
 import trimesh
 from glb_reader import Glb, validate
 from PIL import Image
-from template_character import still, template_character
+from template_character import still, template_character, walk
 
 from engine.body import load_template
 from engine.body.template import FACE_UNITS
-from engine.export.glb import CharacterModel, write_glb
+from engine.export.glb import CharacterModel, build_glb, write_glb
 from engine.export.gltf_materials import Material, TextureTransform
 from engine.export.vrm import VrmMeta, write_vrm
 from engine.export.vrm_expressions import ARKIT_MIXTURES, PRESET_NAMES, Expression, arkit_expressions
-from engine.geometry.morph_target import MorphTarget, morph_target
+from engine.geometry.morph_target import MorphTarget, MorphTrack, morph_target
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.surface import triangulate
 
@@ -255,3 +255,32 @@ def test_expressions_that_do_not_fit_are_refused(
         with pytest.raises(ValueError, match=reason):
             write_vrm(tmp_path / "a.vrm", CharacterModel(mesh, morphs=face_units), META, **given)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_face_does_during_a_clip_comes_back_from_its_animation(
+    mesh: SkinnedMesh, face_units: list[MorphTarget], tmp_path: Path
+) -> None:
+    names = ("jawOpen", "not of this mesh", "browInnerUp")
+    track = MorphTrack(names, np.random.default_rng(4).uniform(0, 1, (30, 3)).astype(np.float32))
+    loop = walk(mesh.skeleton)
+    model = CharacterModel(mesh, [loop, still(mesh.skeleton)], morphs=face_units, expressions={loop.name: track})
+    write_glb(tmp_path / "acting.glb", model)
+    assert validate(tmp_path / "acting.glb")["messages"] == []
+
+    glb = Glb(tmp_path / "acting.glb")
+    animation = glb.animation(loop.name)
+    (channel,) = [one for one in animation["channels"] if one["target"]["path"] == "weights"]
+    sampler = animation["samplers"][channel["sampler"]]
+    times, weights = glb.array(sampler["input"]), glb.array(sampler["output"]).reshape(-1, 52)
+    assert len(times) == len(weights) == 31  # a loop ends on its first frame
+    for column, name in enumerate(FACE_UNITS):
+        given = track.weights[:, names.index(name)] if name in names else np.zeros(30, np.float32)
+        np.testing.assert_array_equal(weights[:, column], [*given, given[0]])
+
+
+def test_expressions_that_do_not_fit_the_clips_are_refused(mesh: SkinnedMesh, face_units: list[MorphTarget]) -> None:
+    track = MorphTrack(("jawOpen",), np.zeros((7, 1), np.float32))
+    for name, message in (("dance", "clips that are not there"), ("walk", "has 30 frames, its expressions 7")):
+        model = CharacterModel(mesh, [walk(mesh.skeleton)], morphs=face_units, expressions={name: track})
+        with pytest.raises(ValueError, match=message):
+            build_glb(model, b"")

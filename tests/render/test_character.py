@@ -211,6 +211,22 @@ def test_a_film_is_its_frames_in_order() -> None:
         np.testing.assert_array_equal(film[frame], alone.rgb)
 
 
+def test_a_shape_that_changes_is_drawn_as_it_is_in_each_frame() -> None:
+    mesh = template_character(texture_size=64)
+    loop = walk(mesh.skeleton, frames=2, travels=False)
+    camera = Camera((0.0, 0.9, 4.0), 120.0, (31.5, 47.5), (96, 64))
+    shapes = [mesh.vertices, (mesh.vertices * np.float32([1, 0.8, 1])).astype(np.float32)]
+    subject = prepare_character(mesh)
+
+    def drawn(actor: Actor) -> list[np.ndarray]:
+        return list(film_cast([actor], lambda second: camera, lambda camera: np.zeros((96, 64, 3), np.uint8)))
+
+    changing = drawn(Actor(subject, loop, rest_at=shapes.__getitem__))
+    for frame, shape in enumerate(shapes):
+        alone = drawn(Actor(prepare_character(replace(mesh, vertices=shape)), loop))
+        np.testing.assert_array_equal(changing[frame], alone[frame])
+
+
 def test_a_clip_of_one_frame_gives_one() -> None:
     mesh = card(noise(8), (0, 0, 0))
     clip = Clip("still", 30, np.array([[[0, 0, 0, 1]]], np.float32), np.zeros((1, 3), np.float32))
