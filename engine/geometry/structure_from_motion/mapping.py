@@ -17,12 +17,14 @@ from engine.geometry.structure_from_motion.poses import Pose, relative_pose, res
 from engine.geometry.structure_from_motion.tracks import PairMatches, Tracks, join_tracks
 from engine.geometry.structure_from_motion.triangulation import triangulate
 
-MOST_ERROR, MOST_ERROR_FIRST = 3.0, 8.0
-"""Pixels that an observation may be off, of pictures 1000 pixels long; and for a camera that was not adjusted yet."""
-LEAST_ANGLE = np.radians(2.0)
-"""Between two rays to a point; below, its distance says little."""
-LEAST_SEEN = 15
-"""Known points by which a camera joins."""
+MAX_ERROR = 3.0
+"""Pixels that an observation may be off, of pictures 1000 pixels long."""
+MAX_FIRST_ERROR = 8.0
+"""Pixels that an observation by a camera that was not adjusted yet may be off, of pictures 1000 pixels long."""
+MIN_RAY_ANGLE = np.radians(2.0)
+"""Radians between two rays to a point, at least; below, its distance says little."""
+MIN_KNOWN_POINTS = 15
+"""Known points by which a camera joins, at least."""
 FIRST_ANGLE = np.radians(6.0)
 """Median angle of the points of the first two pictures: their distance has to be sure."""
 FIRST_TRIED = 30
@@ -111,8 +113,8 @@ class _Mapping:
             np.full((tracks.count, 3), np.nan),
         )
         extent = float(pixels.max()) if len(pixels) else 1.0
-        self.most_error = MOST_ERROR * extent / 1000
-        self.most_error_first = MOST_ERROR_FIRST * extent / 1000
+        self.max_error = MAX_ERROR * extent / 1000
+        self.max_first_error = MAX_FIRST_ERROR * extent / 1000
         self.registered = np.zeros(count, np.bool_)
         self.kept = np.zeros(len(self.seen), np.bool_)
         self.refused = np.zeros(count, np.intp)  # points known when a camera could not join
@@ -135,7 +137,7 @@ class _Mapping:
         for pair in sorted(pairs, key=lambda one: -len(one.matches))[:FIRST_TRIED]:
             shared = self._shared(pair)
             pose = relative_pose(
-                self.flat[shared[:, 0]], self.flat[shared[:, 1]], self.most_error_first / 4 / self.focal
+                self.flat[shared[:, 0]], self.flat[shared[:, 1]], self.max_first_error / 4 / self.focal
             )
             if pose is None:
                 continue
@@ -150,22 +152,22 @@ class _Mapping:
         self.registered[pair.first] = True
         self.latest = pair.second
         self.solve_points(np.ones(self.tracks.count, np.bool_))
-        return bool(self.solved.sum() >= LEAST_SEEN)
+        return bool(self.solved.sum() >= MIN_KNOWN_POINTS)
 
     def join_next(self) -> bool:
         """One more camera, that sees most of the known points; False where none can."""
         while True:
             known = self.solved[self.seen.point]
             counts = np.bincount(self.seen.camera[known], minlength=len(self.registered))
-            open_ones = ~self.registered & (counts >= LEAST_SEEN) & (counts > 1.1 * self.refused)
+            open_ones = ~self.registered & (counts >= MIN_KNOWN_POINTS) & (counts > 1.1 * self.refused)
             if not open_ones.any():
                 return False
             image = int(np.argmax(np.where(open_ones, counts, -1)))
             chosen = np.flatnonzero(known & (self.seen.camera == image))
             pose = resection(
-                self.bundle.points[self.seen.point[chosen]], self.flat[chosen], self.most_error_first / self.focal
+                self.bundle.points[self.seen.point[chosen]], self.flat[chosen], self.max_first_error / self.focal
             )
-            if pose is None or pose.agreed.sum() < max(LEAST_SEEN, 0.15 * len(chosen)):
+            if pose is None or pose.agreed.sum() < max(MIN_KNOWN_POINTS, 0.15 * len(chosen)):
                 self.refused[image] = counts[image]
                 continue
             self._place(image, pose)
@@ -187,7 +189,7 @@ class _Mapping:
         starts = np.flatnonzero(np.r_[True, np.diff(track) > 0, True]).astype(np.intp)
         found = triangulate(
             *((self.bundle.rotations, self.bundle.translations), self.seen.camera[chosen], self.flat[chosen]),
-            *(starts, self.most_error / self.focal, LEAST_ANGLE),
+            *(starts, self.max_error / self.focal, MIN_RAY_ANGLE),
         )
         points = self.bundle.points.copy()
         points[track[starts[:-1]]] = found.points
@@ -232,14 +234,14 @@ class _Mapping:
         for them anew."""
         candidates = np.flatnonzero(self.solved[self.seen.point] & self.registered[self.seen.camera])
         self.kept[:] = False
-        self.kept[candidates] = reprojection_errors(self.bundle, self.seen[candidates]) <= self.most_error
+        self.kept[candidates] = reprojection_errors(self.bundle, self.seen[candidates]) <= self.max_error
         self._forget()
         self.solve_points(~self.solved)
 
     def _prune(self, chosen: NDArray[np.bool_]) -> None:
         """Drop of the chosen observations (O,) those that do not agree."""
         index = np.flatnonzero(chosen)
-        self.kept[index] = reprojection_errors(self.bundle, self.seen[index]) <= self.most_error_first
+        self.kept[index] = reprojection_errors(self.bundle, self.seen[index]) <= self.max_first_error
         self._forget()
 
     def _forget(self) -> None:

@@ -26,17 +26,17 @@ class Pose:
     agreed: NDArray[np.bool_]
 
 
-def relative_pose(first: NDArray[np.float64], second: NDArray[np.float64], most_error: float) -> Pose | None:
+def relative_pose(first: NDArray[np.float64], second: NDArray[np.float64], max_error: float) -> Pose | None:
     """The second camera's pose, as the first one has it, one unit away; None where too few agree.
 
     Parameters
     ----------
-    first, second : (N, 2) what both see. most_error : how far from the epipolar line, on the plane.
+    first, second : (N, 2) what both see. max_error : how far from the epipolar line, on the plane.
     """
     if len(first) < 8:
         return None
     essential, mask = cv2.findEssentialMat(
-        first, second, np.eye(3), method=cv2.RANSAC, prob=CONFIDENCE, threshold=most_error
+        first, second, np.eye(3), method=cv2.RANSAC, prob=CONFIDENCE, threshold=max_error
     )
     if essential is None or essential.shape != (3, 3):
         return None
@@ -46,14 +46,14 @@ def relative_pose(first: NDArray[np.float64], second: NDArray[np.float64], most_
     return Pose(np.asarray(rotation, np.float64), np.asarray(translation, np.float64).ravel(), mask.ravel() > 0)
 
 
-def resection(points: NDArray[np.float64], seen: NDArray[np.float64], most_error: float) -> Pose | None:
+def resection(points: NDArray[np.float64], seen: NDArray[np.float64], max_error: float) -> Pose | None:
     """The pose of a camera that sees points (N, 3) at (N, 2); None where there is none that six agree with."""
     if len(points) < 6:
         return None
     found, turn, shift, inliers = cv2.solvePnPRansac(
         *(points, seen, np.eye(3), None),
         iterationsCount=RESECTION_SAMPLES,
-        reprojectionError=most_error,
+        reprojectionError=max_error,
         confidence=CONFIDENCE,
         flags=cv2.SOLVEPNP_AP3P,
     )
@@ -65,5 +65,5 @@ def resection(points: NDArray[np.float64], seen: NDArray[np.float64], most_error
     at = points @ rotation.T + translation
     with np.errstate(divide="ignore", invalid="ignore"):
         off = np.linalg.norm(at[:, :2] / at[:, 2:] - seen, axis=1)
-    agreed = (at[:, 2] > 0) & (off <= most_error)
+    agreed = (at[:, 2] > 0) & (off <= max_error)
     return Pose(np.asarray(rotation, np.float64), np.asarray(translation, np.float64), agreed)

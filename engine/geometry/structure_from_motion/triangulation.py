@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-MOST_PROPOSALS = 40
+MAX_PROPOSALS = 40
 """Pairs of views of one track that are tried."""
 
 
@@ -31,7 +31,7 @@ def triangulate(
     views: NDArray[np.intp],
     flat: NDArray[np.float64],
     starts: NDArray[np.intp],
-    most_error: float,
+    max_error: float,
     least_angle: float,
 ) -> Triangulation:
     """One point for each track.
@@ -41,11 +41,11 @@ def triangulate(
     poses : rotations (C, 3, 3) and translations (C, 3) of the cameras.
     views : (O,) the cameras of the observations, track by track; flat : (O, 2) what they see, on the plane at distance 1,
         without distortion; starts : (T + 1,) where each track begins.
-    most_error : how far an observation may be off on that plane.
+    max_error : how far an observation may be off on that plane.
     least_angle : radians that two of the rays which agree must have between them.
     """
     points, agreed = np.full((len(starts) - 1, 3), np.nan), np.zeros(len(views), np.bool_)
-    _triangulate(*poses, views, np.ascontiguousarray(flat), starts, (most_error, np.cos(least_angle)), points, agreed)
+    _triangulate(*poses, views, np.ascontiguousarray(flat), starts, (max_error, np.cos(least_angle)), points, agreed)
     return Triangulation(points, agreed)
 
 
@@ -60,7 +60,7 @@ def _triangulate(
     points: np.ndarray,
     agreed: np.ndarray,
 ) -> None:
-    most_error, widest_cosine = bounds
+    max_error, widest_cosine = bounds
     for t in range(len(starts) - 1):
         begin, end = starts[t], starts[t + 1]
         count = end - begin
@@ -74,7 +74,7 @@ def _triangulate(
         good, chosen = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         for gap in range(count - 1, 0, -1):  # those far apart in the track first
             for a in range(count - gap):
-                if tried == MOST_PROPOSALS or best == count:
+                if tried == MAX_PROPOSALS or best == count:
                     break
                 if np.dot(rays[a], rays[a + gap]) > widest_cosine:
                     continue
@@ -84,7 +84,7 @@ def _triangulate(
                 proposal, sound = _nearest_to_rays(eyes, rays, good)
                 if not sound:
                     continue
-                seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], proposal, most_error, good)
+                seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], proposal, max_error, good)
                 if seen > best:
                     best = seen
                     chosen[:] = good
@@ -93,7 +93,7 @@ def _triangulate(
         refined, sound = _nearest_to_rays(eyes, rays, chosen)
         if not sound:
             continue
-        seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], refined, most_error, good)
+        seen = _agreeing(rotations, translations, views[begin:end], flat[begin:end], refined, max_error, good)
         if seen < 2 or not _wide_enough(rays, good, widest_cosine):
             continue
         points[t] = refined
@@ -121,14 +121,14 @@ def _agreeing(
     views: np.ndarray,
     flat: np.ndarray,
     point: np.ndarray,
-    most_error: float,
+    max_error: float,
     good: np.ndarray,
 ) -> int:
     """Mark the views that see a point near enough to where they should; how many."""
     count = 0
     for o in range(len(views)):
         at = rotations[views[o]] @ point + translations[views[o]]
-        good[o] = at[2] > 0 and np.hypot(at[0] / at[2] - flat[o, 0], at[1] / at[2] - flat[o, 1]) <= most_error
+        good[o] = at[2] > 0 and np.hypot(at[0] / at[2] - flat[o, 0], at[1] / at[2] - flat[o, 1]) <= max_error
         count += good[o]
     return count
 
