@@ -141,8 +141,8 @@ export class ReactivePortrait extends HTMLElement {
     this.player = new Player(profile, address, canvas, this.moves, audience, signal);
     this.hear();
     const observer = new IntersectionObserver(
-      ([entry]) => {
-        this.near = entry?.isIntersecting ?? false;
+      (entries) => {
+        this.near = entries.at(-1)!.isIntersecting; // a page that is slow hears of several changes at once
         this.attend();
       },
       { rootMargin: '50px' },

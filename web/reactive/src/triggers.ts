@@ -36,7 +36,7 @@ export function listen(
   });
   if (view && !still) {
     const observer = new IntersectionObserver(
-      ([entry]) => entry?.isIntersecting && act(view.state, 'view'),
+      (entries) => entries.at(-1)!.isIntersecting && act(view.state, 'view'), // of several at once the last is true now
       { threshold: 0.6 },
     );
     observer.observe(host);

@@ -51,8 +51,8 @@ export class Stage {
     this.controls.addEventListener('change', () => this.invalidate());
     this.sizes = new ResizeObserver(() => this.fit());
     this.sizes.observe(place);
-    this.sight = new IntersectionObserver(([entry]) => {
-      this.visible = entry?.isIntersecting ?? true;
+    this.sight = new IntersectionObserver((entries) => {
+      this.visible = entries.at(-1)!.isIntersecting; // a page that is slow hears of several changes at once
       if (this.visible) this.invalidate();
     });
     this.sight.observe(place);
