@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -15,12 +14,9 @@ from engine.errors import InputError
 from engine.geometry.skeleton import Skeleton
 from engine.motion import rotation
 from engine.motion.check import check_motion
-from engine.motion.files.gltf_motion import read_gltf_motion
 from engine.motion.files.reading import motion_clips, read_motion
 from engine.motion.files.source_motion import SourceMotion
 from engine.motion.library import built_in
-from engine.motion_check import KIND, MotionOptions
-from engine.run import Run
 
 
 @pytest.fixture
@@ -77,21 +73,6 @@ def test_files_are_told_apart_by_how_they_begin(media: Callable[[str], Path], tm
     with pytest.raises(InputError) as error:
         read_motion(tmp_path / "a.bvh")
     assert error.value.code == "motion_unreadable"
-
-
-def test_one_of_several_animations_is_chosen(media: Callable[[str], Path], tmp_path: Path) -> None:
-    """The job kind `motion` tells of all by their names, and looks at the one that is meant."""
-    soldier = media("scans3d/body_soldier/soldier.glb")
-    told = {}
-    for clip in (None, "Run", "Walk"):
-        KIND.work({"motion": soldier}, MotionOptions(motion_clip=clip), tmp_path, Run())
-        told[clip] = json.loads((tmp_path / "motion.json").read_text())
-        assert told[clip]["clips"] == ["Idle", "Run", "TPose", "Walk"]
-    assert told[None]["frames"] == len(read_gltf_motion(soldier, "Idle").rotations)
-    assert len({document["seconds"] for document in told.values()}) == 3
-    with pytest.raises(InputError) as error:
-        KIND.work({"motion": soldier}, MotionOptions(motion_clip="Swim"), tmp_path, Run())
-    assert (error.value.code, error.value.correctable) == ("motion_clip_unknown", KIND.correctable[1:])
 
 
 def test_a_bvh_file_has_no_animations_to_choose_among(media: Callable[[str], Path]) -> None:

@@ -23,7 +23,7 @@ from engine.face_animation.driver_tracking.neutral import (
 from engine.media.excerpt import Excerpt
 from engine.media.image import read_image
 from engine.media.video import read_video
-from engine.perception.expression.features import lip_asymmetry, measure_expression
+from engine.perception.expression.features import measure_expression
 from engine.perception.expression.measures import MEASURES, REST_SPREAD, general_rest, measure
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.faces import FaceTracker
@@ -143,15 +143,6 @@ def test_a_mouth_torn_to_a_side_does_not_stand_for_a_smile(tmp_path: Path, rest:
     frames = [torn, torn, opened(smiling(rest, 0.15), 0.08), torn, torn]
     assert taken(driver(tmp_path, frames), target) == 2
     assert taken(driver(tmp_path, frames), torn) != 2
-
-
-def test_how_far_lips_are_lopsided_is_the_distance_from_their_mirror_image(rest: NDArray) -> None:
-    assert np.abs(lip_asymmetry(rest[None])).max() < 0.01
-    moved = placed(50, (100, 100), yaw=15)
-    assert np.abs(lip_asymmetry(moved[None])).max() < 0.02  # a turn is none
-    aside = rest.copy()
-    aside[list(LIPS_OUTER + LIPS_INNER), 0] += 0.1 * eye_distance(rest)
-    assert np.allclose(lip_asymmetry(aside[None]) - lip_asymmetry(rest[None]), (0.2, 0), atol=0.01)
 
 
 def test_a_driver_that_is_surprised_most_of_the_time_rests_where_it_is_not(tmp_path: Path, rest: NDArray) -> None:

@@ -140,7 +140,7 @@ def test_the_document_is_what_its_schema_says(made: Made) -> None:
 
 def test_the_published_schema_is_this_one() -> None:
     """If it is not: python -c "from engine.portrait.reactive.document import schema; print(schema(), end='')"."""
-    published = Path(__file__).parents[2] / "web" / "reactive" / "profile.schema.json"
+    published = Path(__file__).parents[3] / "web" / "reactive" / "profile.schema.json"
     assert published.read_text() == schema()
 
 
