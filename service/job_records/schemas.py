@@ -72,8 +72,8 @@ class JobOut(BaseModel):
     priority: PriorityName
     progress: Progress
     queue_position: int | None
-    """Of a job that is queued: 1 where it is the next of its kind. Others may still come before it: those of a higher
-    priority, and of keys of which fewer jobs run."""
+    """A number while the job is queued, null otherwise: 1 where it is the next of its kind. Others may still come before
+    it: those of a higher priority, and of keys of which fewer jobs run."""
     inputs: dict[str, str | list[str]]
     options: dict[str, JsonValue]
     artifacts: dict[str, ArtifactOut]

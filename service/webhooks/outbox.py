@@ -11,7 +11,7 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from service.ids import new_id
-from service.job_records import artifacts
+from service.job_records import artifacts, jobs
 from service.job_records.schemas import JobOut
 from service.tables.events import Event
 from service.tables.jobs import Job, Status
@@ -41,12 +41,19 @@ def write(session: Session, event: Event) -> None:
         destinations = [one for one in destinations if not _told_lately(session, event, one)]
     if not destinations:
         return
-    shown = JobOut.of(job, artifacts.of_jobs(session, [job.id])[job.id]).model_dump(mode="json")
+    shown = _document(session, job)
     for destination in destinations:
         message = new_delivery(job.owner, destination, type_, shown)
         message.job_id, message.sequence = job.id, event.id
         message.created_at = message.next_attempt_at = event.created_at
         session.add(message)
+
+
+def _document(session: Session, job: Job) -> dict[str, object]:
+    """The job as the API shows it, but for signed links, which would have ended when somebody reads this later."""
+    made = artifacts.of_jobs(session, [job.id])[job.id]
+    places = jobs.queue_places(session, [job] if job.status == Status.QUEUED else [])
+    return JobOut.of(job, made, queue_position=places.get(job.id)).model_dump(mode="json")
 
 
 def new_delivery(owner: str, destination: Destination, event: str, payload: dict[str, object]) -> Delivery:
