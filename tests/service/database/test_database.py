@@ -1,21 +1,17 @@
-"""The database: its tables, its transactions."""
+"""The database: its transactions."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from datetime import UTC, datetime, timedelta, timezone
+from datetime import UTC, datetime
 
 import pytest
-from sqlalchemy import select, text
+from sqlalchemy import text
 from sqlalchemy.exc import DBAPIError, IntegrityError
 
-from service import tables
 from service.database.sessions import Database
 from service.ids import is_id, new_id
-from service.tables.base import moment_in
 from service.tables.files import File
 from service.tables.kept import Driver
 
@@ -33,13 +29,6 @@ def file(created_at: datetime | None = None) -> File:
     return File(
         id=new_id(), owner="local", name="a", content_type="image/png", size=1, sha256="0" * 64, created_at=moment
     )
-
-
-def test_the_database_knows_all_tables_whoever_opens_it() -> None:
-    program = "from service.database.sessions import Base; print(*Base.metadata.tables)"
-    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
-    assert {"artifacts", "drivers", "jobs", "keys", "webhooks"} <= set(told.split())
-    assert len(told.split()) == len(set(tables.__all__) - {"Base"})
 
 
 def test_many_may_bring_it_up_to_date_at_once(database_url: str) -> None:
@@ -73,28 +62,6 @@ def test_those_who_read_before_they_write_do_not_lose_each_others_changes(databa
         list(pool.map(increment, range(40)))
     with database.read() as session:
         assert session.get_one(File, first.id).size == 41
-
-
-def test_moments_keep_their_meaning(database: Database) -> None:
-    moment = datetime(2026, 1, 2, 3, 4, 5, 678, tzinfo=timezone(timedelta(hours=9)))
-    with database.write() as session:
-        session.add(kept := file(moment))
-    with database.read() as session:
-        found = session.get_one(File, kept.id).created_at
-    assert found == moment and found.utcoffset() == timedelta(0)
-
-
-def test_its_own_clock_is_what_leases_are_measured_by(database: Database) -> None:
-    with database.write() as session:
-        session.add(kept := file())
-        session.flush()
-        kept.created_at = moment_in(-60)  # type: ignore[assignment]
-    with database.read() as session:
-        found = session.get_one(File, kept.id).created_at
-        assert abs(found - (datetime.now(UTC) - timedelta(seconds=60))) < timedelta(seconds=30)
-        later = select(File.id).where(File.created_at < moment_in(-59.5))
-        assert session.scalar(later) == kept.id
-        assert session.scalar(select(File.id).where(File.created_at < moment_in(-90))) is None
 
 
 def test_who_reads_sees_one_moment(database: Database) -> None:

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 import psutil
@@ -14,7 +11,6 @@ import pytest
 
 from service.settings import Settings
 from worker.job_process.children import Child, ChildLost, WarmChildren
-from worker.programs.parent_death import tied_command
 
 ROOT = Path(__file__).parents[3]
 
@@ -75,21 +71,3 @@ def test_one_is_used_again_unless_something_is_wrong_with_it(settings: Settings)
         assert children.take().pid != first.pid
     finally:
         children.close()
-
-
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
-def test_a_tethered_process_ends_with_its_parent(number: signal.Signals) -> None:
-    command = tied_command(["/bin/sleep", "60"])
-    script = f"import os, subprocess; p = subprocess.Popen({command!r}); print(p.pid, flush=True); p.wait()"
-    # `tied_command` names the process that calls it as the parent; here that is the script.
-    script = script.replace(repr(str(os.getpid())), "str(os.getpid())")
-    parent = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
-    assert parent.stdout is not None
-    child = psutil.Process(int(parent.stdout.readline()))
-    deadline = time.monotonic() + 90
-    while "sleep" not in child.name() and time.monotonic() < deadline:
-        time.sleep(0.02)
-    parent.send_signal(number)
-    parent.wait(90)
-    psutil.wait_procs([child], timeout=90)
-    assert not child.is_running()
