@@ -8,7 +8,7 @@ import pytest
 from engine.perception.expression.measures import (
     FACE_MEASURES,
     LID_MEASURES,
-    LIDS_VARY,
+    LID_VARIATION,
     MEASURES,
     general_rest,
     lid_lowering,
@@ -54,4 +54,4 @@ def test_lids_are_lowered_by_what_is_beyond_their_usual_variation() -> None:
     usual = np.array([0.3, 0.3])
     values = np.zeros((4, len(MEASURES)))
     values[:, LID_MEASURES] = [[0.3, 0.3], [0.25, 0.3], [0.15, 0.3], [0.0, 0.0]]
-    assert lid_lowering(values, usual) == pytest.approx([0, 0, 0.5 - LIDS_VARY, 1 - LIDS_VARY])
+    assert lid_lowering(values, usual) == pytest.approx([0, 0, 0.5 - LID_VARIATION, 1 - LID_VARIATION])
