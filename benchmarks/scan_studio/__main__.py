@@ -1,0 +1,45 @@
+"""Film a subject of known shape, with the truth beside the films.
+
+python -m benchmarks.scan_studio SUBJECT OUT [--size 360x640] [--codec hevc] [--sway 0.005] [--still]
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+
+from benchmarks.scan_studio.studio import Order, film
+from benchmarks.scan_studio.subjects import SUBJECTS, subject_named
+from benchmarks.scan_studio.sway import USUAL_METRES
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, height = map(int, text.split("x"))
+    if width % 2 or height % 2:
+        raise argparse.ArgumentTypeError("width and height must be even")
+    return width, height
+
+
+def main() -> None:
+    """Read the order, and film."""
+    parser = argparse.ArgumentParser("scan_studio", description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("subject", choices=SUBJECTS)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--size", type=_size, default=(360, 640), help="width x height of the upright films")
+    parser.add_argument("--body-frames", type=int, default=192)
+    parser.add_argument("--head-frames", type=int, default=96, help="0: no film of the head")
+    parser.add_argument("--codec", choices=("h264", "hevc"), default="h264")
+    parser.add_argument("--sway", type=float, default=USUAL_METRES, help="metres that the chest moves, at most")
+    parser.add_argument("--still", action="store_true", help="the subject does not move at all")
+    parser.add_argument("--seed", type=int, default=0)
+    given = parser.parse_args()
+    began = time.perf_counter()
+    frames = {"body": given.body_frames, "head": given.head_frames}
+    order = Order(frames, given.size, given.codec, 0.0 if given.still else given.sway, given.seed)
+    film(subject_named(given.subject), order, given.out)
+    print(f"{given.out}: {time.perf_counter() - began:.1f} s")
+
+
+if __name__ == "__main__":
+    main()

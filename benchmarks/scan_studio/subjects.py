@@ -1,0 +1,15 @@
+"""Who can be filmed."""
+
+from __future__ import annotations
+
+from benchmarks.scan_studio.scanned_people import RIGGED, UNRIGGED, read_subject
+from benchmarks.scan_studio.subject import Subject
+from benchmarks.scan_studio.template_people import LOOKS, template_subject
+from benchmarks.shared_media import media
+
+SUBJECTS = (*RIGGED, *UNRIGGED, *LOOKS)
+
+
+def subject_named(name: str) -> Subject:
+    """The subject of this name, at rest. Raises KeyError where there is none."""
+    return template_subject(name) if name in LOOKS else read_subject(name, media("scans3d"))
