@@ -1,0 +1,52 @@
+"""What a user may choose about an avatar."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from engine.motion.options import MotionClip, MotionJoints
+
+Side = Annotated[int, Field(ge=64, le=4096)]
+Frames = Annotated[int, Field(ge=12, le=150)]
+Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
+TEMPLATE_TRIANGLES = 27_676
+"""Of the template's visible parts: an avatar has no more."""
+
+
+class AvatarOptions(BaseModel):
+    """Options of the avatar system; every one has a sound default."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    height_m: Annotated[float, Field(ge=0.8, le=2.4)] | None = Field(
+        None,
+        examples=[1.75],
+        description="How tall the person is, metres. Without it the size is guessed from how people are built, and the report says so.",
+    )
+    body_frames: Frames = Field(75, description="Frames that are taken from the clip of the body.")
+    head_frames: Frames = Field(50, description="Frames that are taken from the clip of the head.")
+    texture_size: Literal[1024, 2048, 4096, 8192] = Field(
+        4096, description="Width and height of the texture in pixels."
+    )
+    triangles: Annotated[int, Field(ge=2000, le=TEMPLATE_TRIANGLES)] = Field(
+        TEMPLATE_TRIANGLES, description="Most triangles of the avatar."
+    )
+    levels: Annotated[int, Field(ge=0, le=3)] = Field(
+        0, description="Further levels of detail, each with a quarter of the triangles, in the same GLB (MSFT_lod)."
+    )
+    vrm: bool = Field(False, description="Write the avatar as VRM 1.0, too.")
+    vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
+        "Galatea", description="Whose the avatar is, as its VRM file says: nobody else may use it without asking."
+    )
+    motion: Motion = Field("idle", description="The clip that the video shows, where no file is given.")
+    motion_joints: MotionJoints = {}
+    motion_clip: MotionClip = None
+    size: tuple[Side, Side] = Field(
+        (720, 1280), examples=[(720, 1280)], description="Width and height of the videos in pixels."
+    )
+    fps: Annotated[float, Field(ge=1, le=60)] = Field(30.0, description="Frames a second of clips and videos.")
+    seconds: Annotated[float, Field(ge=1, le=30)] = Field(
+        4.0, description="Length of the animation: a longer motion is cut, and of a shorter one the last pose is held."
+    )
