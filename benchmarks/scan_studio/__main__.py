@@ -1,6 +1,6 @@
 """Film a subject of known shape, with the truth beside the films.
 
-python -m benchmarks.scan_studio SUBJECT OUT [--size 360x640] [--codec hevc] [--sway 0.005] [--still]
+python -m benchmarks.scan_studio SUBJECT OUT [--size 360x640] [--format hevc] [--sway 0.005] [--still]
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import argparse
 import time
 from pathlib import Path
 
+from benchmarks.scan_studio.film import CODINGS
 from benchmarks.scan_studio.studio import Order, film
 from benchmarks.scan_studio.subjects import SUBJECTS, subject_named
 from benchmarks.scan_studio.sway import USUAL_METRES
@@ -29,14 +30,16 @@ def main() -> None:
     parser.add_argument("--size", type=_size, default=(360, 640), help="width x height of the upright films")
     parser.add_argument("--body-frames", type=int, default=192)
     parser.add_argument("--head-frames", type=int, default=96, help="0: no film of the head")
-    parser.add_argument("--codec", choices=("h264", "hevc"), default="h264")
+    parser.add_argument(
+        "--format", choices=tuple(CODINGS), default="h264", help="hlg: HEVC, 10 bits, of high dynamic range"
+    )
     parser.add_argument("--sway", type=float, default=USUAL_METRES, help="metres that the chest moves, at most")
     parser.add_argument("--still", action="store_true", help="the subject does not move at all")
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     began = time.perf_counter()
     frames = {"body": given.body_frames, "head": given.head_frames}
-    order = Order(frames, given.size, given.codec, 0.0 if given.still else given.sway, given.seed)
+    order = Order(frames, given.size, given.format, 0.0 if given.still else given.sway, given.seed)
     film(subject_named(given.subject), order, given.out)
     print(f"{given.out}: {time.perf_counter() - began:.1f} s")
 

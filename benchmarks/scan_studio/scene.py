@@ -15,6 +15,7 @@ from benchmarks.scan_studio.room import Room
 from benchmarks.scan_studio.subject import Subject
 from engine.compiled import njit
 from engine.geometry.camera import Camera
+from engine.media.tone_mapping import srgb_light
 from engine.render.mipmap import Mipmap, build_mipmap
 from engine.render.rasteriser import draw_into
 from engine.render.texturing import PictureWindow, TexturedSurface, colour_inside, corner_table
@@ -60,19 +61,12 @@ class Scene:
     def expose(self, cameras: list[Camera], stands: list[NDArray[np.float64] | None]) -> NDArray[np.float32]:
         """(H, W, 3) linear light from 0 to 1, the mean over moments of an exposure; `SAMPLE_OFFSETS` are gone through."""
         total = np.zeros((*cameras[0].size, 3), np.float32)
+        light = srgb_light(np.arange(256) / 255).astype(np.float32)
         for k, (camera, vertices) in enumerate(zip(cameras, stands, strict=True)):
             x, y = SAMPLE_OFFSETS[k % len(SAMPLE_OFFSETS)]
             moved = replace(camera, centre=(camera.centre[0] - x, camera.centre[1] - y))
-            _add_light(self.draw(moved, vertices), LINEAR_LIGHT, total)
+            _add_light(self.draw(moved, vertices), light, total)
         return total / np.float32(len(cameras))
-
-
-def linear_light(srgb: NDArray[np.floating]) -> NDArray[np.float32]:
-    """sRGB (0 to 1) to linear light (IEC 61966-2-1)."""
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4).astype(np.float32)
-
-
-LINEAR_LIGHT = linear_light(np.arange(256) / 255)
 
 
 def _mesh(

@@ -1,4 +1,4 @@
-"""From light to bytes: a phone's exposure, which drifts, and the noise of its sensor."""
+"""What a phone measures of the light: its exposure drifts, and its sensor has noise."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.scene import linear_light
 from benchmarks.scan_studio.sway import SmoothCurve
 from engine.compiled import njit
 
@@ -19,8 +18,6 @@ SHOT_NOISE = 2.5e-4
 """Variance to a unit of light, of what is left after a phone's own denoising."""
 READ_NOISE = 1.2e-3
 """Standard deviation in the dark, where white is 1."""
-TONES = 4096
-"""Steps of the table from light to sRGB."""
 
 
 @dataclass(frozen=True)
@@ -37,29 +34,19 @@ class Sensor:
         balance = BALANCE_DRIFT * SmoothCurve(2, self.seconds, self.seed + 1)(seconds)
         return exposure * (1 + np.stack([balance[:, 0], 0 * seconds, balance[:, 1]], 1))
 
-    def read(self, light: NDArray[np.float32], gains: NDArray[np.float64], frame: int) -> NDArray[np.uint8]:
-        """The bytes of linear light (H, W, 3): sRGB, with the noise of this frame."""
+    def read(self, light: NDArray[np.float32], gains: NDArray[np.float64], frame: int) -> NDArray[np.float32]:
+        """Linear light (H, W, 3) as it is measured, with the noise of this frame."""
         random = np.random.default_rng((self.seed, frame))
-        noise = random.standard_normal(light.shape, np.float32)
-        return _read(light, gains.astype(np.float32), noise, _SRGB)
-
-
-def _encoded() -> NDArray[np.uint8]:
-    """(TONES,) sRGB bytes of light from 0 to 1."""
-    return np.searchsorted(linear_light((np.arange(255) + 0.5) / 255), np.linspace(0, 1, TONES)).astype(np.uint8)
-
-
-_SRGB = _encoded()
+        return _read(light, gains.astype(np.float32), random.standard_normal(light.shape, np.float32))
 
 
 @njit(nogil=True, boundscheck=False)
-def _read(light: np.ndarray, gains: np.ndarray, noise: np.ndarray, srgb: np.ndarray) -> np.ndarray:
-    found = np.empty(light.shape, np.uint8)
-    top, shot, still = np.float32(TONES - 1), np.float32(SHOT_NOISE), np.float32(READ_NOISE**2)
+def _read(light: np.ndarray, gains: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    found = np.empty_like(light)
+    shot, still = np.float32(SHOT_NOISE), np.float32(READ_NOISE**2)
     for y in range(light.shape[0]):
         for x in range(light.shape[1]):
             for k in range(3):
                 value = light[y, x, k] * gains[k]
-                value += noise[y, x, k] * np.sqrt(shot * value + still)
-                found[y, x, k] = srgb[int(min(max(value, np.float32(0)), np.float32(1)) * top + np.float32(0.5))]
+                found[y, x, k] = value + noise[y, x, k] * np.sqrt(shot * value + still)
     return found

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.film import Codec, write_film
+from benchmarks.scan_studio.film import FilmFormat, write_film
 from benchmarks.scan_studio.path import BODY_SECONDS, HEAD_SECONDS, HandHeld
 from benchmarks.scan_studio.room import furnished_room
 from benchmarks.scan_studio.scene import SAMPLE_OFFSETS, Scene
@@ -30,7 +30,7 @@ class Order:
     """How many of "body" and of "head"; 0: it is not filmed."""
     size: tuple[int, int] = (360, 640)
     """(width, height) of the upright films, both even."""
-    codec: Codec = "h264"
+    film_format: FilmFormat = "h264"
     sway: float = USUAL_METRES
     """Metres that the subject's chest moves, at most; 0: nothing of it moves."""
     seed: int = 0
@@ -82,8 +82,8 @@ class Take:
         cameras = tuple(self.hand.cameras(moments))
         return FilmTruth(cameras, tuple(map(sway, moments.tolist())), self.sensor.gains(moments), moments)
 
-    def frames(self, scene: Scene) -> Iterator[NDArray[np.uint8]]:
-        """(H, W, 3) each."""
+    def frames(self, scene: Scene) -> Iterator[NDArray[np.float32]]:
+        """Linear light (H, W, 3) each, as the phone measures it."""
         sway, sensor, count = self.sway, self.sensor, len(SAMPLE_OFFSETS)
         spread = EXPOSURE_SECONDS * ((np.arange(count) + 0.5) / count - 0.5)
         within = self.moments[:, None] + spread
@@ -99,7 +99,7 @@ def film(subject: Subject, order: Order, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     scene = Scene(furnished_room(order.seed), subject)
     takes = [Take(name, subject, order) for name, count in order.frames.items() if count]
-    made = {"codec": order.codec, "sway": order.sway, "seed": order.seed, "frames": dict(order.frames)}
+    made = {"format": order.film_format, "sway": order.sway, "seed": order.seed, "frames": dict(order.frames)}
     write_truth(folder, Truth(subject, {take.name: take.truth() for take in takes}, made))
     for take in takes:
-        write_film(folder / f"{take.name}.mp4", take.frames(scene), order.size, order.codec)
+        write_film(folder / f"{take.name}.mp4", take.frames(scene), order.size, order.film_format)

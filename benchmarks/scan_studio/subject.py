@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,12 +53,12 @@ class Subject:
     template: bool = False
     """Whether the vertices are those of `engine.body.template`, in its order."""
 
-    @property
+    @cached_property
     def height(self) -> float:
         """Metres from the ground to the highest vertex that is drawn."""
         return float(self.vertices[np.unique(self.triangles), 1].max())
 
-    @property
+    @cached_property
     def head(self) -> NDArray[np.float64]:
         """(3,) metres: about the middle of the head."""
         drawn = self.vertices[np.unique(self.triangles)]

@@ -41,7 +41,7 @@ class Truth:
     films: Mapping[str, FilmTruth]
     """By name: "body", "head"."""
     made: Mapping[str, Any]
-    """How it was made: codec, sway, seed, frames."""
+    """How it was made: format, sway, seed, frames."""
 
     def vertices(self, film: str, frame: int) -> NDArray[np.float64]:
         """(V, 3) metres: the subject's vertices in the room as a frame shows them."""

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from benchmarks.scan_studio.film import Codec
-from benchmarks.scan_studio.scene import linear_light
+from benchmarks.scan_studio.developing import hlg_code
 from benchmarks.scan_studio.sensor import Sensor
 from benchmarks.scan_studio.studio import Order, film
 from benchmarks.scan_studio.subject import Subject
 from benchmarks.scan_studio.truth import read_truth
+from engine.media.tone_mapping import hlg_scene_light
 from engine.media.video import probe_video, read_video
 from engine.render.rasteriser import rasterise
 
@@ -81,22 +81,32 @@ def test_what_is_written_is_read_again(folder: Path, egg: Subject) -> None:
     np.testing.assert_array_equal(truth.subject.texture, egg.texture)
     np.testing.assert_array_equal(truth.subject.arms[1].weights, egg.arms[1].weights)
     np.testing.assert_array_equal(truth.subject.joints["Head"], egg.joints["Head"])
-    assert truth.made == {"codec": "h264", "sway": 0.03, "seed": 0, "frames": {"body": 8, "head": 5}}
+    assert truth.made == {"format": "h264", "sway": 0.03, "seed": 0, "frames": {"body": 8, "head": 5}}
     assert json.loads((folder / "truth.json").read_text())["height"] == pytest.approx(1.8)
 
 
-@pytest.mark.parametrize("codec", ["h264", "hevc"])
-def test_both_codecs_are_read_by_their_names(egg: Subject, tmp_path: Path, codec: Codec) -> None:
-    film(egg, Order({"body": 2, "head": 0}, SIZE, codec), tmp_path)
-    assert probe_video(tmp_path / "body.mp4").codec == codec
+def test_a_film_of_high_dynamic_range_shows_the_same_picture(folder: Path, egg: Subject, tmp_path: Path) -> None:
+    film(egg, Order({"body": 8, "head": 0}, SIZE, "hlg", sway=0.03), tmp_path)
+    told = probe_video(tmp_path / "body.mp4")
+    assert (told.codec, told.hdr) == ("hevc", "hlg")
     assert not (tmp_path / "head.mp4").exists()
+    wide, usual = (next(iter(read_video(path / "body.mp4"))).rgb.astype(int) for path in (tmp_path, folder))
+    below_the_knee = usual.max(-1) < 150  # what is brighter is rolled off when it is read
+    assert below_the_knee.mean() > 0.3
+    assert np.median(np.abs(wide - usual)[below_the_knee]) <= 4
+    assert np.abs((wide - usual)[below_the_knee].mean(0)).max() < 3
+
+
+def test_light_of_hlg_code_values_is_what_they_were_made_of() -> None:
+    light = np.linspace(0, 1, 101)
+    np.testing.assert_allclose(hlg_scene_light(hlg_code(light)), light, atol=1e-6)
 
 
 def test_the_sensor_reads_light_with_its_gain_and_its_noise() -> None:
     sensor = Sensor(80, 3)
     light = np.full((200, 200, 3), 0.3, np.float32)
     gains = sensor.gains(np.array([12.0]))[0]
-    values = linear_light(sensor.read(light, gains, 4) / 255)
+    values = sensor.read(light, gains, 4)
     np.testing.assert_allclose(values.mean((0, 1)), 0.3 * gains, rtol=2e-3)
     spread = np.sqrt(2.5e-4 * 0.3 * gains + 1.2e-3**2)
     np.testing.assert_allclose(values.std((0, 1)), spread, rtol=0.03)
