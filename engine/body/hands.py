@@ -58,7 +58,7 @@ def hand_model(template: Template, space: BodySpace, rig: Rig, side: Literal["Le
         means.append(space.mean[last] - FINGERTIP_DEPTH * along)
         bases.append(space.basis[:, last])
     places = np.stack(means)
-    bend, spread = _axes(places)
+    bend, spread = bending_axes(places)
     return HandModel(
         side,
         np.array(joints, np.intp),
@@ -74,7 +74,7 @@ def finger_landmarks(finger: str) -> list[int]:
     return [HAND_JOINTS.index(f"{finger}{k}") for k in (1, 2, 3, 4)]
 
 
-def _axes(places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def bending_axes(places: NDArray[np.floating]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Axes of bending (5, 3) and of spreading (3,) for the landmarks (21, 3) of a hand at rest.
 
     Fingers bend in the plane of their own direction and the palm's; the thumb bends to where the little finger begins.

@@ -74,6 +74,11 @@ def texel_raster(atlas: TextureAtlas, size: int) -> Raster:
     return rasterise(flat, atlas.corners, (size, size))
 
 
+def charts_of(atlas: TextureAtlas, texels: Raster) -> NDArray[np.int32]:
+    """(S, S) which chart each texel of `texel_raster` shows, -1 beside them."""
+    return np.where(texels.triangle >= 0, atlas.charts[texels.triangle], -1).astype(np.int32)
+
+
 def bake(
     vertices: NDArray[np.floating],
     triangles: NDArray[np.integer],
@@ -125,8 +130,7 @@ def bake(
             facing = (share * cosine[corners]).sum(1)
             _gather(pixels_seen, terms, where, facing, covered[here], sums, weights)
     np.divide(sums, weights[:, None], out=sums, where=weights[:, None] > 0)
-    charts = np.where(texels.triangle >= 0, atlas.charts[texels.triangle], -1).astype(np.int32)
-    return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts)
+    return BakedTexture(sums.reshape(size, size, 3), weights.reshape(size, size), charts_of(atlas, texels))
 
 
 def pad_charts(texture: NDArray, known: NDArray[np.bool_], charts: NDArray[np.int32]) -> NDArray:

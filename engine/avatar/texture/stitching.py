@@ -16,7 +16,8 @@ from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.errors import InputError
 from engine.geometry.surface import triangle_areas
-from engine.render.texture_bake import pad_charts, texel_raster
+from engine.render.rasteriser import Raster
+from engine.render.texture_bake import charts_of, texel_raster
 from engine.render.texture_fill import fill_over_surface
 
 TEXTURE_SIZE = 4096
@@ -24,13 +25,13 @@ TEXTURE_SIZE = 4096
 
 @dataclass(frozen=True)
 class StitchedTexture:
-    """`texture` (S, S, 3) uint8 sRGB, whole: padded beside its charts. `seen` (S, S) bool: texels whose colours a frame gave.
-    `charts` (S, S) int32: the chart of each texel, -1 beside them. `gains` (N, 3) of the frames. `labels` of the faces, and
-    `best`, by the frames that show each best, to compare with."""
+    """`texture` (S, S, 3) uint8 sRGB, whole but beside its charts. `seen` (S, S) bool: texels whose colours a frame gave.
+    `raster` (S, S): what each texel shows. `gains` (N, 3) of the frames. `labels` of the faces, and `best`, by the frames that
+    show each best, to compare with."""
 
     texture: NDArray[np.uint8]
     seen: NDArray[np.bool_]
-    charts: NDArray[np.int32]
+    raster: Raster
     gains: NDArray[np.float32]
     labels: FaceLabels
     best: FaceLabels
@@ -51,10 +52,7 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
             "person_unseen", "No frame shows the person: film again, all around, with the whole body in view."
         )
     raster = texel_raster(surface.atlas, size)
-    charts = np.where(raster.triangle >= 0, surface.atlas.charts[raster.triangle], -1).astype(np.int32)
     painted = paint(surface, raster, labels.labels, views, gains)
-    level_seams(painted, charts)
-    texture = painted.colours
-    fill_over_surface(texture, painted.known, raster, surface.vertices, surface.triangles)
-    del raster
-    return StitchedTexture(pad_charts(texture, charts >= 0, charts), painted.known, charts, gains, labels, best)
+    level_seams(painted, charts_of(surface.atlas, raster))
+    fill_over_surface(painted.colours, painted.known, raster, surface.vertices, surface.triangles)
+    return StitchedTexture(painted.colours, painted.known, raster, gains, labels, best)

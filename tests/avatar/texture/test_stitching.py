@@ -40,7 +40,7 @@ def drifting(ball: Ball, ball_cameras: list[Camera]) -> StitchedTexture:
 
 def test_what_was_seen_comes_back_in_the_mean_exposure(ball: Ball, drifting: StitchedTexture) -> None:
     away = np.abs(drifting.texture.astype(float) - known_colours(ball))[drifting.seen]
-    assert drifting.seen[drifting.charts >= 0].mean() > 0.97
+    assert drifting.seen[drifting.raster.triangle >= 0].mean() > 0.97
     assert away.mean() < 3 and np.quantile(away, 0.99) < 14
 
 
@@ -60,7 +60,7 @@ def test_what_no_frame_shows_is_filled_smoothly(ball: Ball) -> None:
         return np.repeat(128 + 60 * points[..., 1:2], 3, -1)
 
     found = stitch_texture(ball.surface, [ball.view(camera, grey) for camera in ring(8)], SIZE)
-    hole = (found.charts >= 0) & ~found.seen
+    hole = (found.raster.triangle >= 0) & ~found.seen
     places = interpolate(ball.surface.vertices, ball.surface.triangles, texel_raster(ball.surface.atlas, SIZE))
     assert (np.abs(places[hole][:, 1]) > 0.7).all() and hole.sum() > 500
     seen = found.texture[found.seen]

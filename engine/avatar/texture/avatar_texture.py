@@ -1,0 +1,57 @@
+"""The texture of an avatar: stitched from frames, with eyes, mouth and hands of the template's own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.texture.labels import UNSEEN, FaceLabels
+from engine.avatar.texture.stitching import TEXTURE_SIZE, stitch_texture
+from engine.avatar.texture.template_surface import TemplateSurface
+from engine.avatar.texture.template_texture.placing import place_eyes, place_hands, place_mouth
+from engine.avatar.texture.views import FrameView
+from engine.body.rig import Rig
+from engine.geometry.surface import triangle_areas
+from engine.render.texture_bake import charts_of, pad_charts
+
+
+@dataclass(frozen=True)
+class AvatarTexture:
+    """`texture` (S, S, 3) uint8 sRGB. `gains` (N, 3): what each frame's colours were multiplied by. `seen_share`: of the skin's
+    area, how much a frame shows. `eyes_seen`: whether the eyes have colours that frames show. `labels`: which frame each face
+    took, and `best` by which it is shown best."""
+
+    texture: NDArray[np.uint8]
+    gains: NDArray[np.float32]
+    seen_share: float
+    eyes_seen: bool
+    labels: FaceLabels
+    best: FaceLabels
+
+
+def avatar_texture(
+    surface: TemplateSurface,
+    rig: Rig,
+    vertices: NDArray[np.floating],
+    views: Sequence[FrameView],
+    size: int = TEXTURE_SIZE,
+) -> AvatarTexture:
+    """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
+    have them.
+
+    Raises InputError `person_unseen` where no frame shows the person.
+    """
+    fitted = surface.fitted(vertices)
+    found = stitch_texture(fitted, views, size)
+    place_hands(found.texture, found.seen, surface, found.raster, rig)
+    place_mouth(found.texture, surface, found.raster)
+    eyes_seen = place_eyes(found.texture, surface, vertices, views, found.gains)
+    areas = triangle_areas(fitted.vertices, fitted.triangles) * fitted.stitched
+    share = float(areas[found.labels.labels != UNSEEN].sum() / areas.sum())
+    charts = charts_of(surface.atlas, found.raster)
+    labels, best, gains, texture = found.labels, found.best, found.gains, found.texture
+    del found
+    return AvatarTexture(pad_charts(texture, charts >= 0, charts), gains, share, eyes_seen, labels, best)

@@ -1,0 +1,72 @@
+"""The template's visible parts as a surface to be textured, and which of its triangles are what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.mesh import AVATAR_PARTS
+from engine.avatar.texture.views import ChartedSurface
+from engine.body.rig import Rig
+from engine.body.template import Template
+from engine.geometry.surface import triangulate
+from engine.geometry.texture_atlas import TextureAtlas, atlas_from_uv
+
+SIDES: tuple[Literal["Left", "Right"], ...] = ("Left", "Right")
+MOUTH_REACH = 0.04
+"""Metres from the middle of the tongue, along each axis, within which the mouth's bag lies."""
+
+
+@dataclass(frozen=True)
+class TemplateSurface:
+    """The triangles (T, 3) of `AVATAR_PARTS`, the same for everybody, with `atlas` as they lie on the texture.
+
+    `part` (T,) int: which of `AVATAR_PARTS` each is of. `mouth` (T,) bool: the bag behind the lips. `hands`: of each side in
+    `SIDES`, (T,) bool. `rest` (V, 3): the template's vertices, in whose shape it is known where everything is.
+    """
+
+    triangles: NDArray[np.int32]
+    atlas: TextureAtlas
+    part: NDArray[np.intp]
+    mouth: NDArray[np.bool_]
+    hands: Mapping[Literal["Left", "Right"], NDArray[np.bool_]]
+    rest: NDArray[np.float64]
+
+    def fitted(self, vertices: NDArray[np.floating]) -> ChartedSurface:
+        """The surface of the person whose template vertices are (V, 3), metres: all of the body's skin but the mouth's bag is
+        stitched from frames."""
+        stitched = (self.part == AVATAR_PARTS.index("body")) & ~self.mouth
+        return ChartedSurface(np.asarray(vertices, np.float64), self.triangles, self.atlas, stitched)
+
+    def of(self, *parts: str) -> NDArray[np.bool_]:
+        """(T,) the triangles of the named parts."""
+        return np.isin(self.part, [AVATAR_PARTS.index(part) for part in parts])
+
+
+def template_surface(template: Template, rig: Rig) -> TemplateSurface:
+    """The surface of an avatar; `rig` is `engine.body.rig.HUMAN_RIG`'s, or another with Mixamo's names of hands."""
+    faces = template.faces(*AVATAR_PARTS)
+    triangles = triangulate(template.quads[faces])
+    atlas = atlas_from_uv(template.uv, triangulate(template.uv_quads[faces]))
+    sizes = [template.parts[part][1] - template.parts[part][0] for part in AVATAR_PARTS]
+    part = np.tile(np.arange(len(sizes)).repeat(sizes), 2)  # quads are halved: first halves, then second halves
+    rest = template.vertices.astype(np.float64)
+    body = part == AVATAR_PARTS.index("body")
+    bones = np.array(rig.names)[rig.bones[:, 0]]
+    of_hand = {side: np.array([name.startswith(f"{side}Hand") for name in bones.tolist()]) for side in SIDES}
+    hands = {side: body & _charts(atlas, np.all(moved[triangles], axis=1), body) for side, moved in of_hand.items()}
+    tongue = rest[template.vertices_of("tongue")].mean(0)
+    away = np.abs(rest[triangles].mean(1) - tongue).max(1)
+    return TemplateSurface(triangles, atlas, part, body & _charts(atlas, away < MOUTH_REACH, body), hands, rest)
+
+
+def _charts(atlas: TextureAtlas, inside: NDArray[np.bool_], among: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(T,) the charts of which most of the triangles `among` all are `inside`."""
+    count = int(atlas.charts.max()) + 1
+    number = np.bincount(atlas.charts[among], minlength=count)
+    within = np.bincount(atlas.charts[among & inside], minlength=count)
+    return (2 * within > number)[atlas.charts]

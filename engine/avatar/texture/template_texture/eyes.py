@@ -1,0 +1,131 @@
+"""The template's eyeballs, painted, and brought to the colours that frames show of the person's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.texture.views import ChartedSurface, FrameView
+from engine.imaging.histogram_matching import matched_in_lab, to_lab
+from engine.media.tone_mapping import srgb_code
+from engine.performances.modelling.eyes import EYEBALL_RADIUS, IRIS_RADIUS, PUPIL_RADIUS, colour_of_eye
+from engine.render.sampling import bilinear
+from engine.render.visibility import depth_buffer, seen_points
+
+SLACK = 5e-4
+"""Metres behind the surface at which a point of an eyeball still counts as seen: lids are thin."""
+BEST_VIEWS = 6
+"""Frames of an eye that are asked: those that have most pixels on its iris."""
+MIN_GAZE_COSINE = 0.85
+"""Of the angle between where an eye looks and the way to the camera."""
+IRIS_BAND, WHITE_BAND = (1.15 * PUPIL_RADIUS, 0.9 * IRIS_RADIUS), (1.15 * IRIS_RADIUS, 2.1 * IRIS_RADIUS)
+"""Metres from the axis of gaze between which samples are of the iris, and of the white; a pixel of the frame less."""
+MAX_MARGIN = 0.25 * IRIS_RADIUS
+"""Metres: the most that a pixel counts, so that something is left of an iris filmed from afar."""
+MIN_SAMPLES = 40
+"""Below which an eye's colours stay the template's."""
+WHITE_SHARE, WHITE_CHROMA = 0.5, 22.0
+"""Of the samples of the white, the lightest that count: the others are lids, lashes and their shadow; and the most chroma."""
+IRIS_TAILS = (0.15, 0.95)
+"""Quantiles of lightness between which samples of the iris count: lashes and the pupil are darker, highlights lighter."""
+
+
+@dataclass(frozen=True)
+class Eyeballs:
+    """Places on one of the template's eyeballs: `places` (N, 3) metres from its middle, looking along +z, scaled to the radius
+    of `engine.performances.modelling.eyes`; `triangles` (N,), `shares` (N, 3): where they lie on the surface."""
+
+    places: NDArray[np.float64]
+    triangles: NDArray[np.intp]
+    shares: NDArray[np.float32]
+
+    @property
+    def off_axis(self) -> NDArray[np.float64]:
+        """(N,) metres from the axis of gaze; behind the middle as far as a place can be."""
+        off = np.hypot(self.places[:, 0], self.places[:, 1])
+        return np.where(self.places[:, 2] > 0, off, EYEBALL_RADIUS)
+
+
+def painted_eyes(eyes: Eyeballs) -> NDArray[np.float32]:
+    """(N, 3) sRGB, 0 to 255, of eyeballs as they look from the front; the back is white."""
+    places = eyes.places.copy()
+    behind = places[:, 2] <= 0
+    away = np.maximum(np.hypot(places[:, 0], places[:, 1]), 1e-9)
+    places[behind, :2] *= (EYEBALL_RADIUS / away[behind])[:, None]
+    places[behind, 2] = 0
+    ahead = np.broadcast_to([0.0, 0.0, 1.0], places.shape)
+    albedo, _ = colour_of_eye(places, ahead)
+    return np.asarray(255 * srgb_code(np.clip(albedo, 0, 1)), np.float32)
+
+
+def persons_eyes(
+    colours: NDArray[np.float32], eyes: Eyeballs, iris: NDArray[np.floating], white: NDArray[np.floating]
+) -> NDArray[np.float32]:
+    """Painted eyeballs in a person's colours: `iris` (M, 3) and `white` (K, 3) are sRGB samples of frames. Pupils stay."""
+    off = eyes.off_axis
+    out = colours.copy()
+    on_iris, on_white = (off > PUPIL_RADIUS) & (off < IRIS_RADIUS), off >= IRIS_RADIUS
+    for where, reference in ((on_iris, iris), (on_white, white)):
+        if len(reference) >= MIN_SAMPLES:
+            out[where] = matched_in_lab(colours[where], reference)
+    # the rims of iris and pupil are soft: there the new colours come in by and by
+    soft = np.clip((off - PUPIL_RADIUS) / (0.15 * PUPIL_RADIUS), 0, 1)[:, None].astype(np.float32)
+    return np.where(on_iris[:, None], colours + soft * (out - colours), out).astype(np.float32)
+
+
+def eye_samples(
+    surface: ChartedSurface, eyes: Eyeballs, views: Sequence[FrameView], gains: NDArray[np.floating]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Colours (M, 3) of the iris and (K, 3) of the white, sRGB, that the frames show best; none where none shows any.
+
+    `surface`: the fitted person. `gains` (N, 3) of the views.
+    """
+    off = eyes.off_axis
+    corners = surface.vertices[surface.triangles[eyes.triangles]]
+    points = np.einsum("nk,nkd->nd", eyes.shares, corners)
+    pupil = points[np.argsort(off)[: max(len(off) // 50, 1)]].mean(0)
+    gaze = pupil - points.mean(0)
+    gaze /= np.linalg.norm(gaze)
+    ranked = sorted(((_pixels(view, pupil, gaze), n) for n, view in enumerate(views)), reverse=True)
+    iris, white = [np.zeros((0, 3), np.float32)], [np.zeros((0, 3), np.float32)]
+    for fineness, n in ranked[:BEST_VIEWS]:
+        if fineness <= 0:
+            break
+        camera = views[n].camera
+        pixels = camera.project(points)
+        seen = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels, SLACK)
+        colours = np.clip(bilinear(views[n].picture(), pixels) * gains[n], 0, 255).astype(np.float32)
+        margin = min(1 / fineness, MAX_MARGIN)
+        iris.append(colours[seen & (off > IRIS_BAND[0]) & (off < IRIS_BAND[1] - margin)])
+        white.append(colours[seen & (off > WHITE_BAND[0] + margin) & (off < WHITE_BAND[1])])
+    return _middle(np.concatenate(iris)), _lightest(np.concatenate(white))
+
+
+def _pixels(view: FrameView, pupil: NDArray[np.float64], gaze: NDArray[np.float64]) -> float:
+    """Pixels a metre that a frame has on an eye, seen from the front; 0 where it does not look into it."""
+    back = np.array(view.camera.eye) - pupil
+    cosine = float(back @ gaze / np.linalg.norm(back))
+    x, y, away = view.camera.project(pupil[None])[0]
+    height, width = view.camera.size
+    if cosine < MIN_GAZE_COSINE or not (away > 0 and 0 <= x < width and 0 <= y < height):
+        return 0.0
+    return cosine * view.camera.focal / float(away)
+
+
+def _middle(colours: NDArray[np.float32]) -> NDArray[np.float32]:
+    if not len(colours):
+        return colours
+    lightness = to_lab(colours)[:, 0]
+    low, high = np.quantile(lightness, IRIS_TAILS)
+    return colours[(lightness >= low) & (lightness <= high)]
+
+
+def _lightest(colours: NDArray[np.float32]) -> NDArray[np.float32]:
+    if not len(colours):
+        return colours
+    lab = to_lab(colours)
+    light = lab[:, 0] >= np.quantile(lab[:, 0], 1 - WHITE_SHARE)
+    return colours[light & (np.hypot(lab[:, 1], lab[:, 2]) < WHITE_CHROMA)]

@@ -1,0 +1,135 @@
+"""The template's own texture: an iris about a pupil, crowns and gums, nails on the backs of fingertips."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from engine.avatar.mesh import AVATAR_PARTS
+from engine.avatar.texture.template_surface import TemplateSurface, template_surface
+from engine.avatar.texture.template_texture.eyes import Eyeballs, painted_eyes, persons_eyes
+from engine.avatar.texture.template_texture.hands import hand_bones, painted_hand, past_wrist
+from engine.avatar.texture.template_texture.mouth import painted_lining, painted_teeth, painted_tongue
+from engine.avatar.texture.template_texture.part_texels import PartTexels
+from engine.body.rig import HUMAN_RIG, Rig
+from engine.body.template import load_rig, load_template
+from engine.performances.modelling.eyes import EYEBALL_RADIUS
+from engine.render.texture_bake import texel_raster
+
+
+@pytest.fixture(scope="module")
+def rig() -> Rig:
+    return load_rig(HUMAN_RIG)
+
+
+@pytest.fixture(scope="module")
+def surface(rig: Rig) -> TemplateSurface:
+    return template_surface(load_template(), rig)
+
+
+def eyeball(count: int = 4000) -> Eyeballs:
+    """Places all over a ball."""
+    places = np.random.default_rng(0).normal(size=(count, 3))
+    places *= EYEBALL_RADIUS / np.linalg.norm(places, axis=1, keepdims=True)
+    return Eyeballs(places, np.zeros(count, np.intp), np.zeros((count, 3), np.float32))
+
+
+def test_the_surface_knows_its_parts(surface: TemplateSurface) -> None:
+    assert {part: int(surface.of(part).sum()) for part in AVATAR_PARTS} == {
+        "body": 26756,
+        "left_eye": 140,
+        "right_eye": 140,
+        "upper_teeth": 96,
+        "lower_teeth": 96,
+        "tongue": 448,
+    }
+    middles = surface.rest[surface.triangles].mean(1)
+    assert (middles[surface.hands["Left"], 0] > 0.35).all() and (middles[surface.hands["Right"], 0] < -0.35).all()
+    mouth = middles[surface.mouth]
+    assert len(mouth) > 500 and (np.abs(mouth - [0, 0.66, 0.1]) < 0.06).all()
+    stitched = surface.fitted(surface.rest).stitched
+    assert not stitched[surface.mouth].any() and stitched[surface.hands["Left"]].all()
+
+
+def test_an_eye_is_black_then_coloured_then_white() -> None:
+    eyes = eyeball()
+    lightness, off = painted_eyes(eyes).mean(1), eyes.off_axis
+    pupil, iris, white = off < 0.0015, (off > 0.0028) & (off < 0.0045), off > 0.007
+    assert lightness[pupil].max() < 40 < lightness[iris].mean() < 120 < lightness[white].min()
+
+
+def test_a_persons_eyes_have_their_colours_and_keep_the_pupil() -> None:
+    eyes = eyeball()
+    painted = painted_eyes(eyes)
+    random = np.random.default_rng(1)
+    blue, white = random.normal((90, 120, 170), 6, (200, 3)), random.normal((190, 185, 180), 4, (200, 3))
+    found, off = persons_eyes(painted, eyes, blue, white), eyes.off_axis
+    np.testing.assert_array_equal(found[off < 0.002], painted[off < 0.002])
+    np.testing.assert_allclose(found[(off > 0.0027) & (off < 0.0054)].mean(0), (90, 120, 170), atol=6)
+    np.testing.assert_allclose(found[off > 0.0058].mean(0), (190, 185, 180), atol=3)
+    np.testing.assert_array_equal(persons_eyes(painted, eyes, blue[:5], white[:5]), painted)
+
+
+def test_teeth_are_light_at_their_edges_and_gum_at_their_roots(surface: TemplateSurface) -> None:
+    for part, upper in (("upper_teeth", True), ("lower_teeth", False)):
+        places = surface.rest[surface.triangles[surface.of(part)]].mean(1)
+        colours = painted_teeth(places, upper)
+        height = (places[:, 1] - places[:, 1].min()) / np.ptp(places[:, 1])
+        at_edge = height < 0.3 if upper else height > 0.7
+        at_root = height > 0.85 if upper else height < 0.15
+        assert at_edge.any() and at_root.any()
+        assert colours[at_edge].mean(1).min() > 120
+        assert (colours[at_root, 0] > 1.5 * colours[at_root, 1]).all()
+
+
+def test_the_mouth_is_red_and_darkens_inwards(surface: TemplateSurface) -> None:
+    for part, paint in ((surface.of("tongue"), painted_tongue), (surface.mouth, painted_lining)):
+        places = surface.rest[surface.triangles[part]].mean(1)
+        colours = paint(places)
+        assert (colours[:, 0] > colours[:, 1]).all()
+        front, back = places[:, 2] > np.quantile(places[:, 2], 0.8), places[:, 2] < np.quantile(places[:, 2], 0.2)
+        assert colours[front].mean() > 1.4 * colours[back].mean()
+
+
+@pytest.mark.parametrize("side", ["Left", "Right"])
+def test_nails_lie_on_the_backs_of_fingertips(surface: TemplateSurface, rig: Rig, side: str) -> None:
+    bones = hand_bones(rig, surface.rest, "Left" if side == "Left" else "Right")
+    assert len(bones.phalanges) == 15
+    tips = [bone for bone in bones.phalanges if bone.number == 3]
+    middles = np.stack([bone.start + 0.75 * (bone.end - bone.start) for bone in tips])
+    backs = np.stack([bone.back for bone in tips])
+
+    def redness(places: NDArray, normals: NDArray) -> NDArray:
+        colours = painted_hand(bones, places, normals)
+        return np.asarray(colours[:, 0] - colours[:, 1])
+
+    beside = np.concatenate([middles + 0.004 * backs, middles - 0.004 * backs])
+    found = redness(beside, np.concatenate([backs, -backs]))
+    assert (found[:5] < found[5:] - 4).all()
+
+
+def test_backs_of_hands_look_up_and_out_as_the_arms_hang(surface: TemplateSurface, rig: Rig) -> None:
+    left, right = (hand_bones(rig, surface.rest, side) for side in ("Left", "Right"))
+    np.testing.assert_allclose(left.back * [-1, 1, 1], right.back, atol=1e-3)
+    hand = surface.rest[surface.triangles[surface.hands["Left"]]].mean(1)
+    assert (past_wrist(left, hand, 0.03) == 1).mean() > 0.8
+    elbow = rig.joints(surface.rest)[0][rig.index("LeftForeArm")]
+    assert past_wrist(left, elbow[None], 0.03) == 0
+
+
+def test_fine_texels_are_the_same_texels_more_often(surface: TemplateSurface) -> None:
+    raster = texel_raster(surface.atlas, 1024)
+    part = surface.of("left_eye")
+    coarse, fine = PartTexels.of(raster, part), PartTexels.fine(surface.atlas, part, 1024)
+    assert np.isin(coarse.texels, fine.texels).all()
+    inner = coarse.texels[np.isin(coarse.texels + 1, coarse.texels) & np.isin(coarse.texels - 1, coarse.texels)]
+    places = [each.blend(surface.rest, surface.triangles) for each in (coarse, fine)]
+    for texel in inner[:: len(inner) // 20]:
+        mean = places[1][fine.texels == texel].mean(0)
+        np.testing.assert_allclose(mean, places[0][coarse.texels == texel][0], atol=5e-4)
+    texture = np.zeros((1024, 1024, 3), np.uint8)
+    fine.put(texture, np.full((len(fine.texels), 3), 77.0))
+    assert (texture.reshape(-1, 3)[coarse.texels] == 77).all() and (texture == 77).any(2).sum() < 1.4 * len(
+        coarse.texels
+    )
