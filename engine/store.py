@@ -12,7 +12,7 @@ import shutil
 import tempfile
 import time
 import zipfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from pathlib import Path
@@ -74,11 +74,13 @@ class StageStore:
             return None
 
     def save(self, key: str, output: T, notices: Sequence[Notice] = (), kind: Any = None) -> T:
-        """Store a dataclass of arrays, numbers, strings, tuples, files and further such dataclasses.
+        """Store a dataclass of arrays, numbers, strings, tuples, files, further such dataclasses, and mappings from names to these.
 
         Files (`Path`) are moved into the store. Returns what `load` would, of type `kind` (by default the output's), but for
         the arrays, which are not read again: those of a long clip would be there twice.
         """
+        if isinstance(output, Mapping) and kind is None:
+            raise TypeError("a mapping alone cannot be stored without its type: what it holds is not told by it")
         self.folder.mkdir(parents=True, exist_ok=True)
         draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=self.folder))
         try:
@@ -140,6 +142,8 @@ def _pack(value: Any, name: str, arrays: dict[str, np.ndarray], folder: Path) ->
         return {f.name: _pack(getattr(value, f.name), f"{name}.{f.name}", arrays, folder) for f in fields(value)}
     if isinstance(value, tuple | list):
         return [_pack(item, f"{name}.{i}", arrays, folder) for i, item in enumerate(value)]
+    if isinstance(value, Mapping) and all(isinstance(key, str) for key in value):
+        return {key: _pack(item, f"{name}.{key}", arrays, folder) for key, item in value.items()}
     if isinstance(value, np.generic):
         return value.item()
     if value is None or isinstance(value, str | int | float | bool):
@@ -163,6 +167,8 @@ def _unpack(kind: Any, value: Any, arrays: dict[str, np.ndarray], folder: Path, 
         return origin(
             _unpack(k, v, arrays, folder, f"{name}.{i}") for i, (k, v) in enumerate(zip(kinds, value, strict=True))
         )
+    if origin in (dict, Mapping):
+        return {k: _unpack(get_args(kind)[1], v, arrays, folder, f"{name}.{k}") for k, v in value.items()}
     if is_dataclass(kind):
         hints = get_type_hints(kind)
         return kind(**{k: _unpack(hints[k], v, arrays, folder, f"{name}.{k}") for k, v in value.items()})  # type: ignore[operator]

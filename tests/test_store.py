@@ -6,6 +6,7 @@ import json
 import os
 import threading
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -66,6 +67,26 @@ def test_what_goes_in_comes_out(store: StageStore, tmp_path: Path) -> None:
     assert found.nothing is None
     np.testing.assert_array_equal(found.several[0].points, given.inner.points)
     assert found.file.read_bytes() == b"\xff\xd8 pictures"
+
+
+@dataclass(frozen=True)
+class Named:
+    places: Mapping[str, NDArray[np.float64]]
+    parts: Mapping[str, Inner]
+    empty: Mapping[str, int]
+
+
+def test_what_has_names_comes_out_under_them(store: StageStore) -> None:
+    given = Named({"left": np.arange(3.0), "right": np.zeros(0)}, {"a": Inner(np.ones((1, 2), np.float32), "one")}, {})
+    store.save("key", given)
+    kept = store.load("key", Named)
+    assert kept is not None
+    found = kept[1]
+    assert list(found.places) == ["left", "right"]
+    np.testing.assert_array_equal(found.places["left"], [0, 1, 2])
+    assert found.places["right"].shape == (0,)
+    assert found.parts["a"].name == "one" and found.parts["a"].points.shape == (1, 2)
+    assert found.empty == {}
 
 
 @pytest.mark.parametrize(
