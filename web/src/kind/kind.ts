@@ -102,6 +102,10 @@ export interface Kind<Wanted extends Order = Order> {
     /** What a link opens unless it is to open everything. */
     readonly opened: RegExp;
   };
+  /** Kinds whose jobs look into a file on behalf of this one: what they find is shown with that file, not as a work. */
+  readonly inspections: readonly string[];
+  /** Files, by what they are to an order, as they are named while they are sent. */
+  readonly files: Names;
   /** How files of its inputs usually end, for examples. */
   readonly endings: Names;
 }

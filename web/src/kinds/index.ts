@@ -8,8 +8,7 @@ import { portrait } from './portrait';
 
 const all: Kinds['all'] = [portrait, character];
 
-/** Kinds whose jobs look into a file on behalf of the page: what they find is shown with that file, not as a work. */
-const inspections: readonly string[] = ['moments', 'motion'];
+const inspections: readonly string[] = all.flatMap((kind) => kind.inspections);
 
 const of = (name: string): Kind => all.find((kind) => kind.name === name) ?? genericKind(name);
 

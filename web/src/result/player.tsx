@@ -9,7 +9,7 @@ import { Transport } from './transport';
 interface Props {
   /** What the whole is called, and what the result shows. */
   label?: string;
-  alt?: string;
+  alt: string;
   result: string;
   poster: string | undefined;
   driver: string | null;
@@ -69,7 +69,7 @@ export function Player(props: Props) {
             muted={muted}
             playsInline
             preload="auto"
-            aria-label={props.alt ?? strings.job.resultAlt}
+            aria-label={props.alt}
             onLoadedMetadata={(event) => {
               const video = event.currentTarget;
               setTotal(video.duration);

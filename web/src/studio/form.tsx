@@ -48,7 +48,7 @@ export function StudioForm({ kind, title, lead, demo, sending, missing, order, l
         {demo}
       </header>
       {children}
-      <Launch sending={sending} missing={missing} chosen={order && kind.namesOf(order())} label={label} />
+      <Launch kind={kind} sending={sending} missing={missing} chosen={order && kind.namesOf(order())} label={label} />
     </form>
   );
 }

@@ -1,6 +1,6 @@
 /** The end of a form that orders something: what an earlier page left, what went wrong, how far it is, or the button. */
 
-import type { OrderNames } from '../kind/kind';
+import type { Kind, OrderNames } from '../kind/kind';
 import { useKinds } from '../kind/kinds';
 import type { useSending } from '../sending/use_sending';
 import { strings } from '../language/strings';
@@ -11,6 +11,7 @@ import { ProblemAlert } from '../widgets/problem_alert';
 const words = strings.studio;
 
 interface Props {
+  kind: Kind;
   sending: ReturnType<typeof useSending>;
   /** What is still to be chosen; empty where nothing is. */
   missing: string;
@@ -19,7 +20,7 @@ interface Props {
   label: string;
 }
 
-export function Launch({ sending, missing, chosen, label }: Props) {
+export function Launch({ kind, sending, missing, chosen, label }: Props) {
   const kinds = useKinds();
   const { waiting } = sending;
   const left = waiting && kinds.of(waiting.kind).namesOf(waiting);
@@ -46,7 +47,7 @@ export function Launch({ sending, missing, chosen, label }: Props) {
         </ProblemAlert>
       )}
       {sending.step ? (
-        <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
+        <SendingBar files={kind.files} step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
       ) : (
         <SubmitRow
           hint={missing || (chosen ? words.chosen(chosen.picture, chosen.performance) : '')}

@@ -1,23 +1,26 @@
 /** How much of an order has been sent; it can be halted, taken up again, and given up. */
 
 import { percent } from '../language/format';
+import type { Names } from '../kind/kind';
 import type { Sending } from '../sending/order';
 import { plain, strings } from '../language/strings';
 
 const words = strings.studio;
 
 interface Props {
+  /** Files, by what they are to the order; others are named as the order names them. */
+  files: Names;
   step: Sending;
   paused: boolean;
   onPause: (on: boolean) => void;
   onStop: () => void;
 }
 
-export function SendingBar({ step, paused, onPause, onStop }: Props) {
+export function SendingBar({ files, step, paused, onPause, onStop }: Props) {
   const ordering = step.step === 'ordering';
   const label = ordering
     ? words.ordering
-    : (paused ? words.pausedAt : words.uploading)(words.uploaded[step.part] ?? plain(step.part).toLowerCase(), percent(step.fraction));
+    : (paused ? words.pausedAt : words.uploading)(files[step.part] ?? plain(step.part).toLowerCase(), percent(step.fraction));
   return (
     <div class="sending">
       <label>

@@ -5,6 +5,7 @@ import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { later } from '../widgets/lazy';
 import { ProblemAlert } from '../widgets/problem_alert';
 import { strings } from '../language/strings';
+import { words } from './words';
 import { useSkeletonLines, useSurroundings, useWideView } from './scene/surroundings';
 import { OrbitView } from './orbit/orbit_view';
 import { peopleOf, standTogether, type HasArtifacts } from './artifacts/people';
@@ -16,10 +17,9 @@ import { Tool } from '../picture_editor/tools';
 import { mayHaveView, type PictureView, viewOf } from './artifacts/picture_view';
 import { WallView } from './wall/wall_view';
 import { type PersonChoice, PersonSelect } from './person_select';
-import '../styles/viewer.css';
+import './viewer.css';
 
 const ArDialog = later(() => import('./ar/ar_dialog'));
-const words = strings.viewer;
 
 type Mode = 'wall' | 'look' | 'pose' | 'film';
 

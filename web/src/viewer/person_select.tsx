@@ -1,9 +1,7 @@
 /** Which of the people who were woken is meant, or all of them. */
 
-import { strings } from '../language/strings';
+import { words } from './words';
 import type { CharacterFiles } from './artifacts/people';
-
-const words = strings.viewer;
 
 /** The place in their row. */
 export type PersonChoice = number | 'all';

@@ -25,6 +25,16 @@ describe('the list of kinds', () => {
     expect(kinds.offered(['character'])).toHaveLength(1);
   });
 
+  it('has each say which kinds look into files for it, and none of these is a work', () => {
+    expect(kinds.all.map(({ inspections }) => inspections)).toEqual([['moments'], ['motion']]);
+    expect(kinds.offered(kinds.all.flatMap(({ inspections }) => inspections))).toEqual([]);
+  });
+
+  it('has each name what is sent for an order', () => {
+    expect(kinds.of('portrait').files).toMatchObject({ portrait: 'the portrait', video: 'the video' });
+    expect(kinds.of('character').files).toMatchObject({ photo: 'the picture', labels: 'the body parts' });
+  });
+
   it('is told apart by the same loaders each time, so that nothing is drawn anew', () => {
     expect(kinds.of('tiny').loadStudio).toBe(kinds.of('tiny').loadStudio);
   });

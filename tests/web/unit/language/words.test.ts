@@ -14,8 +14,21 @@ const files = readdirSync(source, { recursive: true, encoding: 'utf8' })
   .map((name) => name.replaceAll('\\', '/'))
   .filter((name) => WORDS.test(name));
 
-it('looks at the words of the page and of its kinds', () => {
-  expect(files).toEqual(expect.arrayContaining(['language/words/en.ts', 'kinds/character/words/en.ts']));
+it('looks at the words of the page, of its kinds and of the viewer', () => {
+  const folders = ['language', 'kinds/character', 'kinds/portrait', 'viewer'];
+  expect(files).toEqual(expect.arrayContaining(folders.map((folder) => `${folder}/words/en.ts`)));
+});
+
+it('has no section that one kind alone uses among the words that all share', () => {
+  const shared = files.filter((name) => name.startsWith('language/'));
+  const used = new Set(shared.flatMap((name) => [...readFileSync(resolve(source, name), 'utf8').matchAll(/^ {2}(\w+): \{$/gm)].map(([, section]) => section!)));
+  const sources = readdirSync(source, { recursive: true, encoding: 'utf8' }).filter((name) => /\.tsx?$/.test(name) && !shared.includes(name));
+  const rooms = (section: string): string[] =>
+    sources
+      .filter((name) => new RegExp(`strings\\.${section}\\b`).test(readFileSync(resolve(source, name), 'utf8')))
+      .map((name) => /^kinds\/(?!generic)\w+/.exec(name)?.[0] ?? 'all');
+  const ofOne = [...used].filter((section) => new Set(rooms(section)).size === 1 && !rooms(section).includes('all'));
+  expect(ofOne).toEqual([]);
 });
 
 it.each(files)('has no name of the program among the words of %s', (name) => {

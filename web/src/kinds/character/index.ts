@@ -40,5 +40,7 @@ export const character: Kind<CharacterOrder> = {
     // what hangs their picture on a wall, too, empty once they have stepped out of it
     opened: /^(animation\..+|poster\.jpg|character(-\d+)?\.(glb|usdz)|skeleton\.json|background\.png)$/,
   },
+  inspections: ['motion'],
+  files: words.files,
   endings: { photo: 'jpg', motion: 'bvh' },
 };

@@ -39,5 +39,7 @@ export const genericKind = (name: string): Kind<GenericOrder> => ({
     downloads: [],
     opened: MEDIA,
   },
+  inspections: [],
+  files: {},
   endings: {},
 });

@@ -2,7 +2,7 @@
 
 import '@google/model-viewer';
 import { useEffect, useRef } from 'preact/hooks';
-import '../../styles/viewer.css';
+import '../../viewer/viewer.css';
 
 export default function Model({ url, alt }: { url: string; alt: string }) {
   const place = useRef<HTMLDivElement>(null);

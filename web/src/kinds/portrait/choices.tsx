@@ -58,7 +58,7 @@ export function FoldedChoices(props: Props) {
 
 export function ChoiceFields({ value, mayHaveSound, onChange }: Props) {
   const strength = useId();
-  const words = strings.studio;
+  const words = portraitWords.studio;
   const toggle = (part: Part, on: boolean): void =>
     onChange({ ...value, follow: parts.filter((p) => (p === part ? on : value.follow.includes(p))) });
 

@@ -7,7 +7,7 @@ import { asProblem } from '../../api/loading';
 import { driverName } from './drivers';
 import type { Sending } from '../../sending/order';
 import { usePausing } from '../../sending/pausing';
-import { strings } from '../../language/strings';
+import { words as portraitWords } from './words';
 import { GIVEN_UP, uploadFile } from '../../api/upload';
 import { SendingBar } from '../../studio/sending_bar';
 import { ProblemAlert } from '../../widgets/problem_alert';
@@ -23,7 +23,7 @@ interface Props {
   onKept: (name: string | null) => void;
 }
 
-const words = strings.studio;
+const words = portraitWords.studio;
 
 export function KeepDriver({ file, taken, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
@@ -62,7 +62,7 @@ export function KeepDriver({ file, taken, disabled, onKeeping, onKept }: Props) 
   return (
     <div class="keep">
       {step ? (
-        <SendingBar step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
+        <SendingBar files={portraitWords.files} step={step} paused={paused} onPause={pause} onStop={() => stopper.current?.abort(GIVEN_UP)} />
       ) : (
         <button type="button" class="button" disabled={disabled} onClick={() => void keep()}>
           {words.keep}

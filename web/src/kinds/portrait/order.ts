@@ -4,7 +4,8 @@ import type { JobRequest } from '../../api';
 import type { PortraitOptions } from './types';
 import { randomKey } from '../../api/idempotency';
 import { fileTitle } from '../../language/format';
-import { plain, strings } from '../../language/strings';
+import { words as portraitWords } from './words';
+import { plain } from '../../language/strings';
 import type { Order, OrderNames, Upload } from '../../kind/kind';
 import { AUTO } from './drivers';
 
@@ -26,11 +27,11 @@ export const portraitOrder = (portrait: File, performance: Performance, options:
 function performanceOf(performance: Performance): string {
   switch (performance.by) {
     case 'name':
-      return performance.name === AUTO ? strings.studio.auto : plain(performance.name);
+      return performance.name === AUTO ? portraitWords.studio.auto : plain(performance.name);
     case 'file':
       return fileTitle(performance.file);
     case 'reactive':
-      return strings.studio.reactive;
+      return portraitWords.studio.reactive;
   }
 }
 

@@ -9,7 +9,7 @@ import { isFileId } from '../../works/inputs';
 import { useKind } from '../../kind/kinds';
 import { pictureName } from '../../works/names';
 import { jobLink } from '../../route';
-import { strings } from '../../language/strings';
+import { words as portraitWords } from './words';
 import { labelOf } from './performance_card';
 import { ProblemAlert } from '../../widgets/problem_alert';
 
@@ -40,7 +40,7 @@ export function OtherMoods({ job }: { job: Job }) {
     });
   return (
     <section class="moods" aria-labelledby="moods-title">
-      <h2 id="moods-title">{strings.job.moods}</h2>
+      <h2 id="moods-title">{portraitWords.result.moods}</h2>
       <div>
         {offered.map((driver) => (
           <button key={driver.name} type="button" class="card" disabled={doing} onClick={() => void make(driver)}>

@@ -3,9 +3,10 @@
 import { useState } from 'preact/hooks';
 import type { Driver, Moment } from '../../api';
 import { momentName } from './drivers';
-import { plain, strings } from '../../language/strings';
+import { words as portraitWords } from './words';
+import { plain } from '../../language/strings';
 
-const words = strings.studio;
+const words = portraitWords.studio;
 
 /** Drawings of what has no picture: paths in a square of 48. */
 export const symbols = {

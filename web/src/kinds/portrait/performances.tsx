@@ -5,7 +5,8 @@ import { deleteDriver, type Driver, renameDriver } from '../../api';
 import { isVideo, videoTypes } from '../../studio/media_types';
 import { AUTO, ofDriver } from './drivers';
 import type { Performance } from './order';
-import { plain, strings } from '../../language/strings';
+import { words as portraitWords } from './words';
+import { plain } from '../../language/strings';
 import { Capture } from '../../studio/capture';
 import { Card, shownOf, SymbolCard, symbols } from './performance_card';
 import { Dropzone } from '../../widgets/dropzone';
@@ -30,7 +31,7 @@ interface Props {
 const STRENGTHS = ['normal', 'strong'] as const;
 type Strength = (typeof STRENGTHS)[number];
 
-const words = strings.studio;
+const words = portraitWords.studio;
 
 export function Performances({ drivers, chosen, onChoose, refused, onRefused, sending, onKeeping, onKept }: Props) {
   const [strength, setStrength] = useState<Strength>('normal');

@@ -1,10 +1,10 @@
 /** A reactive portrait, alive: it answers the pointer, and buttons lead it from state to state. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { strings } from '../../language/strings';
+import { words as portraitWords } from './words';
 import { ProblemAlert } from '../../widgets/problem_alert';
 
-const words = strings.job;
+const words = portraitWords.result;
 
 /** What of the component the page uses; `web/reactive` makes it. */
 interface ReactivePortrait extends HTMLElement {
@@ -65,7 +65,7 @@ export function ReactivePlayer({ profile, poster }: Props) {
               aria-pressed={one === state}
               onClick={() => portrait.current?.play(one)}
             >
-              {(strings.studio.states as Record<string, string>)[one] ?? one}
+              {(portraitWords.studio.states as Record<string, string>)[one] ?? one}
             </button>
           ))}
         </div>

@@ -6,13 +6,15 @@ import { size } from '../../language/format';
 import { useLoaded } from '../../api/loading';
 import type { ResultProps } from '../../kind/kind';
 import { performanceUrl } from './drivers';
+import { words as portraitWords } from './words';
 import { strings } from '../../language/strings';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { ReactivePlayer } from './reactive_player';
 import { OtherMoods } from './other_moods';
 import { Player } from '../../result/player';
+import './styles/result.css';
 
-const words = strings.job;
+const words = portraitWords.result;
 
 /** The animation, where it has a format that browsers show: a video or a moving picture, not a zip of frames. */
 function animation(job: Job): [string, Artifact] | null {
@@ -40,7 +42,7 @@ export default function PortraitResult({ job }: ResultProps) {
       <ResultActions job={job} filesOpen={!found}>
         {main && (
           <a class="button primary" href={main[1].url} download={main[0]}>
-            {profile ? words.downloadProfile : words.download} <small>{size(main[1].size)}</small>
+            {profile ? words.downloadProfile : strings.job.download} <small>{size(main[1].size)}</small>
           </a>
         )}
       </ResultActions>
@@ -55,13 +57,14 @@ function Animation({ job, artifact, chosen }: { job: Job; artifact: Artifact; ch
   if (artifact.content_type.startsWith('image/')) {
     return (
       <figure class="still">
-        <img src={artifact.url} alt={words.resultAlt} />
+        <img src={artifact.url} alt={words.alt} />
       </figure>
     );
   }
   return (
     <Player
       result={artifact.url}
+      alt={words.alt}
       poster={job.artifacts['poster.jpg']?.url}
       driver={performanceUrl(job, chosen)}
       chosen={chosen}

@@ -21,7 +21,7 @@ import { samples } from './samples';
 import { useSending } from '../../sending/use_sending';
 import { strings } from '../../language/strings';
 
-const words = strings.studio;
+const words = portraitWords.studio;
 
 /** How often drivers that are being searched for moments are looked at. */
 const SEARCH_POLL_MS = 2000;
@@ -77,7 +77,7 @@ export default function PortraitStudio({ kind }: StudioProps) {
   }, refusePortrait);
 
   const hasSound = performance?.by === 'file';
-  const wrong = refused.portrait ? words.wrongPicture : refused.video ? words.wrongVideo : null;
+  const wrong = refused.portrait ? strings.studio.wrongPicture : refused.video ? words.wrongVideo : null;
   const needed = wrong ?? (!portrait ? words.needPortrait : !performance ? words.needPerformance : '');
   const missing = keeping ? words.keepingFirst : needed;
   const order =

@@ -1,4 +1,4 @@
-/** Every word of the page, in English, but for those in the folders of the kinds. Another language is another file beside this one, named by its tag. */
+/** Every word of the page, in English, but for those in the folders of the kinds and of the viewer. Another language is another file beside this one, named by its tag. */
 
 import { failures } from './en/failures';
 import { generic } from './en/generic';
@@ -6,7 +6,6 @@ import { history } from './en/history';
 import { integrators } from './en/integrators';
 import { job } from './en/job';
 import { studio } from './en/studio';
-import { viewer } from './en/viewer';
 
 const english = {
   name: 'Galatea',
@@ -47,7 +46,6 @@ const english = {
 
   ...studio,
   ...generic,
-  ...viewer,
   ...job,
   ...history,
   ...integrators,

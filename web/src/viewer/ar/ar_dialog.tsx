@@ -8,11 +8,10 @@ import { ProblemAlert } from '../../widgets/problem_alert';
 import { Dialog } from '../../widgets/dialog';
 import { useLoaded } from '../../api/loading';
 import { strings } from '../../language/strings';
+import { words } from '../words';
 import { IN_PLACE, PICTURED } from '../scene/character';
 import { peopleOf, type HasArtifacts } from '../artifacts/people';
 import { PersonSelect } from '../person_select';
-
-const words = strings.viewer;
 
 const said = { loading: words.loading, ready: words.spaceHint, flat: words.spaceNone, failed: '' };
 

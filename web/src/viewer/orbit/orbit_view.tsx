@@ -4,15 +4,14 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { Box3, Vector3 } from 'three';
 import { Transport } from '../../result/transport';
-import { plain, strings } from '../../language/strings';
+import { plain } from '../../language/strings';
+import { words } from '../words';
 import { type Character, IN_PLACE } from '../scene/character';
 import { placeOf } from '../posing/inverse_kinematics';
 import { Playback } from './playback';
 import type { Stage } from '../scene/stage';
 import type { StagedCharacter } from '../scene/staging';
 import { Tool } from '../../picture_editor/tools';
-
-const words = strings.viewer;
 /** Metres from the joints to the outline of the body. */
 const FLESH = 0.16;
 /** At how many moments of a clip it is seen what room it takes: jumps go up, arms are raised. */

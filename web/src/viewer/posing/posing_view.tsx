@@ -4,15 +4,13 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { begun, type History, type Step, step } from '../../picture_editor/history';
 import { HistoryTools, historyKey, Tool } from '../../picture_editor/tools';
-import { strings } from '../../language/strings';
+import { words } from '../words';
 import { turnable } from './handles';
 import { resetView } from '../orbit/orbit_view';
 import { type Degrees, type Pose, rounded } from './pose';
 import { PoseEditor } from './pose_editor';
 import type { Stage } from '../scene/stage';
 import type { StagedCharacter } from '../scene/staging';
-
-const words = strings.viewer;
 const axes = [0, 1, 2] as const;
 
 /** Another pose; where it belongs to the gesture before, both are undone as one. */

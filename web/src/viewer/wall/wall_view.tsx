@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 import { Vector3 } from 'three';
 import { PlayButton } from '../../result/transport';
-import { strings } from '../../language/strings';
+import { words } from '../words';
 import { Emergence } from './emergence';
 import { hang } from './hanging';
 import { prefersStillness } from '../orbit/orbit_view';
@@ -17,8 +17,6 @@ import { StepOut } from './step_out';
 import { Tool } from '../../picture_editor/tools';
 import type { PictureView } from '../artifacts/picture_view';
 import { VisitorCamera } from './visitor_camera';
-
-const words = strings.viewer;
 /** Metres from the picture at which one enters with a headset. */
 const BEFORE = 3;
 /** Radians: nobody gets behind the wall or under the floor. */

@@ -23,7 +23,7 @@ import { useRevision } from './use_revision';
 import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from '../joints/skeleton';
 import { words as characterWords } from '../words';
 import '../../../styles/corrections.css';
-import '../../../styles/character.css';
+import '../styles/character.css';
 
 const JointEditor = later(() => import('../joints/joint_editor'));
 const BoxEditor = later(() => import('../people/box_editor'));
@@ -173,7 +173,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
       )}
       <div class="launch">
         {sending.step ? (
-          <SendingBar step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
+          <SendingBar files={characterWords.files} step={sending.step} paused={sending.paused} onPause={sending.pause} onStop={sending.stop} />
         ) : (
           <SubmitRow hint={again ? '' : strings.redo.unchanged} disabled={sending.busy || !again} label={strings.redo.send} />
         )}

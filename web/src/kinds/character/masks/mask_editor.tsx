@@ -12,7 +12,7 @@ import { bodyParts } from '../choices';
 import { MaskOverlay } from './mask_overlay';
 import { type LabelStroke, type MaskStroke, partColours, radii, simplified } from './strokes';
 import { words as characterWords } from '../words';
-import '../../../styles/mask_editor.css';
+import '../styles/mask_editor.css';
 
 const words = characterWords.painter;
 

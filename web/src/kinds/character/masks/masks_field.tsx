@@ -11,7 +11,7 @@ import type { RevisionDraft } from '../corrections/changes';
 import { type MaskFault, faultOf, type Painted, previewOf, sizeOf } from './mask_file';
 import { MaskOverlay } from './mask_overlay';
 import { words as characterWords } from '../words';
-import '../../../styles/mask_editor.css';
+import '../styles/mask_editor.css';
 
 const MaskEditor = later(() => import('./mask_editor'));
 const words = characterWords.correct;

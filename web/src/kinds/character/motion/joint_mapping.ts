@@ -1,7 +1,7 @@
 /** Which joint of a motion's file moves which of a character's: as it was found, and as it is wanted. */
 
 import type { MotionDetails, MotionJoints } from '../types';
-import { strings } from '../../../language/strings';
+import { words as viewerWords } from '../../../viewer/words';
 import { words as characterWords } from '../words';
 
 const sides = ['Left', 'Right'] as const;
@@ -58,7 +58,7 @@ export function commonPrefix(names: readonly string[]): string {
 
 /** `Left upper arm`; `Left index finger, 2`. */
 export function jointName(joint: string): string {
-  const { bones } = strings.viewer;
+  const { bones } = viewerWords;
   const [, side, finger, number] = /^(Left|Right)Hand(\D+)(\d)$/.exec(joint) ?? [];
   if (!side || !finger) return bones[joint] ?? joint;
   return characterWords.motionJoints.finger(characterWords.joints[side === 'Left' ? 'left' : 'right'](characterWords.motionJoints.fingers[finger] ?? finger), number ?? '');

@@ -8,7 +8,7 @@ import { strings } from '../../../language/strings';
 import { detailsOf, keyOf, type OwnMotion } from './motion_details';
 import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './joint_mapping';
 import { words as characterWords } from '../words';
-import '../../../styles/joint_mapping.css';
+import '../styles/joint_mapping.css';
 
 const words = characterWords.motionJoints;
 const inHands: readonly Group[] = ['leftFingers', 'rightFingers'];

@@ -12,7 +12,7 @@ import { plain } from '../../../language/strings';
 import { JointMappingPanel } from './joint_mapping_panel';
 import { MotionDropzone } from './motion_dropzone';
 import { words as characterWords } from '../words';
-import '../../../styles/motions.css';
+import '../styles/motions.css';
 
 const words = characterWords.character;
 

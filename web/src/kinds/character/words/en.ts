@@ -85,6 +85,9 @@ const english = {
     back_texture: 'back',
   } satisfies Record<keyof (CharacterOptions & CharacterCorrections) | 'photo', string>,
 
+  /** Files, by what they are to an order. */
+  files: { photo: 'the picture', motion: 'the motion', mask: 'the mask', labels: 'the body parts' },
+
   character: {
     title: 'Let a person walk out of their picture',
     lead: 'Choose a full-body picture and a motion. The person becomes a rigged 3D character and steps out of the picture.',

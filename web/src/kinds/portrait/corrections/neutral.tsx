@@ -3,9 +3,9 @@
 import { useEffect, useId, useRef } from 'preact/hooks';
 import type { PortraitReport } from '../types';
 import { count } from '../../../language/format';
-import { strings } from '../../../language/strings';
+import { words as portraitWords } from '../words';
 
-const words = strings.redo;
+const words = portraitWords.corrections;
 
 interface Props {
   video: string | null;

@@ -18,6 +18,7 @@ import { isFileId } from '../../../works/inputs';
 import { mayRepeat } from '../../../result/next_step';
 import { AUTO, performanceUrl } from '../drivers';
 import { jobLink } from '../../../route';
+import { words as portraitWords } from '../words';
 import { strings } from '../../../language/strings';
 import { revisionOptions, sameFrames, type RevisionDraft, draftOf } from './changes';
 import { NeutralFrame } from './neutral';
@@ -27,7 +28,7 @@ import { FaceChoice } from './picture';
 import '../../../styles/corrections.css';
 
 const LandmarkEditor = later(() => import('../landmarks/landmark_editor'));
-const words = strings.redo;
+const words = portraitWords.corrections;
 const crops = ['none', 'bust', 'face'] as const;
 
 export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
@@ -162,7 +163,7 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
         {!made.reactive && <FormatField value={draft.format} onChange={(format) => wish({ format })} />}
       </section>
       <div class="launch">
-        <SubmitRow hint={again ? '' : words.unchanged} disabled={sending || !again} label={words.send} />
+        <SubmitRow hint={again ? '' : strings.redo.unchanged} disabled={sending || !again} label={strings.redo.send} />
       </div>
       {editing && picture && (
         <LandmarkEditor

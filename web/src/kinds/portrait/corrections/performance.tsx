@@ -1,10 +1,10 @@
 /** Which part of the performance is used, and whose of those who are seen in it. */
 
 import { useId } from 'preact/hooks';
-import { strings } from '../../../language/strings';
+import { words as portraitWords } from '../words';
 import type { RevisionDraft } from './changes';
 
-const words = strings.redo;
+const words = portraitWords.corrections;
 /** Seconds that a part has, at least. */
 const SHORTEST = 0.1;
 

@@ -3,9 +3,9 @@
 import type { PortraitReport } from '../types';
 import { BoxedPicture, type SizedPicture } from '../../../widgets/boxed_picture';
 import { lines, type Points } from '../landmarks/scheme';
-import { strings } from '../../../language/strings';
+import { words as portraitWords } from '../words';
 
-const words = strings.redo;
+const words = portraitWords.corrections;
 
 interface Props {
   picture: SizedPicture;

@@ -6,13 +6,13 @@ import { EditorDialog } from '../../../picture_editor/editor_dialog';
 import { boxAround, middle, moved, resized } from '../../../picture_editor/transforms';
 import { Tool } from '../../../picture_editor/tools';
 import { around } from '../../../picture_editor/view';
-import { strings } from '../../../language/strings';
+import { words as portraitWords } from '../words';
 import { type Selection, shares } from './moving';
 import { type Feature, features, membersOf, type Points } from './scheme';
 import { LandmarkStage } from './landmark_stage';
 import { facePlaced } from './template';
 
-const words = strings.landmarks;
+const words = portraitWords.landmarks;
 
 /** How far one press of a key moves, as a share of the picture's longer side. */
 const NUDGE = 1 / 600;
