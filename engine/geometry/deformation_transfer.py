@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from engine.geometry.handles import HeldSystem, handles
-from engine.geometry.surface import triangle_areas
+from engine.geometry.surface import area_vectors, triangle_areas
 
 MIN_SINE = 1e-6
 """Twice a triangle's area as a share of its longest edge squared; one with less says nothing of how it is deformed."""
@@ -112,8 +112,9 @@ def deformation_gradients(
     normal, as long as the root of twice the area, to the normal (Sumner and Popovic, section 3)."""
     frames = []
     for vertices in (rest, deformed):
-        a, b, c = (np.asarray(vertices, np.float64)[triangles[:, k]] for k in range(3))
-        normal = np.cross(b - a, c - a)
+        places = np.asarray(vertices, np.float64)
+        a, b, c = (places[triangles[:, k]] for k in range(3))
+        normal = area_vectors(places, triangles)
         length = np.linalg.norm(normal, axis=1, keepdims=True)
         frames.append(np.stack([b - a, c - a, normal / np.sqrt(np.maximum(length, 1e-300))], 2))
     return np.asarray(frames[1] @ np.linalg.inv(frames[0]))
@@ -122,7 +123,7 @@ def deformation_gradients(
 def _gradients(vertices: NDArray[np.float64], triangles: NDArray[np.intp]) -> tuple[sp.csr_array, NDArray[np.float64]]:
     """(3 T, V) sparse: the gradient in each triangle of a function that is linear there; and the areas (T,)."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    normal = np.cross(b - a, c - a)
+    normal = area_vectors(vertices, triangles)
     squared = (normal**2).sum(1, keepdims=True)
     slopes = np.stack([np.cross(normal, side) / squared for side in (c - b, a - c, b - a)], 2)  # (T, 3, corner)
     rows = np.arange(3 * len(triangles)).repeat(3)

@@ -17,9 +17,23 @@ def triangulate(quads: NDArray[np.integer]) -> NDArray[np.int32]:
     return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32)
 
 
+def area_vectors(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
+    """(T, 3) normals of the triangles, each as long as twice its area, in the vertices' precision."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.asarray(np.cross(b - a, c - a))
+
+
+def summed_at_corners(values: NDArray[np.floating], triangles: NDArray[np.integer], count: int) -> NDArray[np.float64]:
+    """(count, C) float64: of each vertex, the sum of the `values` (T, C) of its triangles. Of area vectors that is its normal,
+    triangles weighted by their areas, in full precision."""
+    corners = triangles.ravel()
+    columns = [np.bincount(corners, column.repeat(3), minlength=count) for column in values.T]
+    return np.stack(columns, 1).astype(np.float64)
+
+
 def triangle_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
     """(T,) area of each triangle, in the vertices' precision and the square of their unit."""
-    return np.asarray(np.linalg.norm(_doubled_areas(vertices, triangles), axis=1) / 2)
+    return np.asarray(np.linalg.norm(area_vectors(vertices, triangles), axis=1) / 2)
 
 
 def vertex_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
@@ -30,7 +44,7 @@ def vertex_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer])
 
 def face_normals(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
     """(T, 3) unit normals of the triangles, in the vertices' precision; zero for those without area."""
-    doubled = _doubled_areas(vertices, triangles)
+    doubled = area_vectors(vertices, triangles)
     length = np.linalg.norm(doubled, axis=1, keepdims=True)
     return np.asarray(doubled / np.where(length > 0, length, 1))
 
@@ -53,12 +67,6 @@ def chart_tangents(
         np.ascontiguousarray(chart, np.float32),
         np.ascontiguousarray(triangles, np.int32),
     )
-
-
-def _doubled_areas(vertices: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.floating]:
-    """(T, 3) normals as long as twice the area of their triangles."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return np.asarray(np.cross(b - a, c - a))
 
 
 @njit()

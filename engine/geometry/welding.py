@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.geometry.surface import area_vectors, summed_at_corners
 
 
 def weld(mesh: SkinnedMesh) -> NDArray[np.int32]:
@@ -41,15 +42,8 @@ def seamless_normals(mesh: SkinnedMesh, points: NDArray[np.int32] | None = None)
     `points`: as `weld` has them, by default of this mesh. A vertex without area about it gets (0, 1, 0), since file formats ask for unit normals.
     """
     point = weld(mesh) if points is None else points
-    a, b, c = (mesh.vertices[mesh.triangles[:, k]].astype(np.float64) for k in range(3))
-    areas = np.cross(b - a, c - a)
-    sums = np.stack(
-        [
-            np.bincount(point[mesh.triangles].ravel(), areas[:, axis].repeat(3), minlength=int(point.max()) + 1)
-            for axis in range(3)
-        ],
-        1,
-    )
+    areas = area_vectors(mesh.vertices.astype(np.float64), mesh.triangles)
+    sums = summed_at_corners(areas, point[mesh.triangles], int(point.max()) + 1)
     lengths = np.linalg.norm(sums, axis=1, keepdims=True)
     normals = np.where(lengths > 1e-20, sums / np.maximum(lengths, 1e-20), [0.0, 1.0, 0.0])
     return normals[point].astype(np.float32)

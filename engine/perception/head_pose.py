@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.geometry.camera import Camera
 from engine.package_data import package_data
 from engine.perception.landmarks import RIGID_VERTICES, fiducials
 
@@ -51,17 +52,16 @@ def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
     chosen = list(RIGID_VERTICES)
     model, seen = canonical_face()[chosen].astype(float), mesh[chosen, :2].astype(float)
     focal = FOCAL_LENGTH_SIDES * max(size)
-    camera = np.array([[focal, 0, (size[0] - 1) / 2], [0, focal, (size[1] - 1) / 2], [0, 0, 1.0]])
+    x, y = (size[0] - 1) / 2, (size[1] - 1) / 2
+    lens = Camera((0.0, 0.0, 0.0), focal, (x, y), size[::-1]).intrinsics
     unit = float(np.linalg.norm(mesh[[33, 133], :2].mean(axis=0) - mesh[[263, 362], :2].mean(axis=0)))
-    start = np.array([[seen[:, 0].mean() - camera[0, 2]], [seen[:, 1].mean() - camera[1, 2]], [focal]]) / max(
-        unit, 1e-6
-    )
+    start = np.array([[seen[:, 0].mean() - x], [seen[:, 1].mean() - y], [focal]]) / max(unit, 1e-6)
     _, rotation, shift = cv2.solvePnP(
-        model, seen, camera, np.zeros(4), np.zeros((3, 1)), start, useExtrinsicGuess=True, flags=cv2.SOLVEPNP_ITERATIVE
+        model, seen, lens, np.zeros(4), np.zeros((3, 1)), start, useExtrinsicGuess=True, flags=cv2.SOLVEPNP_ITERATIVE
     )
-    back, _ = cv2.projectPoints(model, rotation, shift, camera, np.zeros(4))
-    error = float(np.sqrt(((back[:, 0] - seen) ** 2).sum(axis=1).mean())) / max(unit, 1e-6)
     r = cv2.Rodrigues(rotation)[0]
+    back = Camera.of_matrices(lens, r, shift[:, 0], size[::-1]).project(model, np.float64)[:, :2]
+    error = float(np.sqrt(((back - seen) ** 2).sum(axis=1).mean())) / max(unit, 1e-6)
     forward = -r[:, 2]
     # a face is frontal when it looks back along the ray on which it is seen, not along the camera's axis
     ray_yaw, ray_pitch = np.arctan2(shift[0, 0], shift[2, 0]), np.arctan2(shift[1, 0], shift[2, 0])

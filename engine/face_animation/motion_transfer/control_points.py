@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour
 from engine.geometry.rigid import Similarity
+from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, LEFT_IRIS, MESH_SIZE, RIGHT_IRIS, eye_distance
@@ -93,13 +94,11 @@ def place_control_points(mesh: NDArray[np.floating], person: NDArray[np.floating
 def facing(mesh: NDArray[np.floating]) -> NDArray[np.bool_]:
     """(478,) whether each vertex of a mesh (478, 3) faces the viewer by more than `MIN_VIEW_COSINE`."""
     triangles = delaunay(canonical_face()[:468, :2])
-    corners = mesh[triangles].astype(float)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = area_vectors(mesh.astype(float), triangles)
     rest = canonical_face()[triangles].astype(float)
     a, b = rest[:, 1] - rest[:, 0], rest[:, 2] - rest[:, 0]
     front = np.sign(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    total = np.zeros((MESH_SIZE, 3))
-    np.add.at(total, triangles.ravel(), np.repeat(normal * front[:, None], 3, axis=0))
+    total = summed_at_corners(normal * front[:, None], triangles, MESH_SIZE)
     length = np.linalg.norm(total, axis=1)
     return np.asarray((total[:, 2] > MIN_VIEW_COSINE * length) | (length == 0))
 

@@ -19,7 +19,6 @@ from numba import prange
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.geometry.camera import Camera
 from engine.performances.modelling.actor import Actor, Scene, stage
 from engine.performances.modelling.figure import Pose
 from engine.performances.rendering.studio import (
@@ -31,7 +30,8 @@ from engine.performances.rendering.studio import (
     finish,
     parts_seen,
 )
-from engine.render.rasteriser import Raster, rasterise
+from engine.render.attributes import interpolate
+from engine.render.rasteriser import rasterise
 
 MAX_KEY_FRAME_DISTANCE = 14
 """Frames between two key frames at most."""
@@ -97,7 +97,8 @@ def carry(
     parts = parts_seen(scene, raster)
     light, weight = np.zeros((*camera.size, 3), np.float32), np.zeros(camera.size, np.float32)
     for key, factor in ((first, 1 - share), (last, share)):
-        _look_up(key, scene, raster, camera, factor, light, weight)
+        pixels = camera.project(interpolate(key.scene.vertices, scene.triangles, raster))
+        _look_up(key, _ScenePoints(parts, pixels), factor, light, weight)
     covered, known = parts >= 0, weight > MIN_COVERAGE
     if int((covered & ~known).sum()) > MAX_UNSEEN_PIXELS * (samples / SAMPLES_PER_SIDE) ** 2:
         return None
@@ -109,70 +110,48 @@ def carry(
 
 
 def _look_up(
-    key: Exposure, scene: Scene, raster: Raster, camera: Camera, factor: float,
-    light: NDArray[np.float32], weight: NDArray[np.float32],
-) -> None:  # fmt: skip
+    key: Exposure, points: _ScenePoints, factor: float, light: NDArray[np.float32], weight: NDArray[np.float32]
+) -> None:
     """Add to `light` (H, W, 3) and `weight` (H, W) what a key frame shows of each visible point, times `factor`."""
-    place = np.array([*camera.eye, camera.focal, *camera.centre], np.float32)
-    points = _ScenePoints(raster.triangle, raster.barycentrics, scene.triangles, scene.part)
-    shown = _KeyFrame(key.scene.vertices, key.radiance, key.raster.depth, key.parts)
-    _reproject(points, shown, place, np.array([factor, SAME_SURFACE], np.float32), light, weight)
+    shown = _KeyFrame(key.radiance, key.raster.depth, key.parts)
+    _gather(points, shown, np.array([factor, SAME_SURFACE], np.float32), light, weight)
 
 
 class _ScenePoints(NamedTuple):
-    """The visible point of each pixel (H, W): its triangle and barycentric coordinates; the scene's triangles and their parts."""
+    """The visible point of each pixel: its part (H, W), -1 where nothing is, and where a key frame's camera sees it, (H, W, 3)
+    as `Camera.project` gives it."""
 
-    ids: np.ndarray
-    shares: np.ndarray
-    triangles: np.ndarray
-    part: np.ndarray
+    parts: np.ndarray
+    pixels: np.ndarray
 
 
 class _KeyFrame(NamedTuple):
-    """A key frame: where the scene's vertices are in it, and each pixel's radiance, depth and part."""
+    """A key frame: each pixel's radiance, depth and part."""
 
-    vertices: np.ndarray
     radiance: np.ndarray
     depth: np.ndarray
     parts: np.ndarray
 
 
 @njit(parallel=True, error_model="numpy")
-def _reproject(
-    points: _ScenePoints,
-    key: _KeyFrame,
-    place: np.ndarray,
-    terms: np.ndarray,
-    light: np.ndarray,
-    weight: np.ndarray,
-) -> None:
-    ids, shares, triangles, part = points
-    vertices, radiance, depth, parts = key
-    height, width = ids.shape
-    ex, ey, ez, focal, cx, cy = place
+def _gather(points: _ScenePoints, key: _KeyFrame, terms: np.ndarray, light: np.ndarray, weight: np.ndarray) -> None:
+    own, pixels = points
+    radiance, depth, parts = key
+    height, width = own.shape
     factor, tolerance = terms
     one = np.float32(1)
     for y in prange(height):
         for x in range(width):
-            t = ids[y, x]
-            if t < 0:
+            if own[y, x] < 0:
                 continue
-            px, py, pz = np.float32(0), np.float32(0), np.float32(0)
-            for k in range(3):
-                v = triangles[t, k]
-                px += shares[y, x, k] * vertices[v, 0]
-                py += shares[y, x, k] * vertices[v, 1]
-                pz += shares[y, x, k] * vertices[v, 2]
-            distance = ez - pz
-            u = focal * (px - ex) / distance + cx
-            w = focal * (ey - py) / distance + cy
+            u, w, distance = pixels[y, x, 0], pixels[y, x, 1], pixels[y, x, 2]
             left, top = int(np.floor(u)), int(np.floor(w))
             if left < 0 or top < 0 or left + 1 >= width or top + 1 >= height:
                 continue
             for j in range(2):
                 for i in range(2):
                     row, column = top + j, left + i
-                    if parts[row, column] != part[t] or abs(depth[row, column] - distance) > tolerance:
+                    if parts[row, column] != own[y, x] or abs(depth[row, column] - distance) > tolerance:
                         continue
                     near = factor * (one - abs(u - np.float32(column))) * (one - abs(w - np.float32(row)))
                     weight[y, x] += near
