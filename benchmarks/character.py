@@ -83,9 +83,9 @@ def _to_glb(report: Mapping[str, Any]) -> float:
 
 def _person(photo: Path, options: CharacterOptions, kept: StageStore) -> Person:
     """Whoever was woken, from the stages that were kept."""
-    run = Run(store=kept)
-    figures, silhouettes = cut_all_out(find_figures(photo, options, run), None, options, run)
-    return reconstruct(figures[0], silhouettes[0], None, options, run)
+    with Run(store=kept) as run:
+        figures, silhouettes = cut_all_out(find_figures(photo, options, run), None, options, run)
+        return reconstruct(figures[0], silhouettes[0], None, options, run)
 
 
 def _revisions(options: CharacterOptions, skeleton: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -266,8 +266,8 @@ def test_of_all_the_largest_stays_if_too_little_of_them_is_seen(couple: Path, tm
     picture[lowered:, :width] = picture[:-lowered, :width].copy()
     picture[:lowered, :width] = picture[2, 2]
     write_image(tmp_path / "cut.png", picture)
-    run = Run()
-    figures = find_figures(tmp_path / "cut.png", CharacterOptions(person_index="all"), run)
+    with Run() as run:
+        figures = find_figures(tmp_path / "cut.png", CharacterOptions(person_index="all"), run)
     assert [figure.index for figure in figures] == [1]
     assert [notice.code for notice in run.notices] == ["person_left_out"]
 
@@ -276,22 +276,23 @@ def test_of_all_whoever_cannot_be_cut_out_stays(couple: Path) -> None:
     """The second is nowhere to be seen in the picture's own alpha."""
     first, second = found(couple, Choice(index=0)), found(couple, Choice(index=1))
     hidden = replace(second, alpha=np.zeros(second.rgb.shape[:2], np.float32))
-    everybody, run = CharacterOptions(person_index="all"), Run()
-    figures, silhouettes = cut_all_out([first, hidden], None, everybody, run)
+    everybody = CharacterOptions(person_index="all")
+    with Run() as run:
+        figures, silhouettes = cut_all_out([first, hidden], None, everybody, run)
     assert [figure.index for figure in figures] == [0] and len(silhouettes) == 1
     assert [notice.code for notice in run.notices] == ["person_left_out"]
     assert "Person 2" in run.notices[0].message
     for none in ([hidden], [hidden, hidden]):
-        with pytest.raises(InputError) as refused:
-            cut_all_out(none, None, everybody, Run())
+        with pytest.raises(InputError) as refused, Run() as run:
+            cut_all_out(none, None, everybody, run)
         assert refused.value.code == "no_person"
 
 
 @pytest.mark.parametrize("kind", ["mask", "labels"])
 def test_one_file_cannot_be_the_outline_of_all(couple: Path, tmp_path: Path, kind: str) -> None:
     write_image(tmp_path / "file.png", np.zeros((8, 8, 3), np.uint8))
-    with pytest.raises(InputError) as refused:
-        wake_up({"photo": couple, kind: tmp_path / "file.png"}, CharacterOptions(person_index="all"), tmp_path, Run())
+    with pytest.raises(InputError) as refused, Run() as run:
+        wake_up({"photo": couple, kind: tmp_path / "file.png"}, CharacterOptions(person_index="all"), tmp_path, run)
     assert refused.value.code == "one_outline_for_all"
 
 

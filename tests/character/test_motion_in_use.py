@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -27,8 +28,9 @@ Frame Time: 0.5
 
 
 @pytest.fixture
-def run() -> Run:
-    return Run()
+def run() -> Iterator[Run]:
+    with Run() as run:
+        yield run
 
 
 def turning(folder: Path, frames: int) -> Path:

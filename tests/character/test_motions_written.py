@@ -44,7 +44,8 @@ def chosen(character: Character, name: str, kept: tuple[str, ...] = (), fps: flo
 @pytest.fixture(scope="module")
 def glb(character: Character, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("written") / "character.glb"
-    write_small_glb(path, character.mesh, chosen(character, "bow").all, Run())
+    with Run() as run:
+        write_small_glb(path, character.mesh, chosen(character, "bow").all, run)
     return path
 
 

@@ -265,10 +265,11 @@ def comes_out(woken: Woken, side: str) -> None:
 
 @pytest.mark.parametrize(("name", "hidden"), [("man_green_coat.png", True), ("iper_apose_1.jpg", False)])
 def test_the_report_tells_of_a_hand_that_is_made_up(name: str, hidden: bool, media: Callable[[str], Path]) -> None:
-    run, options = Run(), CharacterOptions()
-    (figure,) = find_figures(media(f"fullbody/{name}"), options, run)
-    (figure,), (silhouette,) = cut_all_out([figure], None, options, run)
-    reconstruct(figure, silhouette, None, options, run)
+    options = CharacterOptions()
+    with Run() as run:
+        (figure,) = find_figures(media(f"fullbody/{name}"), options, run)
+        (figure,), (silhouette,) = cut_all_out([figure], None, options, run)
+        reconstruct(figure, silhouette, None, options, run)
     assert ("hand_in_pocket" in [notice.code for notice in run.notices]) == hidden
 
 

@@ -30,8 +30,8 @@ def noisy(height: int, width: int) -> SkinnedMesh:
     ],
 )
 def test_a_texture_of_noise_is_made_to_fit(tmp_path: Path, height: int, width: int, warned: str | None) -> None:
-    run = Run()
-    write_small_glb(tmp_path / "character.glb", noisy(height, width), (), run)
+    with Run() as run:
+        write_small_glb(tmp_path / "character.glb", noisy(height, width), (), run)
     assert (tmp_path / "character.glb").stat().st_size <= MOST_BYTES
     assert [notice.code for notice in run.notices] == ["texture_reduced"] * (warned is not None)
     assert all(warned is not None and warned in notice.message for notice in run.notices)
@@ -40,8 +40,8 @@ def test_a_texture_of_noise_is_made_to_fit(tmp_path: Path, height: int, width: i
 def test_a_surface_that_is_too_large_by_itself_is_told_of(tmp_path: Path) -> None:
     mesh = template_character(texture_size=64)
     heavy = replace(mesh, triangles=np.tile(mesh.triangles, (80, 1)))
-    run = Run()
-    write_small_glb(tmp_path / "character.glb", heavy, (), run)
+    with Run() as run:
+        write_small_glb(tmp_path / "character.glb", heavy, (), run)
     assert (tmp_path / "character.glb").stat().st_size > MOST_BYTES
     assert [notice.code for notice in run.notices] == ["glb_too_large"]
 
@@ -55,7 +55,7 @@ def test_a_cancel_is_heard_before_each_try(tmp_path: Path, heard: int) -> None:
         asked.append(None)
         return len(asked) == heard
 
-    with pytest.raises(Canceled):
-        write_small_glb(tmp_path / "character.glb", noisy(4096, 4096), (), Run(canceled=canceled))
+    with pytest.raises(Canceled), Run(canceled=canceled) as run:
+        write_small_glb(tmp_path / "character.glb", noisy(4096, 4096), (), run)
     assert len(asked) == heard <= TEXTURE_REDUCTIONS.index((2, 90)) + 1
     assert not list(tmp_path.iterdir())

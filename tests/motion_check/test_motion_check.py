@@ -74,11 +74,12 @@ def test_one_of_several_animations_is_chosen(media: Callable[[str], Path], tmp_p
     soldier = media("scans3d/body_soldier/soldier.glb")
     told = {}
     for clip in (None, "Run", "Walk"):
-        KIND.work({"motion": soldier}, MotionOptions(motion_clip=clip), tmp_path, Run())
+        with Run() as run:
+            KIND.work({"motion": soldier}, MotionOptions(motion_clip=clip), tmp_path, run)
         told[clip] = json.loads((tmp_path / "motion.json").read_text())
         assert told[clip]["clips"] == ["Idle", "Run", "TPose", "Walk"]
     assert told[None]["frames"] == len(read_gltf_motion(soldier, "Idle").rotations)
     assert len({document["seconds"] for document in told.values()}) == 3
-    with pytest.raises(InputError) as error:
-        KIND.work({"motion": soldier}, MotionOptions(motion_clip="Swim"), tmp_path, Run())
+    with pytest.raises(InputError) as error, Run() as run:
+        KIND.work({"motion": soldier}, MotionOptions(motion_clip="Swim"), tmp_path, run)
     assert (error.value.code, error.value.correctable) == ("motion_clip_unknown", KIND.correctable[1:])

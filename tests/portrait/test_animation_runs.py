@@ -90,8 +90,10 @@ def test_a_bad_choice_leaves_no_animation(woman, driver, tmp_path: Path) -> None
 @pytest.mark.parametrize("stage", ["separate_layers", "track_driver", "animate"])
 def test_a_canceled_run_stops_and_leaves_no_animation(woman, driver, tmp_path: Path, stage: str) -> None:
     reached: list[str] = []
-    run = Run(on_progress=lambda p: reached.append(p.stage), canceled=lambda: stage in reached)
-    with pytest.raises(Canceled), run:
+    with (
+        pytest.raises(Canceled),
+        Run(on_progress=lambda p: reached.append(p.stage), canceled=lambda: stage in reached) as run,
+    ):
         animate_portrait({"image": woman, "driver": driver}, PortraitOptions(trim=(1.9, 2.3)), tmp_path, run)
     assert reached[-1] == stage
     assert not [p for p in tmp_path.iterdir() if "animation" in p.name]

@@ -145,11 +145,11 @@ def test_a_driver_that_cannot_be_used_is_passed_over(tmp_path: Path) -> None:
     rgb = moment("idle", 0)
     size = (rgb.shape[1], rgb.shape[0])
     target = TargetFace(rgb, None, find_faces(rgb)[0], np.zeros((1, 4), np.float32), size, np.eye(2, 3))
-    run = Run()
-    chosen = choose_driver(target, Candidates({"broken": broken, "blank": blank, "idle": video("idle")}), run)
+    with Run() as run:
+        chosen = choose_driver(target, Candidates({"broken": broken, "blank": blank, "idle": video("idle")}), run)
     assert chosen.name == "idle" and set(chosen.scores) == {"idle"}
     assert [notice.code for notice in run.notices] == ["driver_passed_over"] * 2
-    with pytest.raises(InputError, match="None of the drivers"):
+    with pytest.raises(InputError, match="None of the drivers"), Run() as run:
         choose_driver(target, Candidates({"blank": blank}), run)
 
 

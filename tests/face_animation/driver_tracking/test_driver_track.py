@@ -86,8 +86,8 @@ def test_crops_show_the_face_in_its_place_and_are_small(track: FaceTrack, frames
 def test_an_analysis_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
     stored = []
     for _ in range(2):
-        run = Run(store=StageStore(tmp_path))
-        stored.append(run.stage("track_driver", track_driver, Excerpt(whole), 0, run.tick, run.warn))
+        with Run(store=StageStore(tmp_path)) as run:
+            stored.append(run.stage("track_driver", track_driver, Excerpt(whole), 0, run.tick, run.warn))
     fresh = track_driver(Excerpt(whole))
     assert run.reused == ["track_driver"]
     kept = stored[1]
@@ -100,11 +100,11 @@ def test_an_analysis_is_kept_as_it_is(whole: Path, tmp_path: Path) -> None:
 
 def test_all_that_is_kept_of_a_driver_takes_at_most_50_kilobytes_a_frame(media, tmp_path: Path) -> None:
     """The clip of the sharpest face: its track, its registration and its ratio images together."""
-    run = Run(store=StageStore(tmp_path))
     clip = media("driving/woman_talk_aoc.mp4")
-    track = run.stage("track", track_driver, Excerpt(clip, trim=(0.0, 1.5)), 0, run.tick, run.warn)
-    registration = run.stage("register", register_track, track, 0, run.tick)
-    run.stage("ratios", keep_ratio_images, replace(track, meshes=registration.meshes), 0, run.tick)
+    with Run(store=StageStore(tmp_path)) as run:
+        track = run.stage("track", track_driver, Excerpt(clip, trim=(0.0, 1.5)), 0, run.tick, run.warn)
+        registration = run.stage("register", register_track, track, 0, run.tick)
+        run.stage("ratios", keep_ratio_images, replace(track, meshes=registration.meshes), 0, run.tick)
     size = sum(p.stat().st_size for p in tmp_path.rglob("*") if p.is_file())
     assert size / len(track) < 50_000
 

@@ -94,7 +94,8 @@ def test_real_people_are_understood(media: Callable[[str], Path], clip: str) -> 
 
 
 def test_artifacts(joined: tuple[Path, list[Stretch]], tmp_path: Path) -> None:
-    work({"driver": joined[0]}, tmp_path, Run())
+    with Run() as run:
+        work({"driver": joined[0]}, tmp_path, run)
     document = json.loads((tmp_path / "moments.json").read_text())
     assert {one["state"] for one in document["moments"]} == set(STATES)
     for one in document["moments"]:
