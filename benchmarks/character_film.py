@@ -26,7 +26,7 @@ from benchmarks.tables import machine, table
 from engine.character.cast_shadow import ground_shadow
 from engine.character.film import film, film_size
 from engine.character.measures import picture_camera
-from engine.character.motions import choose_motion
+from engine.character.motions import MotionChoice, choose_motion
 from engine.character.stages import fill_background
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
@@ -87,9 +87,8 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
     shadow = ground_shadow(background.shadow, woken.character, woken.fitted)
     height, width = woken.figure.rgb.shape[:2]
     camera = picture_camera(woken.character, woken.fitted, (height, width))
-    clip = choose_motion(
-        *(woken.character, lambda second: camera, woken.character.pictured, "walk", None, (), seconds, FPS)
-    ).film
+    choice = MotionChoice("walk", None, (), seconds, FPS)
+    clip = choose_motion(woken.character, lambda second: camera, woken.character.pictured, choice).film
     size = film_size((width, height), (1280, 720) if width > height else (720, 1280))
 
     def drawn() -> Iterator[NDArray[np.uint8]]:

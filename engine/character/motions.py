@@ -60,32 +60,40 @@ def motion_in_use(
     return beginning(motion)
 
 
+@dataclass(frozen=True)
+class MotionChoice:
+    """What is played, and for how long."""
+
+    name: str
+    """The built-in motion's, where there is no other."""
+    motion: SourceMotion | None
+    """A file's."""
+    kept: Sequence[str]
+    """Parts of the body that stay as they are at the start."""
+    seconds: float
+    """Of film."""
+    fps: float
+    """Frames a second."""
+    joints: Mapping[str, str | None] | None = None
+    """Which joint of the file's motion moves which of the character's, where that is not to be found."""
+
+
 def choose_motion(
-    character: Character,
-    camera_at: Callable[[float], Camera],
-    start: Clip,
-    name: str,
-    motion: SourceMotion | None,
-    kept: Sequence[str],
-    seconds: float,
-    fps: float,
-    joints: Mapping[str, str | None] | None = None,
+    character: Character, camera_at: Callable[[float], Camera], start: Clip, choice: MotionChoice
 ) -> Played:
-    """The character's clips at `fps` frames a second, beginning from the pose `start`: the built-in one of that `name`, or a
-    file's `motion`, of which `joints` overrides which joint moves which. Parts of the body that are `kept` stay as they
-    are there. In the film the person stays in the picture of `camera_at(second)`. The other built-in motions stay where they
-    are.
+    """The character's clips, beginning from the pose `start`. In the film the person stays in the picture of
+    `camera_at(second)`. The other built-in motions stay where they are.
 
     Raises
     ------
     InputError : what mapping a file's motion may raise.
     """
-    skeleton = character.mesh.skeleton
+    skeleton, kept, seconds = character.mesh.skeleton, choice.kept, choice.seconds
     mapping: dict[str, str] = {}
-    if motion is None:
-        clip = built_in(name, skeleton, fps)
+    if choice.motion is None:
+        clip = built_in(choice.name, skeleton, choice.fps)
     else:
-        carried = retarget(motion, skeleton, joints, fps=fps)
+        carried = retarget(choice.motion, skeleton, choice.joints, fps=choice.fps)
         clip, mapping = replace(carried.clip, name="motion"), carried.mapping
     length = seconds if clip.loops else None
 

@@ -8,7 +8,7 @@ from engine.character.figure import Figure
 from engine.character.film import moving_camera
 from engine.character.label_map import Labels
 from engine.character.measures import picture_camera
-from engine.character.motions import choose_motion, posed_by_hand
+from engine.character.motions import MotionChoice, choose_motion, posed_by_hand
 from engine.character.options import CharacterOptions
 from engine.character.rigging import Character
 from engine.character.silhouette import Silhouette
@@ -34,6 +34,8 @@ class Person:
         self.played = choose_motion(
             self.character,
             moving_camera(main, camera, options.camera, of=self.character),
-            *(self.start, options.motion, motion, options.keep, options.seconds, options.fps),
-            options.motion_joints,
+            self.start,
+            MotionChoice(
+                *(options.motion, motion, options.keep, options.seconds, options.fps), joints=options.motion_joints
+            ),
         )

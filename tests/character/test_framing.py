@@ -9,7 +9,7 @@ import pytest
 from template_character import still, template_character
 
 from engine.character.film import moving_camera
-from engine.character.motions import choose_motion
+from engine.character.motions import MotionChoice, choose_motion
 from engine.character.options import MOTIONS
 from engine.character.rigging import Character
 from engine.geometry.camera import Camera
@@ -66,7 +66,7 @@ def inside(found: np.ndarray, seen: Camera, margin: float = 0.0) -> bool:
 
 
 def played(character: Character, seen: Camera, name: str, motion: SourceMotion | None = None, fps: float = 10.0):  # type: ignore[no-untyped-def]
-    return choose_motion(character, lambda second: seen, character.pictured, name, motion, (), 4.0, fps)
+    return choose_motion(character, lambda second: seen, character.pictured, MotionChoice(name, motion, (), 4.0, fps))
 
 
 @pytest.mark.parametrize(
@@ -100,9 +100,8 @@ def test_the_walk_uses_the_room_that_there_is(character: Character) -> None:
 def test_whoever_comes_nearer_stays_in_sight_of_a_camera_that_moves(character: Character, move: Move) -> None:
     """Nearer than what the camera goes around, they are off to the side when it swings."""
     seen = camera(character, 0.3, 0.3, beside=0.3)
-    film = choose_motion(
-        *(character, moving_camera(character, seen, move), character.pictured, "walk", None, (), 8.0, 10.0)
-    ).film
+    choice = MotionChoice("walk", None, (), 8.0, 10.0)
+    film = choose_motion(character, moving_camera(character, seen, move), character.pictured, choice).film
     for frame in range(len(film.root)):
         moved = camera_at(move, seen, character.pictured.root[0], frame / film.fps)
         shown = moved.project(posed_at(character, film, frame))[:, :2]
@@ -162,7 +161,9 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
     rotations[120:] = aside.rotations[120:]
     motion = replace(straight, rotations=rotations, translations=translations)
     seen = camera(character, 0.1, 0.08)
-    film = choose_motion(character, lambda second: seen, character.pictured, "", motion, (), 8.0, 15.0).film
+    film = choose_motion(
+        character, lambda second: seen, character.pictured, MotionChoice("", motion, (), 8.0, 15.0)
+    ).film
     assert len(film.root) > 100
     assert inside(boxes(character, seen, film, arms=False), seen)
     assert np.ptp(sole_places(skeleton, film)[..., 1].min(2), axis=0).min() > 0.05, "and runs on"
@@ -173,5 +174,7 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
 def test_a_film_is_as_long_as_it_was_asked_for(character: Character, name: str, seconds: float) -> None:
     """A bow that is done once is over before: its last pose is held."""
     seen = camera(character, 0.15, 0.1)
-    film = choose_motion(character, lambda second: seen, character.pictured, name, None, (), seconds, 10.0).film
+    film = choose_motion(
+        character, lambda second: seen, character.pictured, MotionChoice(name, None, (), seconds, 10.0)
+    ).film
     assert len(film.rotations) == len(film.root) == 10 * seconds

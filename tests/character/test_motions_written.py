@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from template_character import still, template_character
 
-from engine.character.motions import Played, choose_motion
+from engine.character.motions import MotionChoice, Played, choose_motion
 from engine.character.pipeline import MOST_BYTES, write_small_glb
 from engine.character.rigging import Character
 from engine.geometry.camera import Camera
@@ -38,7 +38,7 @@ def character() -> Character:
 
 def chosen(character: Character, name: str, kept: tuple[str, ...] = (), fps: float = 30.0) -> Played:
     seen = Camera((0.0, 1.0, 4.0), 1500.0, (499.5, 499.5), (1000, 1000))
-    return choose_motion(character, lambda second: seen, character.pictured, name, None, kept, 1.0, fps)
+    return choose_motion(character, lambda second: seen, character.pictured, MotionChoice(name, None, kept, 1.0, fps))
 
 
 @pytest.fixture(scope="module")
