@@ -68,21 +68,30 @@ class Labels:
         )
 
 
+@dataclass(frozen=True)
+class LabelHints:
+    """What is known of labels (h, w) on the grid beside the picture; -1 where nothing is."""
+
+    given: NDArray[np.int8] | None = None
+    """Those that take the place of all that are found."""
+    sure: NDArray[np.int8] | None = None
+    """Those that take the place of the template's, where nothing is given."""
+    unfound: Sequence[UnfoundHand] = ()
+    """Hands that are looked for where they would be."""
+    crossed: ArmLabels | None = None
+    """Crossed arms, which are as they are here and not as the template has them."""
+
+
 def label_parts(
     rgb: NDArray[np.uint8],
     mask: NDArray[np.bool_],
     template: PosedTemplate,
     rig: Rig,
-    given: NDArray[np.int8] | None = None,
+    hints: LabelHints = LabelHints(),
     corrected: Callable[[NDArray[np.int8]], NDArray[np.int8]] = lambda labels: labels,
-    sure: NDArray[np.int8] | None = None,
-    unfound: Sequence[UnfoundHand] = (),
-    crossed: ArmLabels | None = None,
 ) -> Labels:
-    """Label the person's pixels (h, w), on the grid. `given` (h, w) labels take the place of those that are found, and
-    where nothing is given, those that are `sure` (h, w; -1 where nothing is) that of the template's; hands that are
-    `unfound` are looked for where they would be; `crossed` arms are as they say and the template's are not; `corrected` has the
-    last word."""
+    """Label the person's pixels (h, w), on the grid; `corrected` has the last word."""
+    given, sure, crossed = hints.given, hints.sure, hints.crossed
     part_of = vertex_parts(rig)[template.triangles[:, 0]]
     seen = side_maps(template.vertices, template.triangles, (mask.shape[0], mask.shape[1]), "front")
     projected = np.where(seen.mask, part_of[seen.raster.triangle], -1)
@@ -111,7 +120,7 @@ def label_parts(
         if (leg := before(rough)) is not None:
             rough = as_the_template(rough, projected, leg)
         rough = without_specks(rough, known, plain)
-        for hand in unfound:
+        for hand in hints.unfound:
             own = template_hand(template.vertices, template.triangles, rig, hand.arm, (mask.shape[0], mask.shape[1]))
             if (found := parted(rgb, rough, own, hand)) is not None:
                 rough = without_specks(with_hand_parted(rough, found, hand.arm), known, plain)

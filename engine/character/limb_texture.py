@@ -7,6 +7,7 @@ from the other one where hardly more than a hand is seen.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -41,14 +42,26 @@ def own_of_limbs(labelled: NDArray[np.bool_], shown: NDArray[np.bool_]) -> NDArr
     return np.asarray((labelled & near) | (more > 0))
 
 
+@dataclass(frozen=True)
+class LimbSurfaces:
+    """What the surfaces of limbs that are apart cover of the grid."""
+
+    reach: NDArray[np.bool_]
+    """(h, w) all of it, seen or not."""
+    shown: NDArray[np.bool_]
+    """(h, w) where they are the nearest."""
+    along: NDArray[np.bool_] | None = None
+    """(h, w) what of the body goes with a limb, as at shoulders, and so is of its colours."""
+    sleeves: Mapping[int, NDArray[np.bool_]] = field(default_factory=dict)
+    """(h, w) each: what that of an arm covers above its hand, by the arm's index."""
+
+
 def paint_limbs(
     seen: NDArray[np.uint8],
     own: NDArray[np.bool_],
     around: NDArray[np.bool_],
     labels: Labels,
-    limbs: NDArray[np.bool_],
-    reach: NDArray[np.bool_],
-    sleeves: Mapping[int, NDArray[np.bool_]],
+    surfaces: LimbSurfaces,
     face: NDArray[np.floating] | None,
     scale: float,
 ) -> NDArray[np.uint8]:
@@ -58,12 +71,12 @@ def paint_limbs(
     ----------
     seen : the picture (H, W, 3), continued beyond the person's `own` pixels (H, W).
     around : (H, W) what the limbs show, to their edges in the picture.
-    limbs, reach, sleeves : on the grid of the `labels` (h, w), what is seen of limbs; all that their surfaces cover; and what that
-        of each arm covers above its hand, by its index.
+    surfaces : of the limbs, on the grid of the `labels` (h, w).
     face : an ellipse around the face, in pixels of the tile.
     scale : pixels of the tile for each of the grid's.
     """
     size = (own.shape[1], own.shape[0])
+    limbs, reach, sleeves = surfaces.shown, surfaces.reach, surfaces.sleeves
     made = seen
     if limbs.any():
         legs = np.isin(labels.labels, LEGS)

@@ -22,10 +22,11 @@ from engine.character.hands import turn_hands
 from engine.character.head import turn_head
 from engine.character.head_sides import with_round_sides
 from engine.character.hem import with_cloth
-from engine.character.label_map import Labels, label_parts
+from engine.character.label_map import LabelHints, Labels, label_parts
 from engine.character.labels import ARMS
 from engine.character.layers import build_layers
 from engine.character.limb_edges import border
+from engine.character.limb_texture import LimbSurfaces
 from engine.character.measures import picture_camera, pose
 from engine.character.options import LabelStroke
 from engine.character.relaxing import relaxed
@@ -34,7 +35,7 @@ from engine.character.sheets import ClosedMesh, close
 from engine.character.silhouette import Silhouette
 from engine.character.strokes import read_labels, relabel
 from engine.character.template_fit import FittedBody, fit_figure, load_human, pose_template
-from engine.character.texture import BackTexture, atlas, paint_tiles
+from engine.character.texture import BackTexture, PictureOnGrid, atlas, paint_tiles
 from engine.character.turned_over import without_backs_in_view
 from engine.character.unfound_hands import unfound_hands
 from engine.geometry.decimation import decimate, joint_importance
@@ -86,18 +87,17 @@ def label(
         given = np.asarray(cv2.warpAffine(read.astype(np.int16), silhouette.to_grid, size, flags=cv2.INTER_NEAREST,
                                           borderValue=(-1,)), np.int8)  # fmt: skip
         require_labels(given, silhouette.mask)
-    labels = label_parts(
-        silhouette.rgb,
-        silhouette.mask,
-        posed,
-        human.rig,
+    hints = LabelHints(
         given,
-        lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
         hand_labels(without_hidden_hand(figure, fitted.crossed).hands, silhouette.to_grid, silhouette.mask.shape),
         unfound_hands(figure, silhouette.rgb, silhouette.to_grid),
         None
         if fitted.crossed is None
         else label_crossed(figure, fitted.crossed, posed, human.rig, silhouette.to_grid, silhouette.mask),
+    )
+    labels = label_parts(
+        *(silhouette.rgb, silhouette.mask, posed, human.rig, hints),
+        lambda found: relabel(found, strokes, figure.scale, silhouette.to_grid, (height, width)),
     )
     if given is not None:
         doubt_labels(figure, labels.labels, silhouette.to_grid, warn)
@@ -169,8 +169,9 @@ def make_character(
     shown = mesh.seen_layer((labels.labels.shape[0], labels.labels.shape[1])) > 0
     along = _along_with_arms(mesh, labels)
     sleeves = {arm: _sleeve(mesh, arm, labels) for arm in ARMS if arm in labels.apart}
-    alpha, to_grid, turned = silhouette.alpha, silhouette.to_grid, None if in_profile(figure) else face_turn(figure)
-    tiles = paint_tiles(figure.rgb, alpha, to_grid, labels, reach, shown, face, back, turned, along, sleeves)
+    turned = None if in_profile(figure) else face_turn(figure)
+    picture = PictureOnGrid(figure.rgb, silhouette.alpha, silhouette.to_grid)
+    tiles = paint_tiles(picture, labels, LimbSurfaces(reach, shown, along, sleeves), face, back, turned)
     if face is not None and turned is not None:  # where a turned face ends at the outline, a cheek goes on beyond it
         mesh = with_round_sides(mesh, head, within_oval(face * CHEEK, head.shape), 0)
     texture, uv = atlas(tiles, mesh, 0)

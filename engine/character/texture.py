@@ -6,8 +6,7 @@ the front, on which the face gives way to what surrounds it (hair, a hat).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import cv2
@@ -20,7 +19,7 @@ from engine.character.head_texture import back_of_the_head
 from engine.character.label_map import Labels
 from engine.character.labels import LEGS, complete_labels
 from engine.character.limb_edges import soft_limbs
-from engine.character.limb_texture import behind_another, own_of_limbs, paint_limbs
+from engine.character.limb_texture import LimbSurfaces, behind_another, own_of_limbs, paint_limbs
 from engine.character.sheets import ClosedMesh
 from engine.character.sides import places_on_the_picture
 from engine.imaging.filling.inpaint import inpaint
@@ -71,35 +70,38 @@ class Tiles:
     behind: tuple[int, NDArray[np.uint8]] | None = None
 
 
+@dataclass(frozen=True)
+class PictureOnGrid:
+    """A picture of somebody, and where it lies on the grid."""
+
+    rgb: NDArray[np.uint8]
+    """(H, W, 3)."""
+    alpha: NDArray[np.float32]
+    """(H, W) the person's mask."""
+    to_grid: NDArray[np.float64]
+    """(2, 3) from the picture's pixels to those of the grid."""
+
+
 def paint_tiles(
-    rgb: NDArray[np.uint8],
-    alpha: NDArray[np.float32],
-    to_grid: NDArray[np.float64],
+    picture: PictureOnGrid,
     labels: Labels,
-    limbs_reach: NDArray[np.bool_],
-    limbs_shown: NDArray[np.bool_],
+    surfaces: LimbSurfaces,
     face: NDArray[np.float32] | None,
     back: BackTexture,
     turned: float | None = 0.0,
-    along: NDArray[np.bool_] | None = None,
-    sleeves: Mapping[int, NDArray[np.bool_]] | None = None,
 ) -> Tiles:
     """Paint the tiles.
 
     Parameters
     ----------
-    rgb, alpha : the picture (H, W, 3) and the person's mask (H, W).
-    to_grid : (2, 3) from the picture's pixels to those of the grid.
     labels : what each pixel of the grid shows.
-    limbs_reach, limbs_shown : (h, w) all that the surfaces of limbs that are apart cover, seen or not; and where they are the nearest.
     face : an ellipse around the face on the grid, as centre x, y, half axes and angle in degrees; None where there is no
         face.
     back : where the back's colours come from.
     turned : to which side the face looks, as `face_region.face_turn` says; None in profile: then both sides of the head are alike.
-    along : (h, w) what of the body goes with a limb, as at shoulders, and so is of its colours.
-    sleeves : (h, w) what the surface of each arm that is apart covers above its hand, by its index.
     """
-    limbs = own_of_limbs(np.isin(labels.labels, labels.apart), limbs_shown)
+    rgb, alpha, to_grid, along = picture.rgb, picture.alpha, picture.to_grid, surfaces.along
+    limbs = own_of_limbs(np.isin(labels.labels, labels.apart), surfaces.shown)
     shape = limbs.shape
     tiles = TILES + (labels.behind is not None)
     scale = min(1 / float(to_grid[0, 0]), TALLEST / shape[0], WIDEST // tiles / shape[1])
@@ -113,7 +115,7 @@ def paint_tiles(
     seen = np.asarray(cv2.warpAffine(rgb, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.uint8)
     covered = np.asarray(cv2.warpAffine(alpha, matrix, size, flags=cv2.INTER_LINEAR))
     own = covered > SURE
-    picture = seen
+    bordered = seen
     around = soft_limbs(limbs, seen) > 0.5
     seen = continued_colours(seen, own)
     oval = None if face is None else face * np.array([*[scale] * 4, 1])
@@ -124,8 +126,8 @@ def paint_tiles(
     head = enlarged_mask(labels.labels == BODY_PARTS.index("head"), size) & own
     beside = body
     if oval is not None and turned is not None and head.any():
-        behind, beside = back_of_the_head(behind, picture, covered > TRACE, own, head, oval, turned, scale)
-    apart = paint_limbs(seen, own, around, labels, limbs, limbs_reach, sleeves or {}, oval, scale)
+        behind, beside = back_of_the_head(behind, bordered, covered > TRACE, own, head, oval, turned, scale)
+    apart = paint_limbs(seen, own, around, labels, replace(surfaces, shown=limbs), oval, scale)
     hidden = None
     if labels.behind is not None:
         hidden = labels.behind.limb, behind_another(apart, labels, labels.behind, seen, own, oval)

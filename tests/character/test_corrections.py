@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from engine.body.parts import BODY_PARTS
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.label_map import Labels
+from engine.character.limb_texture import LimbSurfaces
 from engine.character.options import CharacterOptions, LabelStroke, MaskStroke
 from engine.character.pipeline import cut_all_out, find_figures, wake_up
 from engine.character.posture import check_posture
@@ -22,7 +23,7 @@ from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import fit_template, label
 from engine.character.strokes import LABEL_COLOURS, read_labels, read_mask, repaint_mask
 from engine.character.template_fit import fit_figure, load_human, pose_template
-from engine.character.texture import paint_tiles
+from engine.character.texture import PictureOnGrid, paint_tiles
 from engine.errors import InputError
 from engine.media.image import read_image, write_image
 from engine.media.limits import Limits
@@ -317,7 +318,8 @@ def test_what_is_printed_in_front_is_behind_only_where_backs_are_mirrored(
     red = []
     for back in ("mirror", "inpaint"):
         nowhere = np.zeros_like(labels.parting)
-        tiles = paint_tiles(printed.rgb, silhouette.alpha, silhouette.to_grid, labels, nowhere, nowhere, None, back)
+        picture = PictureOnGrid(printed.rgb, silhouette.alpha, silhouette.to_grid)
+        tiles = paint_tiles(picture, labels, LimbSurfaces(nowhere, nowhere), None, back)
         red.append(int(((tiles.back[..., 0] > 200) & (tiles.back[..., 1] < 80)).sum()))
         assert ((tiles.body[..., 0] > 200) & (tiles.body[..., 1] < 80)).sum() > 300
     assert red[0] > 300 and red[1] == 0

@@ -15,11 +15,12 @@ from engine.character.crossed_arms import crossed_arms
 from engine.character.crossed_labels import Behind
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.label_map import Labels
+from engine.character.limb_texture import LimbSurfaces
 from engine.character.regions import limb_in_one_piece
 from engine.character.silhouette import Silhouette, cut_out
 from engine.character.stages import build_mesh, fit_template, label
 from engine.character.template_fit import FittedBody, load_human, pose_template
-from engine.character.texture import paint_tiles
+from engine.character.texture import PictureOnGrid, paint_tiles
 from engine.media.limits import Limits
 
 LEFT, RIGHT = BODY_PARTS.index("left_arm"), BODY_PARTS.index("right_arm")
@@ -126,7 +127,8 @@ def test_behind_the_other_an_arm_has_its_own_colours_and_its_hand_the_face_s() -
     )
     face = np.float32((80, 30, 22, 26, 0))
     same = np.array([[1.0, 0, 0], [0, 1, 0]])
-    tiles = paint_tiles(rgb, np.ones((200, 160), np.float32), same, found, arms, arms, face, "mirror")
+    picture = PictureOnGrid(rgb, np.ones((200, 160), np.float32), same)
+    tiles = paint_tiles(picture, found, LimbSurfaces(arms, arms), face, "mirror")
     assert tiles.behind is not None and tiles.behind[0] == LEFT
     own = tiles.behind[1].astype(int)
     assert np.abs(own[104:126, 74:96] - (20, 20, 120)).max() <= 8, "its sleeve goes on"

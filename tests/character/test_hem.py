@@ -12,7 +12,7 @@ from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.character.drape import drape
 from engine.character.free_cloth import FreeCloth, Ring
 from engine.character.hem import legs_below, with_cloth
-from engine.character.label_map import Labels, label_parts
+from engine.character.label_map import LabelHints, Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.legs_beneath import leg_under_cloth
 from engine.character.part_surface import Surface
@@ -236,7 +236,7 @@ def test_a_leg_that_is_not_labelled_is_under_the_skirt_and_not_made_up() -> None
     rgb, mask, hem = in_green(template)
     found = label_parts(rgb, mask, template, human.rig).labels
     given = np.where(found == LEFT, RIGHT, found).astype(np.int8)
-    labels = with_cloth(label_parts(rgb, mask, template, human.rig, given), rgb, template, human.rig)
+    labels = with_cloth(label_parts(rgb, mask, template, human.rig, LabelHints(given)), rgb, template, human.rig)
     assert labels.cloth is not None and labels.cloth.hangs and abs(labels.cloth.rings[-1].row - hem) < 12
     assert LEFT not in not_seen(labels)
 

@@ -15,7 +15,8 @@ from engine.character.face_region import in_profile
 from engine.character.figure import Choice, Figure, find_figure
 from engine.character.head import turn_head
 from engine.character.label_map import Labels
-from engine.character.texture import paint_tiles
+from engine.character.limb_texture import LimbSurfaces
+from engine.character.texture import PictureOnGrid, paint_tiles
 from engine.media.image import write_image
 from engine.media.limits import Limits
 from tests.character.test_overlapping_legs import fitted_as
@@ -51,8 +52,8 @@ def test_in_profile_both_sides_of_a_head_are_alike() -> None:
     found = Labels(labels, none, np.zeros(0, np.int8), none, np.full_like(labels, -1))
     face, alpha = np.array([50, 50, 12, 22, 0], np.float32), (labels >= 0).astype(np.float32)
     same = np.array([[1.0, 0, 0], [0, 1, 0]])
-    tiles = paint_tiles(rgb, alpha, same, found, none, none, face, "mirror", turned=None)
+    tiles = paint_tiles(PictureOnGrid(rgb, alpha, same), found, LimbSurfaces(none, none), face, "mirror", turned=None)
     inner = np.s_[35:65, 44:55]
     np.testing.assert_array_equal(tiles.back[inner], rgb[inner])
-    hair = paint_tiles(rgb, alpha, same, found, none, none, face, "mirror", turned=0.0)
+    hair = paint_tiles(PictureOnGrid(rgb, alpha, same), found, LimbSurfaces(none, none), face, "mirror", turned=0.0)
     assert np.abs(hair.back[inner].astype(int) - rgb[inner]).mean() > 60

@@ -8,11 +8,11 @@ import numpy as np
 from engine.body.parts import BODY_PARTS
 from engine.character.face_region import face_within
 from engine.character.label_map import Labels
-from engine.character.limb_texture import of_the_limbs, paint_limbs
+from engine.character.limb_texture import LimbSurfaces, of_the_limbs, paint_limbs
 from engine.character.part_surface import Surface
 from engine.character.sheets import Layer, close
 from engine.character.sides import FOLDED, FURTHEST, places_on_the_picture
-from engine.character.texture import joined_at_the_outline, paint_tiles
+from engine.character.texture import PictureOnGrid, joined_at_the_outline, paint_tiles
 
 SAME = np.array([[1.0, 0, 0], [0, 1, 0]])
 GREEN, RED, BROWN, SKIN = (20, 160, 60), (210, 40, 30), (70, 45, 30), (230, 180, 150)
@@ -55,7 +55,8 @@ def painted(  # type: ignore[no-untyped-def]
         hidden[140:165, slice(*hand)] = apart[0]
     found = Labels(labels.astype(np.int8), none, apart, none, hidden)
     shown = (labels == apart[0]) & shows
-    return paint_tiles(rgb, alpha, SAME, found, reach, shown, np.float32(face), back, along=along), labels  # type: ignore[arg-type]
+    picture, surfaces = PictureOnGrid(rgb, alpha, SAME), LimbSurfaces(reach, shown, along)
+    return paint_tiles(picture, found, surfaces, np.float32(face), back), labels  # type: ignore[arg-type]
 
 
 def test_behind_an_arm_a_dress_goes_on_and_nothing_else() -> None:
@@ -104,7 +105,8 @@ def test_pixels_of_the_texture_are_those_of_the_picture() -> None:
     none = np.zeros(labels.shape, np.bool_)
     half = np.array([[0.5, 0, -0.13], [0, 0.5, -0.31]])  # a grid of half the size, somewhere between the pixels
     found = Labels(labels, none, np.zeros(0, np.int8), none, np.full(labels.shape, -1, np.int8))
-    tiles = paint_tiles(rgb, np.ones((240, 160), np.float32), half, found, none, none, None, "mirror")
+    picture = PictureOnGrid(rgb, np.ones((240, 160), np.float32), half)
+    tiles = paint_tiles(picture, found, LimbSurfaces(none, none), None, "mirror")
     further = tiles.shift + (tiles.scale - 1) / 2 + tiles.scale * half[:, 2]
     np.testing.assert_allclose(further, np.rint(further), atol=1e-9)
     dx, dy = np.rint(further).astype(int)
@@ -197,7 +199,8 @@ def test_behind_an_arm_that_hangs_a_shirt_has_no_print_and_beside_it_the_picture
     arm, none = labels == BODY_PARTS.index("right_arm"), np.zeros(labels.shape, np.bool_)
     apart = np.array([BODY_PARTS.index("right_arm")], np.int8)
     found = Labels(labels.astype(np.int8), none, apart, none, np.full(labels.shape, -1, np.int8))
-    tiles = paint_tiles(rgb, (labels >= 0).astype(np.float32), SAME, found, arm, arm, None, "mirror")
+    picture = PictureOnGrid(rgb, (labels >= 0).astype(np.float32), SAME)
+    tiles = paint_tiles(picture, found, LimbSurfaces(arm, arm), None, "mirror")
     assert tiles.body[arm].max() < 90
     np.testing.assert_array_equal(tiles.body[40:360, 70:160], rgb[40:360, 70:160])
 
@@ -247,7 +250,7 @@ def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> Non
     )
     limbs = np.isin(found, (left, right))
     everything = np.ones_like(reach)
-    made = paint_limbs(seen, everything, limbs, labels, limbs, reach, sleeves, None, 1.0)
+    made = paint_limbs(seen, everything, limbs, labels, LimbSurfaces(reach, limbs, sleeves=sleeves), None, 1.0)
     assert np.abs(made[62:120, 111:125].astype(int) - sleeve).max() < 12
     np.testing.assert_array_equal(made[133:147, 113:123], seen[133:147, 113:123])
     np.testing.assert_array_equal(made[65:145, 43:57], seen[65:145, 43:57])
@@ -255,6 +258,6 @@ def test_a_sleeve_that_is_hidden_but_for_its_hand_is_like_the_other_one() -> Non
     rest[60:90, 110:126] = True
     seen[90:130, 110:126], found[90:130, 110:126] = (40, 130, 60), left
     most = limbs | (reach & ~rest)
-    kept = paint_limbs(seen, everything, most, labels, most, reach, sleeves, None, 1.0)
+    kept = paint_limbs(seen, everything, most, labels, LimbSurfaces(reach, most, sleeves=sleeves), None, 1.0)
     assert np.abs(kept[62:88, 111:125].astype(int) - (40, 130, 60)).max() < 12, "of what more is seen, like itself"
     np.testing.assert_array_equal(kept[2:18, 2:18], seen[2:18, 2:18], "and what is far from limbs stays")

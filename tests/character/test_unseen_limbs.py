@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from engine.body.parts import BODY_PARTS, vertex_parts
-from engine.character.label_map import Labels, label_parts
+from engine.character.label_map import LabelHints, Labels, label_parts
 from engine.character.layers import build_layers
 from engine.character.posed_template import PosedTemplate
 from engine.character.regions import find_regions
@@ -117,7 +117,7 @@ def test_an_arm_that_the_picture_cuts_off_is_not_made_up(cut: float) -> None:
     mask = clothed(template) & ~beyond
     found = labelled(template, mask).labels
     without = np.where(found == LEFT, TORSO, found).astype(np.int8)
-    given = label_parts(np.zeros((*SIZE, 3), np.uint8), mask, template, rig, without)
+    given = label_parts(np.zeros((*SIZE, 3), np.uint8), mask, template, rig, LabelHints(without))
     assert not (given.labels == LEFT).any()
     assert unseen_limbs(given, template, rig) == []
 
@@ -153,9 +153,8 @@ def test_a_leg_that_nobody_sees_stands_beside_the_other() -> None:
     mask = clothed(template)
     left, right = BODY_PARTS.index("left_leg"), BODY_PARTS.index("right_leg")
     found = labelled(template, mask).labels
-    labels = label_parts(
-        np.zeros((*SIZE, 3), np.uint8), mask, template, rig, np.where(found == left, right, found).astype(np.int8)
-    )
+    given = np.where(found == left, right, found).astype(np.int8)
+    labels = label_parts(np.zeros((*SIZE, 3), np.uint8), mask, template, rig, LabelHints(given))
     assert {one.limb for one in unseen_limbs(labels, template, rig)} == {LEFT, left}
     layers = build_layers(labels, template, rig)
     shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
