@@ -16,7 +16,6 @@ import argparse
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from unittest.mock import patch
 
@@ -26,11 +25,12 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter1d
 
+from benchmarks.known_truth.comparison import Comparison, MadeSurfaces
 from benchmarks.known_truth.dressed_template import DRESSED_LOOKS, dress
 from benchmarks.known_truth.known_person import PICTURE_SIZE, KnownPicture, Person, draw_into
 from benchmarks.known_truth.known_places import places
 from benchmarks.known_truth.scanned_bodies import read_scan
-from benchmarks.known_truth.surface_distance import Distances, align, compare, sample_outside
+from benchmarks.known_truth.surface_distance import align, compare, sample_outside
 from benchmarks.shared_media import media
 from benchmarks.tables import machine, table
 from benchmarks.truth_sheet import write_truth_sheet
@@ -59,33 +59,6 @@ FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 """As the names of their joints have them."""
 
 
-@dataclass(frozen=True)
-class Surfaces:
-    """What is made of a picture, as (vertices, triangles) in metres before the picture's camera."""
-
-    made: tuple[NDArray[np.float64], NDArray[np.int32]]
-    by_depth: tuple[NDArray[np.float64], NDArray[np.int32]]
-    template: tuple[NDArray[np.float64], NDArray[np.int32]]
-
-
-@dataclass(frozen=True)
-class Result:
-    """What was found of one picture, against the truth. `distances`: of the character, by warped depth, of the template;
-    `joints`: centimetres, None where the truth has none; `seconds` it took."""
-
-    known: KnownPicture
-    place: str
-    iou: float
-    distances: tuple[Distances, Distances, Distances]
-    joints: tuple[float, float] | None
-    reprojection: float
-    seconds: float
-    aligned: tuple[NDArray[np.float64], NDArray[np.float64]]
-    """The vertices of the character and of the template, where they are compared."""
-    surfaces: Surfaces
-    mask: NDArray[np.float32]
-
-
 def people() -> Iterator[tuple[Person, str]]:
     """The scans from the front and from a side, and the dressed template, one of them turned too; and where they stand."""
     man = read_scan(media("scans3d/body_male02/male02.obj"), 1)
@@ -97,7 +70,7 @@ def people() -> Iterator[tuple[Person, str]]:
     yield dressed[0].turned(-TURN_DEGREES), "street"
 
 
-def examine(known: KnownPicture, place: str) -> Result:
+def examine(known: KnownPicture, place: str) -> Comparison:
     """Make a character of the picture as any user's, and compare it with who was drawn."""
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
@@ -117,7 +90,7 @@ def examine(known: KnownPicture, place: str) -> Result:
         move = align(seen, truth)
         distances.append(compare(seen.moved(move), truth))
         aligned.append(move(scaled))
-    return Result(
+    return Comparison(
         known=known,
         place=place,
         iou=float((found & true).sum() / (found | true).sum()),
@@ -131,7 +104,7 @@ def examine(known: KnownPicture, place: str) -> Result:
     )
 
 
-def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> Surfaces:
+def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -> MadeSurfaces:
     """The character posed by its clip `pictured`, the mesh by warped depth, and the fitted template."""
     labels = label(figure, silhouette, fitted, None, (), Limits(), lambda code, message: None)
     fitted = with_limbs_hidden(fitted, silhouette.camera(fitted.picture_camera()), labels, lambda code, message: None)
@@ -140,7 +113,7 @@ def build_surfaces(figure: Figure, silhouette: Silhouette, fitted: FittedBody) -
     with patch.object(layers, "part_surface", warped_depth):
         by_depth = build_mesh(figure, silhouette, fitted, labels)
     bare = pose_template(fitted, fitted.picture_camera(), load_human())
-    return Surfaces(
+    return MadeSurfaces(
         (pose(character, character.pictured).astype(np.float64) - character.eye, character.mesh.triangles),
         (silhouette.camera(fitted.picture_camera()).to_metres(by_depth.vertices), by_depth.triangles),
         (fitted.picture_camera().to_metres(bare.vertices), bare.triangles),
@@ -177,7 +150,7 @@ def joint_errors(fitted: FittedBody, truth: NDArray[np.float64]) -> tuple[float,
     return float(off.mean()), float(off.max())
 
 
-def tables(results: Sequence[Result]) -> str:
+def tables(results: Sequence[Comparison]) -> str:
     """All figures."""
     masks = [[r.known.person.name, r.place, f"{r.iou:.3f}"] for r in results]
     masks.append(["mean (goal 0.97)", "", f"{np.mean([r.iou for r in results]):.3f}"])

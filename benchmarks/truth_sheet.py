@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.contact_sheet import Row, at_height, contact_sheet, write_sheet
+from benchmarks.known_truth.comparison import Comparison
 from engine.geometry.surface import vertex_normals
 from engine.render.attributes import interpolate
 from engine.render.rasteriser import rasterise
-
-if TYPE_CHECKING:
-    from benchmarks.character_truth import Result
 
 CELL_HEIGHT = 360
 """Pixels of a cell's height."""
@@ -27,13 +24,13 @@ MISSED_RGB, EXCESS_RGB, SHARED_RGB = (230, 60, 50), (50, 90, 230), (210, 210, 21
 """RGB of what the mask lacks, of what it has beyond the truth, and of what both have."""
 
 
-def write_truth_sheet(path: Path, results: Sequence[Result]) -> None:
+def write_truth_sheet(path: Path, results: Sequence[Comparison]) -> None:
     """For each person: the picture, the mask (red: missed, blue: too much), and, turned, the truth, the character and the
     bare template."""
     write_sheet(path, contact_sheet([_row(result) for result in results]))
 
 
-def _row(result: Result) -> Row:
+def _row(result: Comparison) -> Row:
     known, surfaces = result.known, result.surfaces
     found, true = result.mask > 0.5, known.alpha > 0.5
     mask = np.full((*true.shape, 3), 30, np.uint8)

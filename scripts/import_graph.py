@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-PACKAGES = ("engine", "service", "worker", "shell")
+PACKAGES = ("engine", "service", "worker", "shell", "benchmarks")
 PAGE_FOLDER = Path("web", "src")
 RULES_FILES = (".importlinter", "web/layers.ini")
 """Where the layers are written; the second is in the form of the first."""
