@@ -59,8 +59,9 @@ def head_pose(mesh: NDArray[np.floating], size: tuple[int, int]) -> HeadPose:
     _, rotation, shift = cv2.solvePnP(
         model, seen, lens, np.zeros(4), np.zeros((3, 1)), start, useExtrinsicGuess=True, flags=cv2.SOLVEPNP_ITERATIVE
     )
-    r = cv2.Rodrigues(rotation)[0]
-    back = Camera.of_matrices(lens, r, shift[:, 0], size[::-1]).project(model, np.float64)[:, :2]
+    r = np.asarray(cv2.Rodrigues(rotation)[0], np.float64)
+    posed = Camera.of_matrices(lens, r, np.asarray(shift[:, 0], np.float64), size[::-1])
+    back = posed.project(model, np.float64)[:, :2]
     error = float(np.sqrt(((back - seen) ** 2).sum(axis=1).mean())) / max(unit, 1e-6)
     forward = -r[:, 2]
     # a face is frontal when it looks back along the ray on which it is seen, not along the camera's axis
