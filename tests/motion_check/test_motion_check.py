@@ -40,7 +40,8 @@ Frame Time: 0.04
 
 def looked_at(path: Path, out: Path, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     """The documents that a check leaves of a file: `motion.json` and `report.json`."""
-    KIND.work({"motion": path}, MotionOptions(**options), out, Run())
+    with Run() as run:
+        KIND.work({"motion": path}, MotionOptions(**options), out, run)
     motion, report = (json.loads((out / name).read_text()) for name in ("motion.json", "report.json"))
     return motion, report
 
