@@ -100,13 +100,13 @@ def sample_bodies(count: int, seed: int) -> tuple[NDArray[np.float32], NDArray[n
     standing = load_template().vertices_of("body")
     bodies, joints = [], []
     for _ in range(count):
-        skeleton, _, vertices = t_pose(rig, space.shape(_phenotype(random), _changes(space, random)), standing)
+        skeleton, _, vertices = t_pose(rig, space.shape(random_phenotype(random), _changes(space, random)), standing)
         bodies.append(vertices)
         joints.append(skeleton.heads)
     return np.stack(bodies), np.stack(joints)
 
 
-def _phenotype(random: np.random.Generator) -> Phenotype:
+def random_phenotype(random: np.random.Generator) -> Phenotype:
     """Somebody: adults mostly, some children; most of average build."""
     child = random.random() < 0.15
     age = random.uniform(0.19, 0.4) if child else random.uniform(0.4, 0.95)

@@ -1,0 +1,69 @@
+"""Landmarks of the person in space, from frames whose cameras are known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
+from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
+from engine.avatar.landmarks.spatial import FACE_LANDMARKS, SpatialLandmarks
+from engine.geometry.camera import Camera
+
+SIGMA_SHARE = 6 / 720
+"""By what share of a frame's shorter side a landmark of the body is off, usually."""
+FACE_SIGMA_SHARE = 0.02
+"""By what share of a face's size in the frame one of the face is."""
+MIN_VIEWS = 3
+"""Views that must agree on a landmark."""
+MAX_FACE_TURN = 0.65
+"""The most by which the tip of the nose may be off the middle between the eyes' outer corners, in halves of their distance: faces
+seen from the side have landmarks that are guessed."""
+
+
+def find_landmarks(views: Iterable[tuple[Camera, NDArray[np.uint8]]]) -> SpatialLandmarks:
+    """The landmarks of the person in `views`: cameras and their frames (H, W, 3) uint8, read one by one."""
+    seen = [(camera, frame_landmarks(frame)) for camera, frame in views]
+    return spatial_landmarks(seen)
+
+
+def spatial_landmarks(seen: list[tuple[Camera, FrameLandmarks]]) -> SpatialLandmarks:
+    """What several views agree on, metres in the world of the cameras."""
+    body = {}
+    for name in sorted({name for _, found in seen for name in found.body}):
+        having = [(camera, *found.body[name]) for camera, found in seen if name in found.body]
+        cameras = [camera for camera, _, _ in having]
+        sigma = np.array([SIGMA_SHARE * min(camera.size) for camera in cameras])
+        confidence = np.array([value for _, _, value in having])
+        placed = triangulate_robustly(cameras, np.stack([at for _, at, _ in having]), confidence, sigma)
+        if placed is not None and placed.agreeing >= MIN_VIEWS:
+            body[name] = placed.place
+    return SpatialLandmarks(body, _face(seen))
+
+
+def _face(seen: list[tuple[Camera, FrameLandmarks]]) -> NDArray[np.float64]:
+    """(68, 3) the face's landmarks from the views that show it from the front; NaN where they do not agree."""
+    having = [(camera, found.face) for camera, found in seen if found.face is not None and _frontal(found.face)]
+    out = np.full((FACE_LANDMARKS, 3), np.nan)
+    if len(having) < MIN_VIEWS:
+        return out
+    cameras = [camera for camera, _ in having]
+    faces = np.stack([face for _, face in having])
+    sigma = FACE_SIGMA_SHARE * np.linalg.norm(np.ptp(faces, axis=1), axis=1)
+    for k in range(FACE_LANDMARKS):
+        placed = triangulate_robustly(cameras, faces[:, k], np.ones(len(faces)), sigma)
+        if placed is not None and placed.agreeing >= MIN_VIEWS:
+            out[k] = placed.place
+    return out
+
+
+def _frontal(face: NDArray[np.float64]) -> bool:
+    """Whether a face (68, 2) is seen more from the front than from the side."""
+    across = face[45] - face[36]
+    width = np.linalg.norm(across)
+    if width == 0:
+        return False
+    nose = (face[30] - (face[36] + face[45]) / 2) @ across / width
+    return bool(abs(nose) < MAX_FACE_TURN * width / 2)

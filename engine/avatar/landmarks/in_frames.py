@@ -1,0 +1,82 @@
+"""Landmarks of body, hands and face in one frame, unreliable ones left out: section 3.3."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.perception.body import BODY_LANDMARKS, Body, find_body
+from engine.perception.faces import find_faces
+from engine.perception.hands import find_hands
+from engine.perception.landmarks import fiducials
+
+SKELETON_BONES = (
+    *(("LeftShoulder", "RightShoulder"), ("LeftHip", "RightHip")),
+    *((f"{side}{a}", f"{side}{b}") for side in ("Left", "Right") for a, b in (
+        ("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Shoulder", "Hip"), ("Hip", "Knee"), ("Knee", "Ankle")
+    )),
+)  # fmt: skip
+"""Bones by their landmarks at both ends."""
+MIN_BONES = 4
+"""Bones with which a skeleton is one ..."""
+MIN_BEST_CONFIDENCE = 0.5
+"""... and the confidence of its surest landmark."""
+MIN_CONFIDENCE = 0.3
+"""Of a landmark that is used."""
+KNUCKLES = ("Index", "Pinky")
+"""Landmarks of the body that a hand's own crop shows better: its first joints."""
+HEAD_REACH = 1.6
+"""Half the side of the square in which a body's face is looked for, in distances between its shoulders' and eyes' middle."""
+
+
+@dataclass(frozen=True)
+class FrameLandmarks:
+    """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None."""
+
+    body: Mapping[str, tuple[NDArray[np.float64], float]]
+    face: NDArray[np.float64] | None
+
+
+def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
+    """The landmarks of the person in a frame (H, W, 3) uint8; none of those that cannot be relied on."""
+    body = find_body(rgb)
+    named = {} if body is None else reliable(body)
+    if body is not None and named:
+        for hand in find_hands(rgb, body):
+            for finger in KNUCKLES:
+                at, _ = hand.joint(f"{hand.side}Hand{finger}1")
+                named[f"{hand.side}{finger}"] = at.astype(np.float64), hand.confidence
+    return FrameLandmarks(named, _face(rgb, body if named else None))
+
+
+def _face(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:
+    """(68, 2) the largest face; of a body, that where its head is, if its nose is seen at all."""
+    within = None
+    if body is not None:
+        if body.confidence[BODY_LANDMARKS.index("Nose")] < MIN_CONFIDENCE:
+            return None
+        eyes = (body.landmark("LeftEye") + body.landmark("RightEye")) / 2
+        shoulders = (body.landmark("LeftShoulder") + body.landmark("RightShoulder")) / 2
+        reach = HEAD_REACH * float(np.linalg.norm(eyes - shoulders))
+        height, width = rgb.shape[:2]
+        x0, y0 = (max(0, round(float(at - reach))) for at in eyes)
+        x1, y1 = (min(limit, round(float(at + reach))) for at, limit in zip(eyes, (width, height), strict=True))
+        if x1 - x0 < 2 or y1 - y0 < 2:
+            return None
+        within = x0, y0, x1, y1
+    faces = find_faces(rgb, most=1, within=within)
+    return fiducials(faces[0][:, :2]).astype(np.float64) if faces else None
+
+
+def reliable(body: Body) -> dict[str, tuple[NDArray[np.float64], float]]:
+    """A body's landmarks of some confidence; none at all of a skeleton with fewer than four bones, or whose best confidence is
+    below one half."""
+    sure = {name for name, value in zip(BODY_LANDMARKS, body.confidence, strict=True) if value >= MIN_CONFIDENCE}
+    bones = sum(a in sure and b in sure for a, b in SKELETON_BONES)
+    if bones < MIN_BONES or body.confidence.max() < MIN_BEST_CONFIDENCE:
+        return {}
+    points = zip(BODY_LANDMARKS, body.points, body.confidence, strict=True)
+    return {name: (at.astype(np.float64), float(value)) for name, at, value in points if name in sure}

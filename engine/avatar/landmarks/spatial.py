@@ -1,0 +1,28 @@
+"""Landmarks of a person in space."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+FACE_LANDMARKS = 68
+"""Points of a face (iBUG)."""
+
+
+@dataclass(frozen=True)
+class SpatialLandmarks:
+    """Where landmarks are, metres, in the world of the cloud.
+
+    `body`: places (3,) by the names of `engine.body.landmarks.landmark_model`; those not found are left out.
+    `face` (68, 3): NaN where a point is not known.
+    """
+
+    body: Mapping[str, NDArray[np.float64]]
+    face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
+
+    def without(self, names: frozenset[str]) -> SpatialLandmarks:
+        """Those of the body whose names are not among `names`, and all of the face."""
+        return replace(self, body={name: at for name, at in self.body.items() if name not in names})

@@ -1,0 +1,1 @@
+"""The template laid on clouds of points: section 3.4 of the paper."""

@@ -1,0 +1,98 @@
+"""The skin's own shape: the fine fit of section 3.4, equation 1."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
+
+from engine.avatar.registration.skin import Skin
+from engine.geometry.adjacency import neighbours
+from engine.geometry.nonrigid_registration import (
+    ElasticSurface,
+    SurfaceLandmarks,
+    geometric_steps,
+    lay_on_points,
+)
+from engine.geometry.point_cloud import PointCloud
+
+BODY_STEPS = geometric_steps(7, (1e-5, 1e-10), (1.0, 1e-2), (0.08, 0.03))
+"""In metres the paper's weights, 1 to 1e-7, would leave the body as it is. A power of ten less than this crumples it."""
+HEAD_STEPS = geometric_steps(5, (1e-7, 1e-10), (0.3, 1e-3), (0.02, 0.008))
+"""Where the body's fit is what is bent."""
+INNER_STIFFNESS = 100.0
+"""Of what no point tells of: the mouth's inside and the sockets."""
+BODY_FACE_STIFFNESS = 30.0
+"""Of the face while only the body's cloud is there: else lips turn inside out under a moustache."""
+LIP_STIFFNESS = 30.0
+"""Of lips in the head's cloud ..."""
+LID_STIFFNESS = 10.0
+"""... and of lids."""
+HAND_TRUST = 0.2
+"""What points of hands count: fingers drift while others are filmed."""
+FIRST_INNER_FACE_POINT = 17
+"""Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
+MAX_FACE_DISTANCE = 0.03
+"""Metres from the coarse fit beyond which, in the median, face landmarks are of a visor or a mask and not used."""
+
+
+def fit_body(
+    skin: Skin, coarse: NDArray[np.float64], cloud: PointCloud, face: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """The skin (S, 3) laid on the body's cloud from the `coarse` fit (S, 3); `face` (68, 3), NaN where unknown."""
+    stiffness = _stiffness(skin, {"face": BODY_FACE_STIFFNESS, "inner": INNER_STIFFNESS})
+    surface = ElasticSurface(without_details(skin, coarse), skin.triangles, skin.visible, stiffness, _trust(skin))
+    drawn = face_landmarks(skin, coarse, face)
+    return lay_on_points(surface, cloud.points, cloud.normals, BODY_STEPS, drawn)
+
+
+def fit_head(
+    skin: Skin, body: NDArray[np.float64], cloud: PointCloud, face: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """The skin (S, 3), as the body's fit has it and the head may have been given another shape, laid on a cloud of head and
+    body. Both are one system: a head that is fitted alone drags its neck."""
+    stiffness = _stiffness(skin, {"lips": LIP_STIFFNESS, "lids": LID_STIFFNESS, "inner": INNER_STIFFNESS})
+    surface = ElasticSurface(body, skin.triangles, skin.visible, stiffness, _trust(skin))
+    drawn = face_landmarks(skin, body, face)
+    return lay_on_points(surface, cloud.points, cloud.normals, HEAD_STEPS, drawn)
+
+
+def without_details(skin: Skin, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The skin (S, 3) smooth where clothes hide what it has: nipples would end as crumpled stars on a suit."""
+    return _smooth_sheet(skin, vertices, skin.regions["hidden_by_cloth"])
+
+
+def face_landmarks(skin: Skin, vertices: NDArray[np.float64], face: NDArray[np.floating]) -> SurfaceLandmarks | None:
+    """The inner face landmarks that are known; None where they are not those of this face."""
+    known = np.flatnonzero(np.isfinite(face).all(1))
+    known = known[known >= FIRST_INNER_FACE_POINT]
+    at = skin.face_points[known]
+    if len(known) < 10 or np.median(np.linalg.norm(vertices[at] - face[known], axis=1)) > MAX_FACE_DISTANCE:
+        return None
+    rows = sp.csr_array((np.ones(len(at)), (np.arange(len(at)), at)), (len(at), len(vertices)))
+    return SurfaceLandmarks(rows, np.asarray(face[known], np.float64))
+
+
+def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """The skin with the vertices of `drawn` (S,) as a smooth sheet between the others: where the bi-Laplacian, all edges
+    alike, is least."""
+    beside = neighbours(skin.triangles, len(vertices))
+    laplacian = sp.csr_array(sp.eye_array(len(vertices)) - sp.diags_array(1 / beside.sum(1)) @ beside)
+    bend = sp.csr_array(laplacian.T @ laplacian)[drawn]
+    solved = vertices.copy()
+    solved[drawn] = splu(sp.csc_array(bend[:, drawn])).solve(-(bend[:, ~drawn] @ vertices[~drawn]))
+    return solved
+
+
+def _stiffness(skin: Skin, factors: dict[str, float]) -> NDArray[np.float64]:
+    """(S,) the greatest of the factors of the regions to which each vertex belongs, else 1."""
+    out = np.ones(len(skin.vertices))
+    for region, factor in factors.items():
+        out[skin.regions[region]] = np.maximum(out[skin.regions[region]], factor)
+    return out
+
+
+def _trust(skin: Skin) -> NDArray[np.float64]:
+    """(S,) what points near each vertex count: none of lips, where hair grows."""
+    return np.where(skin.regions["lips"], 0.0, np.where(skin.regions["hands"], HAND_TRUST, 1.0))

@@ -1,0 +1,72 @@
+"""The head's own cloud, brought to the body's world and joined with the body's: section 3.4."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
+from engine.avatar.registration.skin import Skin, grown
+from engine.errors import InputError
+from engine.geometry.closest_points import closest_points
+from engine.geometry.point_cloud import PointCloud, joined
+from engine.geometry.rigid import Similarity, fit_rigid, fit_robustly
+
+LANDMARK_SIGMA = 0.006
+"""Metres by which face landmarks are off, usually."""
+MIN_FACE_LANDMARKS = 20
+"""Face landmarks without which a head's cloud has no place."""
+ALIGNMENT_ROUNDS = 12
+"""Of closest points, rigid."""
+ALIGNMENT_GATE = 0.015
+"""Metres within which points are of the surface there."""
+CLOUD_RINGS = 10
+"""Rings of vertices below the head for which the head's cloud counts, too."""
+
+
+def head_to_body(skin: Skin, fitted: NDArray[np.float64], cloud: PointCloud, landmarks: SpatialLandmarks) -> Similarity:
+    """From the world of the head's clip to the body's: by face landmarks, which give its scale, then rigidly by closest points.
+
+    Raises `InputError` with the code `landmarks_needed` where the face was not found in the head's clip.
+    """
+    known = np.flatnonzero(np.isfinite(landmarks.face).all(1))
+    known = known[known >= FIRST_INNER_FACE_POINT]
+    if len(known) < MIN_FACE_LANDMARKS:
+        raise InputError(
+            "landmarks_needed",
+            "The face was not found in the head's clip: point at it in some frames (`landmarks`).",
+            ("landmarks",),
+        )
+    target = fitted[skin.face_points[known]]
+    placed = fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA).transform
+    face = skin.triangles[skin.visible & skin.regions["face"][skin.triangles].all(1)]
+    points = placed(cloud.points)
+    near = cKDTree(fitted[skin.regions["face"]]).query(points, distance_upper_bound=0.03)[0] < np.inf
+    points = points[near]
+    turn = Similarity(np.eye(3), np.zeros(3))
+    for _ in range(ALIGNMENT_ROUNDS if len(points) > MIN_FACE_LANDMARKS else 0):
+        moved = turn(points)
+        nearest = closest_points(moved, fitted, face)
+        used = nearest.distance < ALIGNMENT_GATE
+        there = np.einsum("nk,nkc->nc", nearest.barycentrics[used], fitted[face[nearest.triangle[used]]])
+        turn = fit_rigid(points[used], there)
+    return Similarity(turn.linear @ placed.linear, turn(placed.shift))
+
+
+def carried(cloud: PointCloud, transform: Similarity) -> PointCloud:
+    """A cloud in another world."""
+    normals = transform.offsets(cloud.normals)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return PointCloud(transform(cloud.points).astype(np.float32), normals.astype(np.float32), cloud.colours)
+
+
+def one_cloud(skin: Skin, fitted: NDArray[np.float64], body: PointCloud, head: PointCloud) -> PointCloud:
+    """The body's cloud, with the head's in place of its own head."""
+    of_head = skin.regions["head"]
+    around = grown(of_head, skin.triangles, CLOUD_RINGS)
+    tree = cKDTree(fitted)
+    kept = ~of_head[tree.query(body.points)[1]]
+    near = around[tree.query(head.points)[1]]
+    return joined([body[kept], head[near]])

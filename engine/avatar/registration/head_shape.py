@@ -1,0 +1,126 @@
+"""The head's shape in the space of heads: the "30-dimensional statistical head model" of section 3.4."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
+from engine.avatar.registration.skin import Skin, grown
+from engine.body.head_space import HeadSpace
+from engine.geometry.closest_points import closest_points
+from engine.geometry.deformation import LaplacianDeformation
+from engine.geometry.handles import handles
+from engine.geometry.point_cloud import PointCloud
+from engine.geometry.rigid import fit_similarity
+from engine.geometry.surface import face_normals
+
+GATES = (*[0.02] * 5, *[0.008] * 7)
+"""Metres within which points are of the surface there, by rounds."""
+POINTS_PER_ROUND = 5000
+"""Points of the cloud that are looked at in each round."""
+POINT_SIGMA = 0.002
+"""Metres by which the head's points are off, usually ..."""
+INDEPENDENT_POINTS = 1000.0
+"""... and as how many independent measurements all of them count."""
+LANDMARK_SIGMA = 0.004
+"""Metres by which face landmarks are off, usually."""
+MIN_NORMAL_COSINE = 0.5
+"""Between the normals of a point and of the surface there."""
+NECK_RINGS = 6
+"""Rings of vertices at the edge of the head that go over into the neck."""
+
+
+@dataclass(frozen=True)
+class _Head:
+    """A head of the space: `mean` (H, 3) and `basis` (H, 3, K), metres, and where it is: `turn` (3, 3) about the mean's middle,
+    `shift` (3,); `coefficients` (K,)."""
+
+    mean: NDArray[np.float64]
+    basis: NDArray[np.float64]
+    turn: NDArray[np.float64]
+    shift: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+
+    def vertices(self) -> NDArray[np.float64]:
+        """(H, 3) metres."""
+        middle = self.mean.mean(0)
+        return (self.mean + self.basis @ self.coefficients - middle) @ self.turn.T + middle + self.shift
+
+    def slopes(self) -> NDArray[np.float64]:
+        """(H, 3, 6 + K) how the vertices move as they are turned about x, y and z and shifted, and with each coefficient."""
+        away = self.vertices() - self.mean.mean(0) - self.shift
+        turned = np.cross(np.eye(3)[None], away[:, None]).transpose(0, 2, 1)
+        shifted = np.broadcast_to(np.eye(3), (len(away), 3, 3))
+        return np.concatenate([turned, shifted, self.turn @ self.basis], 2)
+
+    def moved(self, step: NDArray[np.float64]) -> _Head:
+        """After a step (6 + K,) along `slopes`."""
+        turn = Rotation.from_rotvec(step[:3]).as_matrix() @ self.turn
+        return replace(self, turn=turn, shift=self.shift + step[3:6], coefficients=self.coefficients + step[6:])
+
+
+def head_shape(
+    skin: Skin, space: HeadSpace, fitted: NDArray[np.float64], cloud: PointCloud, face: NDArray[np.floating]
+) -> NDArray[np.float64]:
+    """The skin (S, 3) with the head that the space has for a cloud and `face` (68, 3) landmarks, in the body's world.
+
+    Turn, place and coefficients are sought; the scale stays as the body's fit has it.
+    """
+    own = skin.index_of(space.vertices)
+    place = fit_similarity(space.mean.astype(np.float64), fitted[own])
+    basis = np.ascontiguousarray(place.offsets(space.basis).transpose(1, 2, 0))
+    head = _Head(place(space.mean), basis, np.eye(3), np.zeros(3), np.zeros(basis.shape[2]))
+    known = np.flatnonzero(np.isfinite(face).all(1))
+    known = known[known >= FIRST_INNER_FACE_POINT]
+    marks = np.searchsorted(own, skin.face_points[known])
+    corners = _counted_triangles(skin, own)
+    random = np.random.default_rng(0)
+    for gate in GATES:
+        picked = cloud[random.choice(len(cloud), min(POINTS_PER_ROUND, len(cloud)), replace=False)]
+        rows, off = _point_rows(head, corners, picked, gate)
+        if not len(rows):
+            break
+        slopes = head.slopes()[marks].reshape(-1, rows.shape[1]) / LANDMARK_SIGMA
+        marks_off = (head.vertices()[marks] - face[known]).ravel() / LANDMARK_SIGMA
+        prior = np.concatenate([np.full(6, 1e-6), np.ones(len(head.coefficients))])
+        gradient = rows.T @ off + slopes.T @ marks_off + np.concatenate([np.zeros(6), head.coefficients])
+        head = head.moved(-np.linalg.solve(rows.T @ rows + slopes.T @ slopes + np.diag(prior), gradient))
+    return _grafted(skin, fitted, own, head.vertices())
+
+
+def _point_rows(
+    head: _Head, corners: NDArray[np.intp], picked: PointCloud, gate: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The Jacobian (M, 6 + K) and how far (M,) points are off across the surface, in standard deviations."""
+    vertices = head.vertices()
+    nearest = closest_points(picked.points, vertices, corners)
+    normals = face_normals(vertices, corners)[nearest.triangle]
+    used = (nearest.distance < gate) & ((normals * picked.normals).sum(1) > MIN_NORMAL_COSINE)
+    at, shares, across = corners[nearest.triangle[used]], nearest.barycentrics[used], normals[used]
+    scale = np.sqrt(INDEPENDENT_POINTS / max(int(used.sum()), 1)) / POINT_SIGMA
+    off = np.einsum("mk,mkc->mc", shares, vertices[at]) - picked.points[used]
+    moved = np.einsum("mk,mkcp->mcp", shares, head.slopes()[at])
+    return scale * np.einsum("mc,mcp->mp", across, moved), scale * (off * across).sum(1)
+
+
+def _counted_triangles(skin: Skin, own: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The visible triangles of the head, but for the lips', into its vertices `own` (H,)."""
+    chosen = skin.visible & np.isin(skin.triangles, own).all(1) & ~skin.regions["lips"][skin.triangles].all(1)
+    return np.searchsorted(own, skin.triangles[chosen]).astype(np.intp)
+
+
+def _grafted(
+    skin: Skin, fitted: NDArray[np.float64], own: NDArray[np.intp], head: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The skin with another head (H, 3), going over smoothly at its edge."""
+    rest = ~skin.regions["head"]
+    edge = grown(rest, skin.triangles, NECK_RINGS)
+    kept = ~grown(skin.regions["head"], skin.triangles, NECK_RINGS)
+    targets = fitted.copy()
+    targets[own] = head
+    held = np.flatnonzero(kept | ~edge)
+    return LaplacianDeformation(fitted, skin.triangles, handles(len(fitted), held))(targets[held])

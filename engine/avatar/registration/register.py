@@ -1,0 +1,134 @@
+"""From clouds and landmarks to a person: section 3.4 from beginning to end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
+from engine.avatar.registration.expressions import transferred_units
+from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
+from engine.avatar.registration.fine import fit_body, fit_head
+from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.head_cloud import carried, head_to_body, one_cloud
+from engine.avatar.registration.head_shape import head_shape
+from engine.avatar.registration.inner_mouth import inner_skin
+from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
+from engine.body.head_space import load_head_space
+from engine.body.visemes import viseme_displacements
+from engine.errors import InputError, Notice
+from engine.geometry.cage_coordinates import cage_coordinates
+from engine.geometry.point_cloud import PointCloud, thinned
+from engine.geometry.rigid import Similarity
+
+BODY_SPACING = 0.0035
+"""Metres between points of the body's cloud that are used: twice the template's density, about 150,000 in all."""
+HEAD_SPACING = 0.0012
+"""The same of the head's."""
+MAX_COEFFICIENT = 5.0
+"""Standard deviations of the space of bodies beyond which proportions are unusual, and said to be."""
+MIN_POINTS = 2000
+"""Of a cloud that says anything of a body."""
+
+
+@dataclass(frozen=True)
+class Scan:
+    """What one clip gave: a cloud in its own world, metres, and the landmarks there."""
+
+    cloud: PointCloud
+    landmarks: SpatialLandmarks
+
+
+def register(models: HumanModels, body: Scan, head: Scan | None = None) -> FittedTemplate:
+    """The person of a body's and a head's scan.
+
+    The body's world has y up, the ground at y = 0 about. Without a head's scan the face is as good as the body's cloud.
+
+    Raises `InputError`: `landmarks_needed` where landmarks are missing or contradict each other; `cloud_too_thin` where there
+    are too few points.
+    """
+    if len(body.cloud) < MIN_POINTS:
+        raise InputError(
+            "cloud_too_thin",
+            "Too little of the person was reconstructed: film again in even light, slowly, with the whole body in view.",
+        )
+    cloud = thinned(body.cloud, BODY_SPACING)
+    by_landmarks = fit_to_landmarks(models.body, models.landmarks, body.landmarks)
+    believed = body.landmarks.without(by_landmarks.dropped)
+    parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
+    coarse = models.body.vertices(parameters)
+    fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
+    placed: Similarity | None = None
+    if head is not None:
+        placed = head_to_body(models.skin, fitted, head.cloud, head.landmarks)
+        fitted = _with_head(models, fitted, cloud, head, placed)
+    fitted = inner_skin(models.skin, coarse, fitted)
+    return _person(
+        models, parameters, coarse, fitted, placed, _notices(by_landmarks, parameters[-models.body.coefficients :])
+    )
+
+
+def _with_head(
+    models: HumanModels, fitted: NDArray[np.float64], cloud: PointCloud, head: Scan, placed: Similarity
+) -> NDArray[np.float64]:
+    """The skin (S, 3) of the body's fit with the head laid on its own cloud."""
+    near = thinned(carried(head.cloud, placed), HEAD_SPACING)
+    face = placed(head.landmarks.face)
+    both = one_cloud(models.skin, fitted, cloud, near)
+    shaped = head_shape(models.skin, load_head_space(), fitted, near, face)
+    return fit_head(models.skin, shaped, both, face)
+
+
+def _person(
+    models: HumanModels,
+    parameters: NDArray[np.float64],
+    coarse: NDArray[np.float64],
+    fitted: NDArray[np.float64],
+    placed: Similarity | None,
+    notices: tuple[Notice, ...],
+) -> FittedTemplate:
+    """The fitted skin with eyes, teeth and joints, in its pose and in T-pose, with expressions."""
+    template, skin, rig = models.template, models.skin, models.rig
+    vertices = place_parts(template, skin, models.whole(parameters), fitted)
+    vertices[skin.vertices] = lids_on_eyes(template, skin, vertices)
+    posed = models.body.poser(parameters[None])
+    rotations = posed.world_rotations[0]
+    joints = cage_coordinates(posed.joints[0], coarse, skin.triangles) @ vertices[skin.vertices]
+    for joint, part in (("LeftEye", "left_eye"), ("RightEye", "right_eye")):
+        joints[rig.index(joint)] = vertices[template.vertices_of(part)].mean(0)
+    pose = Pose(joints, rotations)
+    at_rest = rest_joints(pose, rig.parents)
+    flat = unposed(vertices, rig.bones, rig.weights, pose, at_rest)
+    rest, skeleton = on_the_ground(flat, at_rest, skin.vertices, rig.names, rig.parents)
+    units = transferred_units(template, skin, rest)
+    return FittedTemplate(
+        vertices=vertices,
+        rest=rest,
+        skeleton=skeleton,
+        joints=joints,
+        rotations=rotations,
+        expressions=units | viseme_displacements(units, len(rest)),
+        head_to_body=placed,
+        coefficients=parameters[-models.body.coefficients :],
+        notices=notices,
+    )
+
+
+def _notices(coarse: CoarseFit, coefficients: NDArray[np.float64]) -> tuple[Notice, ...]:
+    found = []
+    if coarse.dropped:
+        names = ", ".join(sorted(coarse.dropped))
+        found.append(
+            Notice("landmarks_dropped", f"These landmarks contradicted the others and were not used: {names}.")
+        )
+    if np.abs(coefficients).max() > MAX_COEFFICIENT:
+        found.append(
+            Notice(
+                "unusual_proportions", "The body's proportions are unlike those of people: look at the shape closely."
+            )
+        )
+    return tuple(found)

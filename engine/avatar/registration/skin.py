@@ -1,0 +1,135 @@
+"""The template's skin, which is what gets laid on points, and which of it is what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.body.body_space import BodySpace
+from engine.body.cache import cached_arrays
+from engine.body.face_points import face_points
+from engine.body.rig import Rig
+from engine.body.template import Template, vertex_mask
+from engine.geometry.adjacency import neighbours
+from engine.geometry.camera import Camera
+from engine.geometry.surface import triangulate
+from engine.render.rasteriser import rasterise
+
+FACE_RADII = np.array([0.085, 0.106, 0.106])
+"""Metres about the tip of the nose, x, y and z, within which the head is face."""
+VIEWS, VIEW_DISTANCE, VIEW_SIZE = 120, 0.6, 700
+"""From how many sides, from how far away (metres), and how large (pixels), a head is looked at to find what is seen of it."""
+LIP_UNITS = ("mouthRollLower", "mouthRollUpper", "mouthFunnel", "mouthPucker", "mouthPressLeft", "mouthPressRight")
+"""Face units that move lips and the skin above and below, where a moustache or a beard grows ..."""
+LID_UNITS = ("eyeBlinkLeft", "eyeBlinkRight")
+MIN_UNIT_MOTION = 0.002
+"""... by more than this, in metres."""
+NIPPLE_BOX = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
+FINE_EDGE = 0.009
+"""Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
+
+
+@dataclass(frozen=True)
+class Skin:
+    """The part `body` of the template by itself: one closed surface of S vertices.
+
+    vertices : (S,) which of the template's vertices these are, ascending.
+    triangles : (T, 3) into them, counter-clockwise from outside.
+    visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
+    bones, weights : (S, K) the joints that move each, and by how much, summing to one.
+    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `feet`, `inner` (part of no
+        visible triangle), `hidden_by_cloth` (nipples, navel).
+    face_points : (68,) the face landmarks.
+    """
+
+    vertices: NDArray[np.intp]
+    triangles: NDArray[np.int32]
+    visible: NDArray[np.bool_]
+    bones: NDArray[np.uint8]
+    weights: NDArray[np.float32]
+    regions: Mapping[str, NDArray[np.bool_]]
+    face_points: NDArray[np.intp]
+
+    def index_of(self, template_vertices: NDArray[np.integer]) -> NDArray[np.intp]:
+        """The numbers here of vertices of the template, which are all of the skin."""
+        return np.searchsorted(self.vertices, template_vertices).astype(np.intp)
+
+
+def load_skin(template: Template, space: BodySpace, rig: Rig) -> Skin:
+    """The skin; the first time, looked at from all sides (some seconds)."""
+    vertices = template.vertices_of("body").astype(np.intp)
+    quads = np.searchsorted(vertices, template.quads[template.faces("body")])
+    triangles = triangulate(quads)
+    visible = cached_arrays("visible-skin", lambda: {"visible": _visible(template, space, vertices[triangles])})
+    seen = visible["visible"]
+    strongest = np.array(rig.names)[rig.bones[vertices, 0]]
+    head = np.isin(strongest, ["Head", "Jaw", "LeftEye", "RightEye"])
+    seen = seen | ~head[triangles].all(1)  # what lies between fingers or under arms does show, if not in every pose
+    points = np.searchsorted(vertices, face_points(template, space))
+    regions = _regions(template, space.mean[vertices], vertices, triangles, strongest)
+    regions["head"] = head
+    nose = space.mean[vertices[points[30]]]
+    regions["face"] = head & (np.linalg.norm((space.mean[vertices] - nose) / FACE_RADII, axis=1) < 1)
+    shown = np.zeros(len(vertices), np.bool_)
+    shown[triangles[seen]] = True
+    regions["inner"] = ~shown
+    return Skin(vertices, triangles, seen, rig.bones[vertices], rig.weights[vertices], regions, points.astype(np.intp))
+
+
+def grown(region: NDArray[np.bool_], triangles: NDArray[np.integer], rings: int) -> NDArray[np.bool_]:
+    """A region (S,) and so many rings of vertices around it."""
+    beside = neighbours(triangles, len(region))
+    for _ in range(rings):
+        region = region | ((beside @ region.astype(np.float64)) > 0)
+    return region
+
+
+def _regions(
+    template: Template,
+    mean: NDArray[np.float32],
+    vertices: NDArray[np.intp],
+    triangles: NDArray[np.int32],
+    strongest: NDArray[np.str_],
+) -> dict[str, NDArray[np.bool_]]:
+    def moved_by(units: tuple[str, ...]) -> NDArray[np.bool_]:
+        fields = template.face_units.dense(units)[:, vertices]
+        return np.asarray(np.linalg.norm(fields, axis=2).max(0) > MIN_UNIT_MOTION)
+
+    joined = np.unique(
+        np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0
+    )
+    lengths = np.linalg.norm(mean[joined[:, 0]] - mean[joined[:, 1]], axis=1).repeat(2)
+    edge = np.bincount(joined.ravel(), lengths) / np.bincount(joined.ravel())
+    trunk = ((mean > NIPPLE_BOX[0]) & (mean < NIPPLE_BOX[1])).all(1)
+    trunk &= np.isin(
+        strongest, ["Spine", "Spine1", "Spine2", "LeftShoulder", "RightShoulder", "LeftArm", "RightArm", "Hips"]
+    )
+    return {
+        "lips": moved_by(LIP_UNITS) | (vertex_mask(template, "lips")[vertices] > 0.5),
+        "lids": moved_by(LID_UNITS),
+        "hands": np.char.find(strongest, "Hand") >= 0,
+        "feet": np.isin(strongest, [f"{side}{bone}" for side in ("Left", "Right") for bone in ("Foot", "ToeBase")]),
+        "hidden_by_cloth": grown(trunk & (edge < FINE_EDGE), triangles, 2),
+    }
+
+
+def _visible(template: Template, space: BodySpace, triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(T,) which triangles of the skin are seen from some side of the head, with the eyes in their places."""
+    eyes = triangulate(template.quads[template.faces("left_eye", "right_eye")])
+    everything = np.concatenate([triangles, eyes]).astype(np.int32)
+    middle = space.mean[template.vertices_of("left_eye")].mean(0).astype(np.float64) * [0, 1, 1]
+    half = (VIEW_SIZE - 1) / 2
+    lens = Camera((0.0, 0.0, 0.0), VIEW_SIZE * 1.6, (half, half), (VIEW_SIZE, VIEW_SIZE))
+    seen = np.zeros(len(everything), np.bool_)
+    for k in range(VIEWS):  # along a spiral of equal areas
+        rise = 0.98 * (1 - (2 * k + 1) / VIEWS)
+        turn = k * np.pi * (3 - np.sqrt(5))
+        level = np.sqrt(1 - rise**2)
+        aside = np.array([level * np.sin(turn), rise, level * np.cos(turn)])
+        camera = lens.aimed(middle + VIEW_DISTANCE * aside, middle)
+        found = rasterise(camera.project(space.mean), everything, camera.size, perspective=True).triangle
+        seen[found[found >= 0]] = True
+    return seen[: len(triangles)]

@@ -1,0 +1,32 @@
+"""Face units of another face."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engine.avatar.registration.expressions import transferred_units
+from engine.avatar.registration.models import HumanModels
+from engine.body.template import FACE_UNITS
+from engine.body.visemes import VISEMES, viseme_displacements
+
+
+def test_the_template_itself_has_its_own_and_one_twice_as_large_has_them_twice(models: HumanModels) -> None:
+    template = models.template
+    for scale in (1.0, 2.0):
+        units = transferred_units(template, models.skin, template.vertices * scale + [0, 1, 0])
+        assert set(units) == set(FACE_UNITS)
+        for name in ("jawOpen", "eyeBlinkLeft", "mouthSmileRight"):
+            own = template.face_units.displacement({name: scale})
+            for part in ("body", "lower_teeth", "left_eye"):
+                at = template.vertices_of(part)
+                assert np.abs(units[name][at] - own[at]).max() < 1e-4 * scale
+
+
+def test_visemes_are_sums_of_units() -> None:
+    assert len(VISEMES) == 15
+    assert {unit for weights in VISEMES.values() for unit in weights} <= set(FACE_UNITS)
+    units = {name: np.full((2, 3), k, np.float32) for k, name in enumerate(FACE_UNITS)}
+    found = viseme_displacements(units, 2)
+    expected = 0.35 * FACE_UNITS.index("jawOpen") + 0.6 * FACE_UNITS.index("mouthFunnel")
+    assert np.allclose(found["viseme_O"], expected)
+    assert not found["viseme_sil"].any()
