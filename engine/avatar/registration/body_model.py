@@ -13,8 +13,10 @@ from engine.body.posing import BodyPoser
 from engine.compiled import njit
 from engine.geometry.skinning import skin as blend
 
-DIFFERENCE = 1e-5
-"""Of a parameter, from which the derivatives of the joints' transforms come."""
+TURN_DIFFERENCE = 1e-4
+"""Of a place or a turn, from which the derivatives of the joints' transforms come ..."""
+SHAPE_DIFFERENCE = 0.5
+"""... and of a coefficient, in which they are linear, and single precision."""
 
 
 class BodyModel:
@@ -51,8 +53,10 @@ class BodyModel:
         """(C, 3, P) how the `chosen` (C,) vertices of the skin move with each parameter."""
         count = len(parameters)
         now = self.transforms(parameters[None])[0]
-        ahead = self.transforms(parameters + DIFFERENCE * np.eye(count))
-        slopes = np.ascontiguousarray(((ahead - now) / DIFFERENCE)[:, :, :3])
+        steps = np.full(count, TURN_DIFFERENCE)
+        steps[-self.coefficients :] = SHAPE_DIFFERENCE
+        ahead = self.transforms(parameters + np.diag(steps))
+        slopes = np.ascontiguousarray(((ahead - now) / steps[:, None, None, None])[:, :, :3])
         rest = np.ascontiguousarray(self.rest(parameters)[chosen])
         bones, weights = self.skin.bones[chosen], self.skin.weights[chosen].astype(np.float64)
         basis = np.ascontiguousarray(self._basis[chosen])

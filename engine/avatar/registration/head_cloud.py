@@ -10,9 +10,9 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.skin import Skin, grown
 from engine.errors import InputError
-from engine.geometry.closest_points import closest_points
+from engine.geometry.iterative_closest_point import rigid_onto_surface
 from engine.geometry.point_cloud import PointCloud, joined
-from engine.geometry.rigid import Similarity, fit_rigid, fit_robustly
+from engine.geometry.rigid import Similarity, fit_robustly
 
 LANDMARK_SIGMA = 0.006
 """Metres by which face landmarks are off, usually."""
@@ -20,6 +20,8 @@ MIN_FACE_LANDMARKS = 20
 """Face landmarks without which a head's cloud has no place."""
 ALIGNMENT_ROUNDS = 12
 """Of closest points, rigid."""
+ALIGNMENT_REACH = 0.03
+"""Metres about the head within which points are looked at, once landmarks have brought them there."""
 ALIGNMENT_GATE = 0.015
 """Metres within which points are of the surface there."""
 CLOUD_RINGS = 10
@@ -41,17 +43,11 @@ def head_to_body(skin: Skin, fitted: NDArray[np.float64], cloud: PointCloud, lan
         )
     target = fitted[skin.face_points[known]]
     placed = fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA).transform
-    face = skin.triangles[skin.visible & skin.regions["face"][skin.triangles].all(1)]
+    solid = skin.regions["head"] & ~skin.regions["lips"] & ~skin.regions["lids"]
+    surface = skin.triangles[skin.visible & solid[skin.triangles].all(1)]
     points = placed(cloud.points)
-    near = cKDTree(fitted[skin.regions["face"]]).query(points, distance_upper_bound=0.03)[0] < np.inf
-    points = points[near]
-    turn = Similarity(np.eye(3), np.zeros(3))
-    for _ in range(ALIGNMENT_ROUNDS if len(points) > MIN_FACE_LANDMARKS else 0):
-        moved = turn(points)
-        nearest = closest_points(moved, fitted, face)
-        used = nearest.distance < ALIGNMENT_GATE
-        there = np.einsum("nk,nkc->nc", nearest.barycentrics[used], fitted[face[nearest.triangle[used]]])
-        turn = fit_rigid(points[used], there)
+    near = cKDTree(fitted[solid]).query(points, distance_upper_bound=ALIGNMENT_REACH)[0] < np.inf
+    turn = rigid_onto_surface(points[near], fitted, surface, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
     return Similarity(turn.linear @ placed.linear, turn(placed.shift))
 
 

@@ -1,0 +1,69 @@
+"""From clouds to a person."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from known_person import KnownPerson, sampled
+from scipy.spatial.transform import Rotation
+
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.models import HumanModels
+from engine.avatar.registration.register import Scan, register
+from engine.errors import InputError
+from engine.geometry.point_cloud import PointCloud
+from engine.geometry.rigid import Similarity
+
+TO_HEAD = Similarity(1.3 * Rotation.from_rotvec([0.1, 0.4, -0.1]).as_matrix(), np.array([0.1, -1.5, 0.3]))
+"""From the body's world to that of the head's clip."""
+
+
+@pytest.fixture(scope="session")
+def fitted(models: HumanModels, person: KnownPerson) -> FittedTemplate:
+    """The person again, from 20,000 points of the body and as many of the head, each in its own world."""
+    truth = person.vertices[models.skin.vertices]
+    body = Scan(sampled(models, truth, 20000, 0.003), person.landmarks)
+    head = sampled(models, TO_HEAD(truth), 20000, 0.001, part="head")
+    return register(models, body, Scan(head, SpatialLandmarks({}, TO_HEAD(person.landmarks.face))))
+
+
+def test_the_surface_and_its_vertices_are_found(
+    models: HumanModels, person: KnownPerson, fitted: FittedTemplate
+) -> None:
+    off = np.linalg.norm(fitted.vertices - person.vertices, axis=1)
+    skin = models.skin
+    regions = {name: off[skin.vertices][mask] for name, mask in skin.regions.items()}
+    print({name: round(float(np.median(values)) * 1000, 1) for name, values in regions.items()})
+    assert np.median(regions["face"]) < 0.002
+    assert np.median(off[skin.vertices]) < 0.006
+    for part in ("left_eye", "upper_teeth", "lower_teeth"):
+        assert off[models.template.vertices_of(part)].mean() < 0.003
+
+
+def test_the_head_s_world_is_found(fitted: FittedTemplate) -> None:
+    assert fitted.head_to_body is not None
+    assert np.allclose(fitted.head_to_body.linear @ TO_HEAD.linear, np.eye(3), atol=0.02)
+
+
+def test_joints_and_t_pose_follow(models: HumanModels, person: KnownPerson, fitted: FittedTemplate) -> None:
+    posed = models.body.poser(person.parameters[None])
+    assert np.median(np.linalg.norm(fitted.joints - posed.joints[0], axis=1)) < 0.006
+    assert fitted.rest[models.skin.vertices][:, 1].min() == pytest.approx(0, abs=1e-6)
+    arms = [fitted.skeleton.heads[fitted.skeleton.index(f"Left{name}")] for name in ("Arm", "ForeArm", "Hand")]
+    assert np.ptp([at[1] for at in arms]) < 0.05  # level
+    assert arms[2][0] - arms[0][0] > 0.4
+
+
+def test_expressions_are_the_person_s(models: HumanModels, fitted: FittedTemplate) -> None:
+    assert len(fitted.expressions) == 52 + 15
+    chin = models.skin.vertices[models.skin.face_points[8]]
+    assert fitted.expressions["jawOpen"][chin, 1] < -0.01
+    assert np.linalg.norm(fitted.expressions["eyeBlinkLeft"][chin]) < 1e-3
+
+
+def test_too_few_points_are_refused(models: HumanModels, person: KnownPerson) -> None:
+    none = np.zeros((10, 3), np.float32)
+    with pytest.raises(InputError) as raised:
+        register(models, Scan(PointCloud(none, none, none.astype(np.uint8)), person.landmarks))
+    assert raised.value.code == "cloud_too_thin"
