@@ -1,0 +1,116 @@
+"""The frames of a clip that everything is made of: section 3.1, kept as pictures on the disk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.errors import InputError
+from engine.imaging.resample import resized, size_within
+from engine.media.film_strip import FilmStrip, FilmStripWriter
+from engine.media.frame_selection import equal_movement, measure_movement, read_selected
+from engine.media.limits import Limits
+from engine.media.video import Warn
+
+FRAME_QUALITY = 95
+"""Of the JPEGs in which frames are kept: a third of a megabyte for one of 1080x1920."""
+MAX_MEGAPIXELS_PER_SECOND = 600.0
+"""4K at 60 frames a second has 498: phones film so, and only small flows and a few frames are made of it."""
+MIN_FRAMES = 12
+"""Of a clip of which anything can be made."""
+JUDGED_SIDE = 640
+"""Pixels of the longer side at which frames are judged."""
+DARK = 25.0
+"""Grey level below which nine tenths of a frame's pixels are black to whoever looks for features."""
+BLURRED = 4.0
+"""Variance of the Laplacian, grey levels squared, at `JUDGED_SIDE`: below, no edge is narrower than some six pixels."""
+
+
+@dataclass(frozen=True)
+class ChosenFrames:
+    """N frames of a clip.
+
+    strip : the pictures, uint8 (H, W, 3) sRGB, upright, of the clip's own `size` (height, width).
+    indices : (N,) int64, which of the clip's frames they are.
+    seconds : (N,) float64 since the clip's first frame.
+    movement : mean length of the flow from frame to frame of the clip, in shares of the longer side.
+    """
+
+    strip: FilmStrip
+    size: tuple[int, int]
+    indices: NDArray[np.int64]
+    seconds: NDArray[np.float64]
+    movement: float
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def picture(self, frame: int, longest: int | None = None) -> NDArray[np.uint8]:
+        """One of them, (H, W, 3) uint8, or as small as its `longest` side has to be."""
+        whole = self.strip.picture(frame)
+        if longest is None or max(whole.shape[:2]) <= longest:
+            return whole
+        return resized(whole, size_within(whole.shape, longest))
+
+
+def choose_frames(
+    path: Path,
+    count: int,
+    name: str,
+    limits: Limits,
+    tick: Callable[[float], None] = lambda fraction: None,
+    warn: Warn | None = None,
+) -> ChosenFrames:
+    """`count` sharp frames of the clip that is the input `name`, with equal movement between them; all of a shorter one.
+
+    Raises
+    ------
+    InputError : `clip_too_short`, `too_dark`, `too_blurred`, and what reading a video may raise.
+    """
+    wider = replace(
+        limits, video_megapixels_per_second=max(limits.video_megapixels_per_second, MAX_MEGAPIXELS_PER_SECOND)
+    )
+    movement = measure_movement(path, wider, tick=lambda fraction: tick(0.6 * fraction))
+    if len(movement) + 1 < MIN_FRAMES:
+        raise InputError(
+            "clip_too_short", f"The clip of the {name} has too few frames: film a whole circle, slowly.", (name,)
+        )
+    indices, seconds, judged = [], [], []
+    size = (0, 0)
+    with FilmStripWriter(FRAME_QUALITY) as strip:
+        selected = equal_movement(movement, count)
+        for frame in read_selected(path, selected, wider, lambda fraction: tick(0.6 + 0.4 * fraction), warn):
+            strip.write(frame.rgb)
+            size = frame.rgb.shape[0], frame.rgb.shape[1]
+            indices.append(frame.index)
+            seconds.append(frame.time)
+            judged.append(_light_and_sharpness(frame.rgb))
+        light, sharp = np.median(np.array(judged), axis=0)
+        _refuse_dark_or_blurred(float(light), float(sharp), name)
+        return ChosenFrames(
+            strip.strip(), size, np.array(indices, np.int64), np.array(seconds, np.float64), float(movement.mean())
+        )
+
+
+def _light_and_sharpness(rgb: NDArray[np.uint8]) -> tuple[float, float]:
+    """The grey level that nine tenths of a frame's pixels do not pass, and its variance of the Laplacian."""
+    small = cv2.cvtColor(resized(rgb, size_within(rgb.shape, JUDGED_SIDE)), cv2.COLOR_RGB2GRAY)
+    return float(np.percentile(small, 90)), float(cv2.Laplacian(small, cv2.CV_32F).var())
+
+
+def _refuse_dark_or_blurred(light: float, sharp: float, name: str) -> None:
+    if light < DARK:
+        raise InputError(
+            "too_dark", f"The clip of the {name} is too dark: film in daylight, or with more lamps.", (name,)
+        )
+    if sharp < BLURRED:
+        raise InputError(
+            "too_blurred",
+            f"The clip of the {name} is blurred throughout: walk slowly, and keep the person in focus.",
+            (name,),
+        )
