@@ -9,6 +9,7 @@ import argparse
 import time
 from pathlib import Path
 
+from benchmarks.scan_studio.conditions import CONDITIONS
 from benchmarks.scan_studio.film import CODINGS
 from benchmarks.scan_studio.studio import Order, film
 from benchmarks.scan_studio.subjects import SUBJECTS, subject_named
@@ -35,11 +36,12 @@ def main() -> None:
     )
     parser.add_argument("--sway", type=float, default=USUAL_METRES, help="metres that the chest moves, at most")
     parser.add_argument("--still", action="store_true", help="the subject does not move at all")
+    parser.add_argument("--conditions", choices=tuple(CONDITIONS), default="good", help="or one of the usual faults")
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     began = time.perf_counter()
     frames = {"body": given.body_frames, "head": given.head_frames}
-    order = Order(frames, given.size, given.format, 0.0 if given.still else given.sway, given.seed)
+    order = Order(frames, given.size, given.format, 0.0 if given.still else given.sway, given.seed, given.conditions)
     film(subject_named(given.subject), order, given.out)
     print(f"{given.out}: {time.perf_counter() - began:.1f} s")
 

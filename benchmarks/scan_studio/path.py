@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
+from benchmarks.scan_studio.conditions import CONDITIONS, Conditions
 from benchmarks.scan_studio.subject import Subject
 from benchmarks.scan_studio.sway import SmoothCurve
 from engine.geometry.camera import Camera
@@ -67,6 +68,7 @@ class HandHeld:
     """Of how the hand strays."""
     head: bool
     """Whether the head is filmed."""
+    conditions: Conditions = CONDITIONS["good"]
 
     def _curve(self, number: int, channels: int, cycles: tuple[float, ...] | None = None) -> SmoothCurve:
         seed = self.seed + 10 * number
@@ -83,7 +85,7 @@ class HandHeld:
         stray = np.array(WANDER_DEGREES) * self._curve(2, 3)(seconds)
         shaking = self._curve(3, 3, tuple(hertz * self.seconds for hertz in TREMOR_HERTZ))(seconds)
         bad = 1 + 2 * np.clip(self._curve(4, 1, (7.3, 11.9))(seconds), 0, 1) ** 2
-        vectors = np.radians(stray + TREMOR_DEGREES * bad * shaking)
+        vectors = np.radians(stray + self.conditions.tremor * TREMOR_DEGREES * bad * shaking)
         focal = FOCAL_SHARE * max(self.size) * (1 + BREATHING * self._curve(5, 1)(seconds)[:, 0])
         lens = Camera((0.0, 0.0, 0.0), 1.0, ((width - 1) / 2, (height - 1) / 2), (height, width))
         found = []
@@ -97,7 +99,7 @@ class HandHeld:
         """(N, 3) eyes and (N, 3) what they look at."""
         keys = np.array(HEAD_KEYS if self.head else BODY_KEYS)
         values = PchipInterpolator(keys[:, 0], keys[:, 1:])(np.clip(seconds / self.seconds, 0, 1))
-        round_about = np.radians(values[:, 0])
+        round_about = np.radians(self.conditions.round_about(values[:, 0]))
         if self.head:
             up, away = np.radians(values[:, 1]), values[:, 2:]
             ways = np.stack([np.cos(up) * np.sin(round_about), np.sin(up), np.cos(up) * np.cos(round_about)], 1)

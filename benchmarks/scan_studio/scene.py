@@ -23,11 +23,13 @@ SAMPLE_OFFSETS = ((-0.375, 0.125), (0.125, 0.375), (-0.125, -0.375), (0.375, -0.
 
 
 class Scene:
-    """A room, and in it, if anybody, a subject."""
+    """A room, and in it, if anybody, a subject; and in its `company` somebody at rest, so far from the origin, who looks the
+    same."""
 
-    def __init__(self, room: Room, subject: Subject | None):
+    def __init__(self, room: Room, subject: Subject | None, company: tuple[float, float, float] | None = None):
         self._room = textured_mesh(room.triangles, room.uv, room.triangles, room.shade, room.texture)
         self._walls = room.vertices
+        self._company = None if subject is None or company is None else subject.vertices + np.array(company)
         self._person = (
             None
             if subject is None
@@ -41,6 +43,8 @@ class Scene:
         draw_over(rgb, depths, self._room, self._walls, camera)
         if self._person is not None and vertices is not None:
             draw_over(rgb, depths, self._person, vertices, camera)
+        if self._person is not None and self._company is not None:
+            draw_over(rgb, depths, self._person, self._company, camera)
         return rgb
 
     def expose(self, cameras: list[Camera], stands: list[NDArray[np.float64] | None]) -> NDArray[np.float32]:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.scan_studio.conditions import COMPANY_METRES, CONDITIONS, Conditions
 from benchmarks.scan_studio.film import FilmFormat, write_film
 from benchmarks.scan_studio.path import BODY_SECONDS, HEAD_SECONDS, HandHeld
 from benchmarks.scan_studio.room import furnished_room
-from benchmarks.scan_studio.scene import SAMPLE_OFFSETS, Scene
+from benchmarks.scan_studio.scene import Scene
 from benchmarks.scan_studio.sensor import Sensor
 from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.sway import USUAL_METRES, Sway
+from benchmarks.scan_studio.sway import USUAL_METRES, Stance, Sway
 from benchmarks.scan_studio.truth import FilmTruth, Truth, write_truth
-
-EXPOSURE_SECONDS = 1 / 50
-"""Indoors."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +33,8 @@ class Order:
     """Metres that the subject's chest moves, at most; 0: nothing of it moves."""
     seed: int = 0
     """Of all that chance decides."""
+    conditions: str = "good"
+    """One of `CONDITIONS`."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,12 @@ class Take:
     @property
     def seconds(self) -> float:
         """How long it lasts; its frames are spread over them."""
-        return BODY_SECONDS if self.name == "body" else HEAD_SECONDS
+        return (BODY_SECONDS if self.name == "body" else HEAD_SECONDS) / self.conditions.hurry
+
+    @property
+    def conditions(self) -> Conditions:
+        """How it is taken."""
+        return CONDITIONS[self.order.conditions]
 
     @property
     def moments(self) -> NDArray[np.float64]:
@@ -64,12 +69,20 @@ class Take:
     @property
     def hand(self) -> HandHeld:
         """Who films."""
-        return HandHeld(self.subject, self.order.size, self.seconds, self.seed + 100, self.name == "head")
+        return HandHeld(
+            self.subject, self.order.size, self.seconds, self.seed + 100, self.name == "head", self.conditions
+        )
 
     @property
-    def sway(self) -> Sway:
-        """Of who is filmed."""
-        return Sway(self.subject, self.order.sway, self.seconds, self.seed + 200)
+    def stance_at(self) -> Callable[[float], Stance]:
+        """How who is filmed stands at a second."""
+        sway = Sway(self.subject, self.order.sway, self.seconds, self.seed + 200)
+
+        def stance(second: float) -> Stance:
+            still = sway(second)
+            return replace(still, translation=still.translation + self.conditions.walked(second / self.seconds))
+
+        return stance
 
     @property
     def sensor(self) -> Sensor:
@@ -78,18 +91,22 @@ class Take:
 
     def truth(self) -> FilmTruth:
         """What its frames show."""
-        sway, moments = self.sway, self.moments
-        cameras = tuple(self.hand.cameras(moments))
-        return FilmTruth(cameras, tuple(map(sway, moments.tolist())), self.sensor.gains(moments), moments)
+        moments = self.moments
+        cameras, stances = self.hand.cameras(moments), map(self.stance_at, moments.tolist())
+        return FilmTruth(tuple(cameras), tuple(stances), self.gains(), moments)
+
+    def gains(self) -> NDArray[np.float64]:
+        """(F, 3) by what red, green and blue light are multiplied in each frame."""
+        return self.conditions.brightness * self.sensor.gains(self.moments)
 
     def frames(self, scene: Scene) -> Iterator[NDArray[np.float32]]:
         """Linear light (H, W, 3) each, as the phone measures it."""
-        sway, sensor, count = self.sway, self.sensor, len(SAMPLE_OFFSETS)
-        spread = EXPOSURE_SECONDS * ((np.arange(count) + 0.5) / count - 0.5)
+        stance_at, sensor, count = self.stance_at, self.sensor, self.conditions.exposure_moments
+        spread = self.conditions.exposure_seconds * ((np.arange(count) + 0.5) / count - 0.5)
         within = self.moments[:, None] + spread
         cameras = self.hand.cameras(within.ravel())
-        for frame, gains in enumerate(sensor.gains(self.moments)):
-            stands = [sway(second).place(self.subject) for second in within[frame].tolist()]
+        for frame, gains in enumerate(self.gains()):
+            stands = [stance_at(second).place(self.subject) for second in within[frame].tolist()]
             light = scene.expose(cameras[frame * count : (frame + 1) * count], list(stands))
             yield sensor.read(light, gains, frame)
 
@@ -97,9 +114,16 @@ class Take:
 def film(subject: Subject, order: Order, folder: Path) -> None:
     """Write `body.mp4` and `head.mp4` into a folder, and the truth beside them."""
     folder.mkdir(parents=True, exist_ok=True)
-    scene = Scene(furnished_room(order.seed), subject)
+    company = COMPANY_METRES if CONDITIONS[order.conditions].company else None
+    scene = Scene(furnished_room(order.seed), subject, company)
     takes = [Take(name, subject, order) for name, count in order.frames.items() if count]
-    made = {"format": order.film_format, "sway": order.sway, "seed": order.seed, "frames": dict(order.frames)}
+    made = {
+        "format": order.film_format,
+        "conditions": order.conditions,
+        "sway": order.sway,
+        "seed": order.seed,
+        "frames": dict(order.frames),
+    }
     write_truth(folder, Truth(subject, {take.name: take.truth() for take in takes}, made))
     for take in takes:
         write_film(folder / f"{take.name}.mp4", take.frames(scene), order.size, order.film_format)

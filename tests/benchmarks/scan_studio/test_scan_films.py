@@ -81,7 +81,13 @@ def test_what_is_written_is_read_again(folder: Path, egg: Subject) -> None:
     np.testing.assert_array_equal(truth.subject.texture, egg.texture)
     np.testing.assert_array_equal(truth.subject.arms[1].weights, egg.arms[1].weights)
     np.testing.assert_array_equal(truth.subject.joints["Head"], egg.joints["Head"])
-    assert truth.made == {"format": "h264", "sway": 0.03, "seed": 0, "frames": {"body": 8, "head": 5}}
+    assert truth.made == {
+        "format": "h264",
+        "conditions": "good",
+        "sway": 0.03,
+        "seed": 0,
+        "frames": {"body": 8, "head": 5},
+    }
     assert json.loads((folder / "truth.json").read_text())["height"] == pytest.approx(1.8)
 
 
