@@ -1,0 +1,171 @@
+"""How good the avatar's texture is on films of known people, with their true shape and cameras: the texture stage alone.
+
+    python -m benchmarks.avatar_texture FOLDER [--size 4096] [--body 75] [--head 50] [--sheet OUT.png]
+
+FOLDER is what `python -m benchmarks.scan_studio` made of a subject. The cameras are those of the person: the sway of the body is
+taken out, that of the arms, motion blur, exposure and balance are not. Prints CIELAB root mean square errors of the textured
+person, drawn without light, against the frames, each in its own exposure; the energies of labels and of best views; how well
+gains undo the exposure; seconds and peak memory. The sheet shows eight sides, the face from near, and frames.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.contact_sheet import Row, contact_sheet, write_sheet
+from benchmarks.scan_studio.truth import Truth, read_truth
+from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
+from engine.avatar.texture.stitching import StitchedTexture, stitch_texture
+from engine.avatar.texture.template_surface import template_surface
+from engine.avatar.texture.views import ChartedSurface, FrameView
+from engine.body.rig import HUMAN_RIG
+from engine.body.template import load_rig, load_template
+from engine.geometry.camera import Camera
+from engine.geometry.texture_atlas import unwrap
+from engine.imaging.histogram_matching import to_lab
+from engine.media.tone_mapping import srgb_code, srgb_light
+from engine.media.video import read_video
+from engine.render.attributes import interpolate, sample_texture
+from engine.render.rasteriser import rasterise
+from engine.render.texture_bake import charts_of, pad_charts
+
+SUPERSAMPLES = 2
+"""Along a side of a pixel, when the textured person is drawn."""
+OUTLINE_PIXELS = 5
+"""Across the outline that is left out of the errors: frames are blurred there with the room behind."""
+COMPARED = 5
+"""Each so many frames are compared."""
+BACKGROUND = 110
+FOCAL_OF_SHEET = 900
+
+
+def film_views(folder: Path, truth: Truth, surface: ChartedSurface, counts: dict[str, int]) -> list[FrameView]:
+    """Evenly spread frames of the films, by the person's own cameras, with masks of the true silhouette."""
+    views = []
+    for film, count in counts.items():
+        total = len(truth.films[film].cameras)
+        chosen = set(np.linspace(0, total, count, endpoint=False).astype(int).tolist())
+        for k, frame in enumerate(read_video(folder / f"{film}.mp4")):
+            if k in chosen:
+                camera, rgb = truth.person_camera(film, k), frame.rgb.copy()
+                covered = (
+                    rasterise(camera.project(surface.vertices), surface.triangles, camera.size, True).triangle >= 0
+                )
+                views.append(FrameView(camera, lambda rgb=rgb: rgb, lambda covered=covered: covered))
+    return views
+
+
+def drawn(surface: ChartedSurface, texture: NDArray[np.uint8], camera: Camera) -> tuple[NDArray, NDArray[np.bool_]]:
+    """The textured person without light, (H, W, 3) float32, and which pixels it covers."""
+    fine = camera.scaled(SUPERSAMPLES)
+    raster = rasterise(fine.project(surface.vertices), surface.triangles, fine.size, perspective=True)
+    covered = raster.triangle >= 0
+    uv = interpolate(surface.atlas.uv, surface.atlas.corners, raster)
+    picture = np.where(covered[..., None], sample_texture(texture, uv, covered), np.float32(BACKGROUND))
+    size = camera.size[::-1]
+    mean = cv2.resize(picture, size, interpolation=cv2.INTER_AREA)
+    share = cv2.resize(covered.astype(np.float32), size, interpolation=cv2.INTER_AREA)
+    return mean, share == 1
+
+
+def errors(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[FrameView], gains: NDArray) -> float:
+    """CIELAB root mean square over pixels of the person, mean square over frames."""
+    small = cv2.resize(texture, (2048, 2048), interpolation=cv2.INTER_AREA) if len(texture) > 2048 else texture
+    squares = []
+    for view, gain in list(zip(views, gains, strict=True))[::COMPARED]:
+        picture, covered = drawn(surface, np.asarray(small), view.camera)
+        inner = cv2.erode(covered.astype(np.uint8), np.ones((OUTLINE_PIXELS, OUTLINE_PIXELS), np.uint8)) > 0
+        away = to_lab(np.clip(picture / gain, 0, 255)[inner]) - to_lab(view.picture()[inner].astype(np.float32))
+        squares.append(float((away**2).sum(1).mean()))
+    return float(np.sqrt(np.mean(squares)))
+
+
+def true_gains(truth: Truth, counts: dict[str, int]) -> NDArray[np.float64]:
+    """(N, 3) what the chosen frames' colours would be multiplied by, of mid grey, of mean 1 in logarithms."""
+    light = np.concatenate(
+        [
+            film.gains[np.linspace(0, len(film.cameras), counts[name], endpoint=False).astype(int)]
+            for name, film in truth.films.items()
+        ]
+    )
+    grey = srgb_light(np.array(0.5))
+    return np.asarray(0.5 / srgb_code(np.clip(light * grey, 0, 1)))
+
+
+def spread(gains: NDArray[np.floating]) -> float:
+    """Root mean square of logarithms about their mean."""
+    logs = np.log(gains)
+    return float((logs - logs.mean(0)).std())
+
+
+def sheet_of(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[FrameView]) -> NDArray[np.uint8]:
+    """Eight sides, the face from near, frames."""
+    small = cv2.resize(texture, (2048, 2048), interpolation=cv2.INTER_AREA) if len(texture) > 2048 else texture
+    height = float(surface.vertices[np.unique(surface.triangles), 1].max())
+    lens = Camera((0, 0, 1), FOCAL_OF_SHEET, (179.5, 329.5), (660, 360))
+
+    def seen(distance: float, at: float, turn: float, lens: Camera) -> NDArray[np.uint8]:
+        camera = lens.aimed([distance * np.sin(turn), at, distance * np.cos(turn)], [0, at, 0])
+        return np.clip(drawn(surface, np.asarray(small), camera)[0], 0, 255).astype(np.uint8)
+
+    turns = np.arange(8) * np.pi / 4
+    near = Camera((0, 0, 1), FOCAL_OF_SHEET, (219.5, 219.5), (440, 440))
+    return contact_sheet(
+        [
+            Row([seen(2.7, height / 2, turn, lens) for turn in turns], "eight sides"),
+            Row([seen(0.65, height - 0.13, turn, near) for turn in (-0.8, 0.0, 0.8, 1.6, np.pi)], "head"),
+            Row([view.picture() for view in views[:: max(len(views) // 8, 1)]][:8], "frames"),
+        ]
+    )
+
+
+def main() -> None:
+    """Measure and print."""
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
+    arguments.add_argument("folder", type=Path)
+    arguments.add_argument("--size", type=int, default=4096)
+    arguments.add_argument("--body", type=int, default=75)
+    arguments.add_argument("--head", type=int, default=50)
+    arguments.add_argument("--sheet", type=Path)
+    asked = arguments.parse_args()
+    truth, counts = read_truth(asked.folder), {"body": asked.body, "head": asked.head}
+    subject = truth.subject
+    found: AvatarTexture | StitchedTexture
+    if subject.template:
+        rig = load_rig(HUMAN_RIG)
+        template = template_surface(load_template(), rig)
+        surface = template.fitted(subject.vertices)
+        views = film_views(asked.folder, truth, surface, counts)
+        began = time.perf_counter()
+        found = avatar_texture(template, rig, subject.vertices, views, asked.size)
+        texture = found.texture
+        print(f"seen: {found.seen_share:.1%} of the skin; eyes {'seen' if found.eyes_seen else 'not seen'}")
+    else:
+        atlas, _ = unwrap(subject.vertices, subject.triangles, asked.size)
+        surface = ChartedSurface(subject.vertices, subject.triangles, atlas, np.ones(len(subject.triangles), np.bool_))
+        views = film_views(asked.folder, truth, surface, counts)
+        began = time.perf_counter()
+        found = stitch_texture(surface, views, asked.size)
+        charts = charts_of(atlas, found.raster)
+        texture = pad_charts(found.texture, charts >= 0, charts)
+    seconds = time.perf_counter() - began
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"{len(views)} frames, {asked.size} texels: {seconds:.1f} s, peak {peak:.0f} MB with all frames in memory")
+    true = true_gains(truth, counts)
+    print(f"exposure: {spread(true):.4f} before, {spread(found.gains / true):.4f} after (of mid grey, logarithms)")
+    for name, labels in (("best view", found.best), ("stitched", found.labels)):
+        print(f"{name}: data {labels.data:.1f}, seams {labels.seams:.1f}, {labels.patches} patches")
+    print(f"CIELAB RMSE over frames: {errors(surface, texture, views, found.gains):.2f}")
+    if asked.sheet:
+        write_sheet(asked.sheet, sheet_of(surface, texture, views))
+
+
+if __name__ == "__main__":
+    main()
