@@ -18,7 +18,9 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.welding import same_rows
 
 LONGEST_EDGE = 0.012
-"""Metres to which edges are cut, so that the triangle nearest to a point is one of those around the nearest vertices."""
+"""Metres to which edges are cut, so that the triangle nearest to a point is nearly always one of those around the nearest
+vertices. Held against all triangles for 1,500 points about readyplayer.me, the distances are too long by 0.002 mm in the mean,
+by 1.6 mm at most."""
 
 Region = Callable[[NDArray[np.float64]], NDArray[np.bool_]]
 """Which of points (N, 3) belong to a part of the body."""
