@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.scan_studio.conditions import CONDITIONS, Conditions
 from benchmarks.scan_studio.subject import Subject
-from benchmarks.scan_studio.sway import SmoothCurve
+from benchmarks.scan_studio.sway import CYCLES, SmoothCurve
 from engine.geometry.camera import Camera
 
 FOCAL_SHARE = 0.85
@@ -70,12 +70,6 @@ class HandHeld:
     """Whether the head is filmed."""
     conditions: Conditions = CONDITIONS["good"]
 
-    def _curve(self, number: int, channels: int, cycles: tuple[float, ...] | None = None) -> SmoothCurve:
-        seed = self.seed + 10 * number
-        return (
-            SmoothCurve(channels, self.seconds, seed, cycles) if cycles else SmoothCurve(channels, self.seconds, seed)
-        )
-
     def cameras(self, seconds: NDArray[np.float64]) -> list[Camera]:
         """As it is at these moments (N,)."""
         width, height = self.size
@@ -94,6 +88,9 @@ class HandHeld:
             axes = Rotation.from_rotvec(vector).as_matrix() @ np.array(level.axes)
             found.append(replace(level, focal=float(length), axes=tuple(map(tuple, axes.tolist()))))
         return found
+
+    def _curve(self, number: int, channels: int, cycles: tuple[float, ...] = CYCLES) -> SmoothCurve:
+        return SmoothCurve(channels, self.seconds, self.seed + 10 * number, cycles)
 
     def _path(self, seconds: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(N, 3) eyes and (N, 3) what they look at."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,35 +66,24 @@ class Stance:
         return np.asarray(moved @ self.rotation.T + self.translation)
 
 
-@dataclass(frozen=True)
 class Sway:
-    """The sway of a subject over a film of `seconds`: its chest moves by `metres` at most from where it is in the mean."""
+    """The sway of a subject over a film of `seconds`: its chest moves by `metres` at most from where it is in the mean. `seed`
+    decides how."""
 
-    subject: Subject
-    metres: float
-    seconds: float
-    seed: int
-    """Of how it sways."""
-    _lean: SmoothCurve = field(init=False, repr=False)
-    _turn: SmoothCurve = field(init=False, repr=False)
-    _arms: tuple[SmoothCurve, ...] = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        for name, curve in (
-            ("_lean", SmoothCurve(2, self.seconds, self.seed)),
-            ("_turn", SmoothCurve(1, self.seconds, self.seed + 1)),
-            ("_arms", tuple(SmoothCurve(2, self.seconds, self.seed + 2 + k) for k in range(2))),
-        ):
-            object.__setattr__(self, name, curve)
+    def __init__(self, subject: Subject, metres: float, seconds: float, seed: int):
+        self._subject, self._metres = subject, metres
+        self._lean = SmoothCurve(2, seconds, seed)
+        self._turn = SmoothCurve(1, seconds, seed + 1)
+        self._arms = [SmoothCurve(2, seconds, seed + 2 + k) for k in range(2)]
 
     def __call__(self, second: float) -> Stance:
         """How the subject stands."""
-        share = self.metres / USUAL_METRES
-        across, forward = self.metres * self._lean(second) / (CHEST_SHARE * self.subject.height)
+        share = self._metres / USUAL_METRES
+        across, forward = self._metres * self._lean(second) / (CHEST_SHARE * self._subject.height)
         about = TURN_RADIANS * share * float(self._turn(second)[0])
         rotation = Rotation.from_rotvec([forward, about, -across]).as_matrix()
         arms = np.zeros((2, 3))
-        for k, arm in enumerate(self.subject.arms):
+        for k, arm in enumerate(self._subject.arms):
             up, along = share * ARM_METRES[k] * self._arms[k](second) / arm.reach
             arms[k] = (0.0, along, up)
         return Stance(rotation, np.zeros(3), arms)
