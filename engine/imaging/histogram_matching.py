@@ -18,9 +18,15 @@ MIN_RANGE = 2.0
 """Of a channel of CIELAB, below which the colours have no distribution of their own that could be stretched: it is shifted."""
 
 
-def matched_in_lab(colours: NDArray[np.floating], reference: NDArray[np.floating]) -> NDArray[np.float32]:
+def matched_in_lab(
+    colours: NDArray[np.floating], reference: NDArray[np.floating], max_stretch: float = np.inf
+) -> NDArray[np.float32]:
     """The colours (N, 3) sRGB, 0 to 255, so that L, a and b are each distributed as those of the `reference` (M, 3). Their
-    order stays. Where there is no reference they stay as they are."""
+    order stays. Where there is no reference they stay as they are.
+
+    `max_stretch`: by how much a channel's range may grow. Where the reference's is wider, as that of a hand under shading, it is
+    narrowed about its median, so that no grain of the colours becomes a stain.
+    """
     if not len(colours) or not len(reference):
         return np.asarray(colours, np.float32)
     own, goal = to_lab(colours), to_lab(reference)
@@ -29,6 +35,9 @@ def matched_in_lab(colours: NDArray[np.floating], reference: NDArray[np.floating
     for channel in range(3):
         have = np.quantile(own[:, channel], steps)
         want = np.quantile(goal[:, channel], TAIL + (1 - 2 * TAIL) * steps)
+        inner = slice(QUANTILES // 10, -(QUANTILES // 10))
+        wider = np.ptp(want[inner]) / max(np.ptp(have[inner]), 1e-6)
+        want = np.median(want) + (want - np.median(want)) * min(1.0, max_stretch / max(wider, 1e-6))
         if np.ptp(have) < MIN_RANGE:
             out[:, channel] = own[:, channel] + np.median(want) - np.median(have)
         else:

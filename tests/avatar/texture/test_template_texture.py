@@ -79,7 +79,7 @@ def test_teeth_are_light_at_their_edges_and_gum_at_their_roots(surface: Template
         at_edge = height < 0.3 if upper else height > 0.7
         at_root = height > 0.85 if upper else height < 0.15
         assert at_edge.any() and at_root.any()
-        assert colours[at_edge].mean(1).min() > 120
+        assert colours[at_edge].mean(1).min() > 105
         assert (colours[at_root, 0] > 1.5 * colours[at_root, 1]).all()
 
 

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from engine.performances.modelling.teeth import LOWER_CROWNS, UPPER_CROWNS
 
-ENAMEL, DENTINE, GUM = np.array([226, 217, 200.0]), np.array([205, 186, 150.0]), np.array([176, 96, 95.0])
+ENAMEL, DENTINE, GUM = np.array([204, 195, 178.0]), np.array([182, 165, 134.0]), np.array([176, 96, 95.0])
 TONGUE, TONGUE_ROOT = np.array([184, 104, 104.0]), np.array([104, 48, 50.0])
 LINING, THROAT = np.array([142, 66, 66.0]), np.array([36, 12, 14.0])
-"""sRGB."""
+"""sRGB, as things look in a mouth, which is dark: textures are shown without its shade."""
 CROWN_SHARE = 0.62
 """Of a jaw's height from the edge of the teeth, how much is crowns; the rest is gum."""
 GAP_WIDTH = 0.00022

@@ -21,6 +21,8 @@ from engine.render.rasteriser import Raster
 
 WRIST_LENGTH = 0.03
 """Metres past the wrist over which the frames' colours become the template's."""
+MAX_STRETCH = 1.3
+"""Of the painted hand's contrast: what frames have more of is their shading."""
 MIN_SEEN_SHARE = 0.05
 """Of a hand's texels, that frames must show for their colours to be those of the hand; else all are, filled ones too."""
 
@@ -79,8 +81,9 @@ def place_hands(
         facing = texels.blend(normals, surface.triangles)
         facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-9)
         own = flat[texels.texels].astype(np.float32)
-        told = shown[texels.texels]
-        reference = own[told] if told.mean() > MIN_SEEN_SHARE else own
-        painted = matched_in_lab(painted_hand(bones, places, facing), reference)
         share = past_wrist(bones, places, WRIST_LENGTH)[:, None].astype(np.float32)
+        hand = share[:, 0] == 1  # a sleeve may reach as far as the wrist
+        told = hand & shown[texels.texels]
+        reference = own[told] if told.sum() > MIN_SEEN_SHARE * hand.sum() else own[hand]
+        painted = matched_in_lab(painted_hand(bones, places, facing), reference, MAX_STRETCH)
         texels.put(texture, own + share * (painted - own))
