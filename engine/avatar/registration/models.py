@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.registration.body_model import BodyModel
 from engine.avatar.registration.coarse import COEFFICIENTS
+from engine.avatar.registration.footwear import Feet, load_feet
 from engine.avatar.registration.skin import Skin, load_skin
 from engine.body.body_space import BodySpace, load_body_space
 from engine.body.landmarks import LandmarkModel, landmark_model
@@ -19,7 +20,7 @@ from engine.geometry.skinning import skin as blend
 
 @dataclass(frozen=True)
 class HumanModels:
-    """The template with its rig, the space of bodies, its landmarks, its skin, and that skin posed."""
+    """The template with its rig, the space of bodies, its landmarks, its skin, that skin posed, and its feet."""
 
     template: Template
     rig: Rig
@@ -27,6 +28,7 @@ class HumanModels:
     landmarks: LandmarkModel
     skin: Skin
     body: BodyModel
+    feet: Feet
 
     def whole(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         """(V, 3) all the template's vertices, eyes and teeth too, for the parameters of `body`, metres."""
@@ -40,4 +42,5 @@ def load_models() -> HumanModels:
     template, space, rig = load_template(), load_body_space(), load_rig(HUMAN_RIG)
     skin = load_skin(template, space, rig)
     body = BodyModel(space, skin, COEFFICIENTS)
-    return HumanModels(template, rig, space, landmark_model(template, space, rig), skin, body)
+    feet = load_feet(skin, space.mean[skin.vertices])
+    return HumanModels(template, rig, space, landmark_model(template, space, rig), skin, body, feet)

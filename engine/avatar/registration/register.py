@@ -13,6 +13,7 @@ from engine.avatar.registration.expressions import transferred_units
 from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.footwear import in_shoes, wears_shoes
 from engine.avatar.registration.head_cloud import carried, head_to_body, one_cloud
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.inner_mouth import inner_skin
@@ -61,6 +62,9 @@ def register(models: HumanModels, body: Scan, head: Scan | None = None) -> Fitte
     believed = body.landmarks.without(by_landmarks.dropped)
     parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
     coarse = models.body.vertices(parameters)
+    shoes = wears_shoes(models.skin, models.feet, coarse, cloud)
+    if shoes:
+        coarse = in_shoes(models.skin, models.feet, coarse)
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
     placed: Similarity | None = None
     if head is not None:
