@@ -31,11 +31,34 @@ CAMERA_PARAMETERS, LENS_PARAMETERS = 6, 3
 
 
 @dataclass(frozen=True)
+class PosePrior:
+    """Poses that cameras are expected to have, normally distributed about them.
+
+    rotations : (C, 3, 3) float64, from the world to each camera.
+    translations : (C, 3) float64, likewise.
+    turn, shift : radians, and units of length, that count as much as one pixel of error of one observation.
+    """
+
+    rotations: NDArray[np.float64]
+    translations: NDArray[np.float64]
+    turn: float
+    shift: float
+
+    def residuals(self, bundle: Bundle) -> NDArray[np.float64]:
+        """(C, 6) how far the cameras are turned and shifted from what is expected, in pixels of error."""
+        turns = bundle.rotations @ self.rotations.transpose(0, 2, 1)
+        shifts = bundle.translations - np.einsum("cij,cj->ci", turns, self.translations)
+        return np.concatenate([Rotation.from_matrix(turns).as_rotvec() / self.turn, shifts / self.shift], axis=1)
+
+
+@dataclass(frozen=True)
 class Freedom:
-    """What may change: `cameras` (C,) bool; `lens` for focal length, k1 and k2; `points` always do."""
+    """What may change: `cameras` (C,) bool; `lens` for focal length, k1 and k2; points always do. `prior`: what is known
+    of the cameras beforehand."""
 
     cameras: NDArray[np.bool_]
     lens: tuple[bool, bool, bool] = (False, False, False)
+    prior: PosePrior | None = None
 
 
 @dataclass(frozen=True)
@@ -69,11 +92,11 @@ def adjust(
     if not len(seen):
         raise ValueError("nothing was observed")
     seen = seen[np.argsort(seen.point, kind="stable")]
-    cost = robust_cost(reprojection_errors(bundle, seen), loss_scale)
+    cost = _cost(bundle, seen, freedom, loss_scale)
     damping, steps = FIRST_DAMPING, 0
     while steps < most_steps and damping < MAX_DAMPING:
         candidate = _step(bundle, seen, freedom, loss_scale, damping)
-        there = np.inf if candidate is None else robust_cost(reprojection_errors(candidate, seen), loss_scale)
+        there = np.inf if candidate is None else _cost(candidate, seen, freedom, loss_scale)
         if candidate is None or not there <= cost:
             damping *= 10
             continue
@@ -90,6 +113,13 @@ def robust_cost(errors: NDArray[np.floating], scale: float) -> float:
     return float(scale**2 / 2 * np.log1p((errors / scale) ** 2).sum())
 
 
+def _cost(bundle: Bundle, seen: Observations, freedom: Freedom, loss_scale: float) -> float:
+    cost = robust_cost(reprojection_errors(bundle, seen), loss_scale)
+    if freedom.prior is not None:
+        cost += float((freedom.prior.residuals(bundle)[freedom.cameras] ** 2).sum() / 2)
+    return cost
+
+
 def _step(bundle: Bundle, seen: Observations, freedom: Freedom, loss_scale: float, damping: float) -> Bundle | None:
     """The bundle after one damped step; None where the system cannot be solved."""
     slots = np.where(freedom.cameras, np.cumsum(freedom.cameras) - 1, -1)
@@ -103,6 +133,8 @@ def _step(bundle: Bundle, seen: Observations, freedom: Freedom, loss_scale: floa
     own = np.zeros(size)  # the diagonal before elimination, by which damping is measured
     inverses, gradients = np.zeros((len(starts) - 1, 3, 3)), np.zeros((len(starts) - 1, 3))
     eliminate_points(geometry, layout, loss_scale, damping, (system, right, own, inverses, gradients))
+    if freedom.prior is not None:
+        _expect(freedom, bundle, system, right, own)
     kept = np.r_[np.ones(first_lens, np.bool_), np.tile(freedom.lens, len(bundle.lenses))]
     change = np.zeros(size)
     if kept.any():
@@ -121,6 +153,23 @@ def _step(bundle: Bundle, seen: Observations, freedom: Freedom, loss_scale: floa
     moved = _moved(bundle, freedom, change[:first_lens].reshape(-1, CAMERA_PARAMETERS))
     lenses = bundle.lenses + change[first_lens:].reshape(-1, LENS_PARAMETERS)
     return replace(moved, points=points, lenses=lenses) if (lenses[:, 0] > 0).all() else None
+
+
+def _expect(
+    freedom: Freedom,
+    bundle: Bundle,
+    system: NDArray[np.float64],
+    right: NDArray[np.float64],
+    own: NDArray[np.float64],
+) -> None:
+    """Add what is known of the cameras beforehand; turns being small, each of the six counts by itself."""
+    assert freedom.prior is not None
+    off = freedom.prior.residuals(bundle)[freedom.cameras]
+    slope = np.repeat([1 / freedom.prior.turn, 1 / freedom.prior.shift], 3)
+    diagonal = np.arange(off.size)
+    system[diagonal, diagonal] += np.tile(slope**2, len(off))
+    own[diagonal] += np.tile(slope**2, len(off))
+    right[diagonal] -= (off * slope).ravel()
 
 
 def _moved(bundle: Bundle, freedom: Freedom, change: NDArray[np.float64]) -> Bundle:

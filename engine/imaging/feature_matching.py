@@ -17,8 +17,8 @@ from engine.imaging.features import Features
 
 MAX_RATIO = 0.8
 """Of the distances to the nearest and to the second nearest descriptor (Lowe's value)."""
-MAX_EPIPOLAR_ERROR = 2.0
-"""Pixels from the epipolar line, of pictures 1000 pixels long."""
+MAX_EPIPOLAR_ERROR = 4.0
+"""Pixels from the epipolar line, of pictures 1000 pixels long: people who are to hold still sway by as much."""
 MIN_MATCHES = 15
 """In accord with one motion; fewer come by chance."""
 MIN_AGREEING = 0.25
@@ -47,7 +47,11 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     if len(matches) < MIN_MATCHES:
         return none
     first, second = a.pixels[matches[:, 0]].astype(np.float64), b.pixels[matches[:, 1]].astype(np.float64)
-    _, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, MAX_EPIPOLAR_ERROR * length / 1000, 0.999, 2000)
+    error = MAX_EPIPOLAR_ERROR * length / 1000
+    try:
+        _, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, error, 0.999, 2000)
+    except cv2.error:  # it asserts that it found a matrix, and among wrong matches alone it may not
+        return none
     if mask is None:
         return none
     agreed = mask.ravel() > 0

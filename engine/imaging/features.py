@@ -53,7 +53,7 @@ def find_features(
     rgb : (H, W, 3).
     favoured : (H, W), where half of them are taken from, if there are so many.
     """
-    sift = cv2.SIFT_create(0, LAYERS, min_contrast, MAX_EDGE_RATIO, 1.6, True)
+    sift = cv2.SIFT_create(0, LAYERS, min_contrast, MAX_EDGE_RATIO, 1.6, True)  # type: ignore[attr-defined]
     grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
     found = sorted(sift.detect(grey, None), key=lambda one: -one.response)
     if favoured is not None and len(found) > count:
@@ -71,7 +71,8 @@ def find_features(
 def _shared_out(found: list[cv2.KeyPoint], count: int, favoured: NDArray[np.bool_]) -> list[cv2.KeyPoint]:
     """So many, half of them where they are favoured; what one half lacks, the other has."""
     height, width = favoured.shape
-    inside, outside = [], []
+    inside: list[cv2.KeyPoint] = []
+    outside: list[cv2.KeyPoint] = []
     for one in found:
         x, y = min(max(round(one.pt[0]), 0), width - 1), min(max(round(one.pt[1]), 0), height - 1)
         (inside if favoured[y, x] else outside).append(one)

@@ -49,14 +49,25 @@ class Lens:
 
 @dataclass(frozen=True)
 class Reconstruction:
-    """The `bundle` of all pictures and all tracks, of which `registered` (C,) and `solved` (T,) say which are found;
-    `seen`: the observations that agree; `features` (O,): which of its picture's features each is."""
+    """What was found of C pictures and T tracks with O observations.
+
+    bundle : cameras of all pictures, points of all tracks (NaN where there is none).
+    registered : (C,) bool, the pictures whose camera is found.
+    tracks : the features of each track.
+    seen : (O,) observations, those of the tracks in their order.
+    agreed : (O,) bool, those in accord with the bundle.
+    """
 
     bundle: Bundle
     registered: NDArray[np.bool_]
-    solved: NDArray[np.bool_]
+    tracks: Tracks
     seen: Observations
-    features: NDArray[np.intp]
+    agreed: NDArray[np.bool_]
+
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """(T,) the tracks whose point is found."""
+        return np.isfinite(self.bundle.points[:, 0])
 
 
 def reconstruct(
@@ -225,9 +236,7 @@ class _Mapping:
 
     def result(self) -> Reconstruction:
         """What was found."""
-        return Reconstruction(
-            self.bundle, self.registered, self.solved, self.seen[self.kept], self.tracks.feature[self.kept]
-        )
+        return Reconstruction(self.bundle, self.registered, self.tracks, self.seen, self.kept)
 
     def _choose(self) -> None:
         """Keep whatever agrees now, also of what did not before; give up points that fewer than two cameras see, and look
