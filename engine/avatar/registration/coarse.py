@@ -30,12 +30,19 @@ SHAPE_WEIGHT = 3.0
 """By how much more a coefficient counts than its standard deviation: of the bodies sampled, the few are as odd as clothes are."""
 STIFF_JOINTS, STIFF_WEIGHT = ("Spine", "Spine1", "Spine2", "Neck", "Head"), 1 / 0.3
 """Joints that turn less than in other pictures while one stands for a scan, and by how much less."""
-LANDMARK_SIGMA, ROUGH_SIGMA = 0.02, 0.03
-"""Metres by which landmarks are off, usually, and what is assumed of them at first."""
+LANDMARK_SIGMAS = {"Hip": 0.06, "Knee": 0.04, "Ankle": 0.04, "Heel": 0.04, "FootIndex": 0.04, "Ear": 0.04}
+"""Metres by which landmarks are off, usually, by their names without a side: under clothes, in shoes, and where perception sees
+them elsewhere than the template has them ..."""
+USUAL_SIGMA = 0.02
+"""... and all others."""
+ROUGH_SIGMA = 0.03
+"""What is assumed of landmarks at first, at least."""
 LANDMARK_CUTOFF = 6.0
 """Deviations at which a landmark's pull is at its strongest (Geman-McClure)."""
 MAX_LANDMARK_RESIDUAL = 0.12
 """Metres from the fit beyond which a landmark is wrong: right ones come within 0.03, those of another limb are 0.4 off."""
+MAX_SIGMAS = 2.5
+"""The same in deviations, where that is more."""
 MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
@@ -87,11 +94,13 @@ def fit_to_landmarks(model: BodyModel, carried: LandmarkModel, landmarks: Spatia
         places = np.stack([landmarks.body[name] for name in kept])
         chosen = np.array([carried.names.index(name) for name in kept])
         parameters = _first_guess(model, carried, chosen, places)
-        for sigma in (ROUGH_SIGMA, LANDMARK_SIGMA):
-            parameters = levenberg_marquardt(partial(_residuals, model, carried, chosen, places, sigma), parameters)
+        for least in (ROUGH_SIGMA, 0.0):
+            sigmas = np.maximum(_sigmas(kept), least)
+            parameters = levenberg_marquardt(partial(_residuals, model, carried, chosen, places, sigmas), parameters)
         at = model.poser(parameters[None]).carry(carried)[0]
         off = {name: float(np.linalg.norm(at[carried.names.index(name)] - landmarks.body[name])) for name in names}
-        wrong = {name for name in kept if off[name] > MAX_LANDMARK_RESIDUAL}
+        most = np.maximum(MAX_LANDMARK_RESIDUAL, MAX_SIGMAS * _sigmas(kept))
+        wrong = {name for name, limit in zip(kept, most, strict=True) if off[name] > limit}
         if not wrong:
             break
         dropped |= wrong
@@ -115,13 +124,19 @@ def fit_to_points(
     for turn in rounds:
         picked = random.choice(len(cloud), min(turn.points, len(cloud)), replace=False)
         jacobian, off = _point_term(model, parameters, cloud[picked], turn)
-        others = partial(_residuals, model, carried, chosen, places, LANDMARK_SIGMA)
+        others = partial(_residuals, model, carried, chosen, places, _sigmas(names))
         now = others(parameters[None])[0]
         slopes = (others(parameters + 1e-4 * np.eye(len(parameters))) - now).T / 1e-4
         hessian = jacobian.T @ jacobian + slopes.T @ slopes
         gradient = jacobian.T @ off + slopes.T @ now
         parameters = parameters - np.linalg.solve(hessian + 1e-3 * np.diag(np.diag(hessian) + 1e-9), gradient)
     return parameters
+
+
+def _sigmas(names: Sequence[str]) -> NDArray[np.float64]:
+    """(L,) metres by which landmarks are off, usually."""
+    bare = [name.removeprefix("Left").removeprefix("Right") for name in names]
+    return np.array([LANDMARK_SIGMAS.get(name, USUAL_SIGMA) for name in bare])
 
 
 def _first_guess(
@@ -145,12 +160,12 @@ def _residuals(
     carried: LandmarkModel,
     chosen: NDArray[np.intp],
     places: NDArray[np.float64],
-    sigma: float,
+    sigmas: NDArray[np.float64],
     parameters: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """(N, R) landmarks, priors and the ground in standard deviations, for parameters (N, P)."""
     posed = model.poser(parameters)
-    off = (posed.carry(carried)[:, chosen] - places) / sigma
+    off = (posed.carry(carried)[:, chosen] - places) / sigmas[:, None]
     off = off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / LANDMARK_CUTOFF**2)
     _, turns, coefficients = model.poser.split(parameters)
     stiff = np.array([STIFF_WEIGHT if name in STIFF_JOINTS else 1.0 for name in FITTED_JOINTS[1:]]).repeat(3)

@@ -47,7 +47,8 @@ class Scan:
 def register(models: HumanModels, body: Scan, head: Scan | None = None) -> FittedTemplate:
     """The person of a body's and a head's scan.
 
-    The body's world has y up, the ground at y = 0 about. Without a head's scan the face is as good as the body's cloud.
+    The body's world has y up, the ground at y = 0 about. Without a head's scan, or where it has hardly a point, the face
+    is as good as the body's cloud.
 
     Raises `InputError`: `landmarks_needed` where landmarks are missing or contradict each other; `cloud_too_thin` where there
     are too few points.
@@ -67,12 +68,17 @@ def register(models: HumanModels, body: Scan, head: Scan | None = None) -> Fitte
         coarse = in_shoes(models.skin, models.feet, coarse)
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
     placed: Similarity | None = None
-    if head is not None:
+    if head is not None and len(head.cloud) >= MIN_POINTS:
         placed = head_to_body(models.skin, fitted, head.cloud, head.landmarks)
         fitted = _with_head(models, fitted, cloud, head, placed)
     fitted = inner_skin(models.skin, coarse, fitted)
     return _person(
-        models, parameters, coarse, fitted, placed, _notices(by_landmarks, parameters[-models.body.coefficients :])
+        models,
+        parameters,
+        coarse,
+        fitted,
+        placed,
+        _notices(by_landmarks, parameters[-models.body.coefficients :], head is not None and placed is None),
     )
 
 
@@ -122,8 +128,15 @@ def _person(
     )
 
 
-def _notices(coarse: CoarseFit, coefficients: NDArray[np.float64]) -> tuple[Notice, ...]:
+def _notices(coarse: CoarseFit, coefficients: NDArray[np.float64], head_lost: bool) -> tuple[Notice, ...]:
     found = []
+    if head_lost:
+        found.append(
+            Notice(
+                "head_not_reconstructed",
+                "Too little of the head's clip was reconstructed: the face is the body clip's.",
+            )
+        )
     if coarse.dropped:
         names = ", ".join(sorted(coarse.dropped))
         found.append(
