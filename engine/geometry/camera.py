@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from engine.compiled import njit
+from engine.geometry.rigid import Similarity
 
 Axes = tuple[tuple[float, ...], ...]
 
@@ -146,6 +147,13 @@ class Camera:
     def cropped(self, left: int, top: int, size: tuple[int, int]) -> Camera:
         """The camera of a part of the picture that begins at pixel (left, top); `size` (height, width)."""
         return replace(self, centre=(self.centre[0] - left, self.centre[1] - top), size=size)
+
+    def moved(self, motion: Similarity) -> Camera:
+        """The camera carried along when the world that it sees undergoes a rigid motion, or a similarity: it sees the moved
+        points where it saw them before."""
+        x, y, z = motion(np.array(self.eye)).tolist()
+        axes = (np.array(self.axes) @ motion.rotation.T).tolist()
+        return replace(self, eye=(x, y, z), axes=tuple(map(tuple, axes)))
 
     def aimed(self, eye: ArrayLike, target: ArrayLike) -> Camera:
         """The same lens, level, at `eye` and looking at `target` (3,). The target may not be right above the eye."""

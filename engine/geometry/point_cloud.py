@@ -46,11 +46,21 @@ def joined(clouds: Sequence[PointCloud]) -> PointCloud:
 
 def thinned(cloud: PointCloud, spacing: float) -> PointCloud:
     """At most one point in each cell of a grid with cells of `spacing` metres: the one nearest to the cell's mean."""
-    cells = np.floor(cloud.points / spacing).astype(np.int64)
-    _, cell, counts = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
-    cell = cell.reshape(-1)
-    sums = np.stack([np.bincount(cell, cloud.points[:, axis], len(counts)) for axis in range(3)], axis=1)
-    distance = np.linalg.norm(cloud.points - (sums / counts[:, None])[cell], axis=1)
+    return cloud[thinning(cloud.points, spacing)]
+
+
+def thinning(points: NDArray[np.floating], spacing: float) -> NDArray[np.intp]:
+    """Which of the points (N, 3), in their order, stay when one is left in each cell: those that `thinned` leaves."""
+    if not len(points):
+        return np.zeros(0, np.intp)
+    cells = np.floor(points / spacing).astype(np.int64)
+    cells -= cells.min(axis=0)
+    wide = cells.max(axis=0) + 1
+    _, cell, counts = np.unique(
+        (cells[:, 0] * wide[1] + cells[:, 1]) * wide[2] + cells[:, 2], return_inverse=True, return_counts=True
+    )
+    sums = np.stack([np.bincount(cell, points[:, axis], len(counts)) for axis in range(3)], axis=1)
+    distance = np.linalg.norm(points - (sums / counts[:, None])[cell], axis=1)
     order = np.lexsort((distance, cell))
     first = np.r_[True, np.diff(cell[order]) > 0]
-    return cloud[np.sort(order[first])]
+    return np.sort(order[first])

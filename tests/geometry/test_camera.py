@@ -5,8 +5,10 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from engine.geometry.camera import Camera
+from engine.geometry.rigid import Similarity
 
 START = Camera(eye=(0.2, 1.5, 3.0), focal=800, centre=(319.5, 200.0), size=(480, 640))
 TARGET = (0.1, 0.9, 0.0)
@@ -155,3 +157,12 @@ def test_the_projection_matrix_sees_points_where_the_camera_does() -> None:
     points = np.random.default_rng(5).normal([0, 1, 0], 0.3, (20, 3))
     seen = np.c_[points, np.ones(20)] @ camera.projection.T
     assert np.allclose(np.c_[seen[:, :2] / seen[:, 2:], seen[:, 2]], camera.project(points, np.float64))
+
+
+def test_a_moved_camera_sees_moved_points_where_it_saw_them() -> None:
+    camera = Camera((0.3, 1.2, 2.0), 500.0, (100.0, 80.0), (160, 200)).aimed((0.5, 1.4, 1.8), (0.0, 1.0, 0.1))
+    turn = Rotation.from_rotvec([0.2, -0.4, 0.1]).as_matrix()
+    motion = Similarity(1.3 * turn, np.array([0.1, -0.2, 0.5]))
+    points = np.random.default_rng(5).normal([0, 1, 0], 0.3, (20, 3))
+    before, after = camera.project(points, np.float64), camera.moved(motion).project(motion(points), np.float64)
+    assert np.allclose(after, before * [1, 1, 1.3])

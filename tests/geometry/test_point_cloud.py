@@ -34,3 +34,7 @@ def test_a_thinned_cloud_has_one_point_a_cell_and_it_is_the_one_nearest_to_the_m
 def test_a_thinned_cloud_of_the_cells_size_is_itself() -> None:
     grid = np.stack(np.meshgrid(*[np.arange(4) + 0.5] * 3), axis=-1).reshape(-1, 3)
     assert len(thinned(cloud_of(grid), 1.0)) == len(grid)
+
+
+def test_an_empty_cloud_thinned_is_empty() -> None:
+    assert len(thinned(cloud_of(np.zeros((0, 3))), 1.0)) == 0
