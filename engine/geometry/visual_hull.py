@@ -26,6 +26,8 @@ WRONG_SILHOUETTES = 0.08
 """Share of the silhouettes that see a voxel and may leave it out: segmentation errs in single frames."""
 MIN_SIGHTINGS = 0.15
 """Share of the views that must have a voxel in their picture: what fewer see is not known to be there."""
+NORMALS_BLUR = 1.5
+"""Voxels of the Gaussian by which occupancy is blurred before it tells normals."""
 STEP = 0.5
 """Of a voxel, along a line of sight."""
 
@@ -49,14 +51,16 @@ class VisualHull:
         ends = np.stack([filled.min(axis=0) - 0.5, filled.max(axis=0) + 0.5])
         return np.asarray(self.origin + self.spacing * ends)
 
-    def surface(self) -> NDArray[np.float64]:
-        """(N, 3) metres: the centres of the occupied voxels of which a neighbour, across a side, is empty."""
+    def surface(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(N, 3) metres: the centres of the occupied voxels of which a neighbour, across a side, is empty; and (N, 3) unit
+        normals there, out of the body."""
         filled = np.pad(self.occupied, 1)
-        inner = filled[1:-1, 1:-1, 1:-1].copy()
-        for axis in range(3):
-            for step in (-1, 1):
-                inner &= np.roll(filled, step, axis)[1:-1, 1:-1, 1:-1]
-        return np.asarray(self.origin + self.spacing * np.argwhere(self.occupied & ~inner))
+        outer = np.argwhere(filled & ~ndimage.binary_erosion(filled))
+        blurred = ndimage.gaussian_filter(filled.astype(np.float32), NORMALS_BLUR)
+        slope = np.stack([np.gradient(blurred, axis=axis) for axis in range(3)], axis=-1)
+        normals = -slope[tuple(outer.T)].astype(np.float64)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+        return self.origin + self.spacing * (outer - 1), normals
 
 
 def visual_hull(

@@ -24,8 +24,11 @@ def test_the_hull_holds_the_sphere_and_ends_a_voxel_beyond_it(hull: VisualHull) 
 
 
 def test_its_surface_is_the_spheres(hull: VisualHull) -> None:
-    distance = np.linalg.norm(hull.surface() - CENTRE, axis=-1)
+    points, normals = hull.surface()
+    out = points - CENTRE
+    distance = np.linalg.norm(out, axis=-1)
     assert np.abs(distance - RADIUS).mean() < 1.5 * SPACING
+    assert np.median((normals * out).sum(axis=1) / distance) > np.cos(np.radians(10))
 
 
 def test_lines_of_sight_enter_the_hull_just_before_the_sphere_and_leave_it_behind(hull: VisualHull) -> None:
