@@ -19,6 +19,8 @@ from engine.geometry.camera import Camera
 from engine.geometry.patch_match_stereo import DepthMap
 from engine.geometry.point_cloud import PointCloud
 
+ROUNDS = 2
+"""Of asking the views: the second time where the first has moved the point."""
 NORMALS_AGREE = 0.5
 """Least cosine between normals that agree: 60 degrees."""
 
@@ -27,13 +29,13 @@ NORMALS_AGREE = 0.5
 class Agreement:
     """What makes a point of a view trusted.
 
-    `distance` metres along the view axis within which another view's depth agrees; `seen_through` metres by which another's
-    depth lies behind a point that it denies; `views` how many must agree, the point's own among them; `cost` the greatest at
+    `distance` metres from the median of what views say within which one agrees; `seen_through` metres by which another's depth
+    lies behind a point that it denies, and up to which it has a say in the median; `views` how many must agree, the point's own among them; `cost` the greatest at
     which a measurement counts at all (`DepthMap.cost`).
     """
 
     distance: float = 0.008
-    seen_through: float = 0.03
+    seen_through: float = 0.025
     views: int = 3
     cost: float = 0.9
 
@@ -55,7 +57,7 @@ def fuse_depth_maps(
     neighbours: Sequence[Sequence[int]],
     agreement: Agreement,
 ) -> FusedPoints:
-    """Points on which views agree, each moved along its normal to the mean of what they say.
+    """Points on which views agree, each moved along its normal to the median of what they say.
 
     Parameters
     ----------
@@ -74,9 +76,9 @@ def fuse_depth_maps(
         y, x = np.nonzero(depths[number])
         found = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), depths[number, y, x])
         normal = normals[number, y, x]
-        mean, agreeing = _confirmed(found, normal, depths, normals, projections, np.array(asked, np.int64), limits)
+        median, agreeing = _confirmed(found, normal, depths, normals, projections, np.array(asked, np.int64), limits)
         kept = agreeing >= agreement.views
-        points.append(mean[kept])
+        points.append(median[kept])
         directions.append(normal[kept])
         colours.append(pixels[number, y[kept], x[kept]])
         support.append(np.minimum(agreeing[kept], 255))
@@ -95,34 +97,56 @@ def _confirmed(
     asked: np.ndarray,
     limits: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Points (N, 3) at the mean of what views say, and how many agree (N,), 0 where more look through the point."""
-    mean, agreeing = points.copy(), np.ones(len(points), np.int64)
-    height, width = depths.shape[1:]
+    """Points (N, 3) at the median of what views say, and how many agree (N,), 0 where more look through the point."""
+    median, agreeing = points.copy(), np.ones(len(points), np.int64)
     for n in prange(len(points)):
-        x, y, z = points[n]
-        a, b, c = directions[n]
-        shift, denied = 0.0, 0
-        for view in asked:
-            p = projections[view]
-            away = p[2, 0] * x + p[2, 1] * y + p[2, 2] * z + p[2, 3]
-            if away <= 0:
-                continue
-            u = int(np.floor((p[0, 0] * x + p[0, 1] * y + p[0, 2] * z + p[0, 3]) / away + 0.5))
-            v = int(np.floor((p[1, 0] * x + p[1, 1] * y + p[1, 2] * z + p[1, 3]) / away + 0.5))
-            if not (0 <= u < width and 0 <= v < height) or depths[view, v, u] == 0:
-                continue
-            further = depths[view, v, u] - away
-            if further > limits[1]:
-                denied += 1
-            elif abs(further) <= limits[0]:
-                other = normals[view, v, u]
-                if a * other[0] + b * other[1] + c * other[2] >= NORMALS_AGREE:
-                    agreeing[n] += 1
-                    # along the view's line of sight the surface is so much further off; along the normal less
-                    shift += further * (a * p[2, 0] + b * p[2, 1] + c * p[2, 2])
+        heights = np.empty(len(asked) + 1)
+        moved = 0.0  # along the normal, from where the point's own view has it
+        for _ in range(ROUNDS):
+            count, denied = 1, 0
+            heights[0] = -moved
+            for view in asked:
+                seen, height = _height(median[n], directions[n], depths[view], normals[view], projections[view], limits)
+                if seen > 0:
+                    heights[count] = height
+                    count += 1
+                elif seen < 0:
+                    denied += 1
+            shift = np.median(heights[:count])
+            moved += shift
+            for k in range(3):
+                median[n, k] += directions[n, k] * shift
+        agreeing[n] = (np.abs(heights[:count] - shift) <= limits[0]).sum()
         if denied >= agreeing[n]:
             agreeing[n] = 0
-        else:
-            for k in range(3):
-                mean[n, k] += directions[n, k] * shift / agreeing[n]
-    return mean, agreeing
+    return median, agreeing
+
+
+@njit(boundscheck=False, error_model="numpy")
+def _height(
+    point: np.ndarray,
+    normal: np.ndarray,
+    depths: np.ndarray,
+    normals: np.ndarray,
+    projection: np.ndarray,
+    limits: np.ndarray,
+) -> tuple[int, float]:
+    """Whether a view tells of a point: 1 if it has a surface near it, -1 if it looks through it, else 0; and how far along
+    the normal that surface lies."""
+    x, y, z = point
+    p = projection
+    away = p[2, 0] * x + p[2, 1] * y + p[2, 2] * z + p[2, 3]
+    if away <= 0:
+        return 0, 0.0
+    u = int(np.floor((p[0, 0] * x + p[0, 1] * y + p[0, 2] * z + p[0, 3]) / away + 0.5))
+    v = int(np.floor((p[1, 0] * x + p[1, 1] * y + p[1, 2] * z + p[1, 3]) / away + 0.5))
+    if not (0 <= u < depths.shape[1] and 0 <= v < depths.shape[0]) or depths[v, u] == 0:
+        return 0, 0.0
+    further = depths[v, u] - away
+    if further > limits[1]:
+        return -1, 0.0
+    other = normals[v, u]
+    if further < -limits[1] or normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] < NORMALS_AGREE:
+        return 0, 0.0
+    # the surface is so much further off along the view's line of sight; along the normal it is less
+    return 1, further * (normal[0] * p[2, 0] + normal[1] * p[2, 1] + normal[2] * p[2, 2])

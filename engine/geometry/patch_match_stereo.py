@@ -62,7 +62,7 @@ class DepthMap:
 
 
 def patch_match_stereo(
-    view: StereoView, sources: Sequence[StereoView], reach: NDArray[np.float32], levels: int = 2, seed: int = 0
+    view: StereoView, sources: Sequence[StereoView], reach: NDArray[np.float32], levels: int = 3, seed: int = 0
 ) -> DepthMap:
     """Measure a view's depth.
 

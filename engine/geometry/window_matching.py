@@ -18,7 +18,7 @@ WINDOW_RADIUS, WINDOW_STEP = 4, 2
 """Pixels from the middle of a window to its sides, and from one sample to the next."""
 BEST_SOURCES = 2
 """Sources that count of those given: those that agree best; from the others the place may be hidden."""
-NOISE = 2.0
+NOISE = 1.0
 """Grey levels by which windows without texture differ: keeps those from matching anything."""
 UNSEEN = 2.0
 """Cost of a plane that a source does not see: that of pictures that are each other's negatives."""
