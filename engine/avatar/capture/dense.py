@@ -1,0 +1,162 @@
+"""Dense stereo: from views with their cameras to a cloud of the person (the paper's section 3.2, without Metashape).
+
+The silhouettes' hull says between which depths the person is, PatchMatch measures each view against four others, and a point
+stays where views agree. What sways between frames is taken out twice: each view's depth is laid on what all say, rigidly, and
+fused anew. Where stereo found nothing, rims of the silhouettes stand in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.capture.captured_view import CapturedView
+from engine.errors import InputError
+from engine.geometry.camera import Camera
+from engine.geometry.cloud_alignment import align_to_surface
+from engine.geometry.cloud_cleaning import crowded, in_large_pieces, smoothed_along_normals
+from engine.geometry.depth_fusion import Agreement, FusedPoints, fuse_depth_maps
+from engine.geometry.patch_match_stereo import DepthMap, StereoView, patch_match_stereo
+from engine.geometry.point_cloud import PointCloud, thinning
+from engine.geometry.view_selection import chosen_sources, shared_sight
+from engine.geometry.visual_hull import VisualHull, depth_range, visual_hull
+
+HULL_SPACING = 0.008
+"""Metres from voxel to voxel."""
+SILHOUETTE_ERROR = 1.5
+"""Pixels by which segmentation errs, at the size at which stereo works."""
+SIGHTED = 16
+"""Of so many points of the hull's surface one tells which views share sight."""
+SOURCES, ASKED = 4, 12
+"""Views that a view is measured against, and those that are asked about its points."""
+ALIGNMENTS = 2
+"""Rounds of laying views on the fused cloud."""
+ALIGNED_POINTS = 1500
+"""Of a view, at most, that are laid on the cloud."""
+ALIGNMENT_GATE = 0.02
+"""Metres within which the cloud's surface is looked for."""
+SPACING = 0.003
+"""Metres: of points in one cell so wide one stays."""
+ALIGNMENT_SPACING = 0.006
+"""The same, of the surface on which views are laid."""
+SMOOTHING = 0.008
+"""Metres about a point whose points smooth it."""
+ALIGNED_COST = 0.5
+"""Greatest cost of the measurements by which a view is laid on the cloud."""
+BORDER = 8
+"""Pixels around the person that are kept."""
+STEREO_SHARE = 0.9
+"""Of the work."""
+CROWD_RADIUS, CROWD = 0.012, 6
+"""Metres within which a point of the surface has so many others."""
+PIECE_GAP, PIECE_SHARE = 0.02, 0.01
+"""Metres that part pieces, and what a piece must have of the largest one's points."""
+
+
+@dataclass(frozen=True)
+class DenseCloud:
+    """What stereo measured: the `cloud`; how many views saw each point (N,) uint8 `support`, 0 where silhouettes alone tell of
+    it; and the `cameras` of all views, moved with the person's sway, lens's distortion included."""
+
+    cloud: PointCloud
+    support: NDArray[np.uint8]
+    cameras: tuple[Camera, ...]
+
+
+def dense_cloud(
+    views: Sequence[CapturedView],
+    agreement: Agreement | None = None,
+    told: Callable[[float], None] = lambda share: None,
+) -> DenseCloud:
+    """The cloud of the person in `views`, in their cameras' world, metres.
+
+    `told` hears from time to time what share of the work is done.
+
+    Raises `InputError` (`person_not_measured`) where the silhouettes share nothing or no two views agree.
+    """
+    agreement = agreement or Agreement()
+    straight = _cropped([view.undistorted() for view in views])
+    cameras = [view.camera for view in straight]
+    try:
+        hull = visual_hull([view.figure for view in straight], cameras, HULL_SPACING, SILHOUETTE_ERROR)
+    except ValueError as error:
+        raise _not_measured() from error
+    shared = shared_sight(cameras, *(part[::SIGHTED] for part in hull.surface()))
+    centre = hull.box().mean(axis=0)
+    sources = chosen_sources(shared, cameras, centre, SOURCES)
+    asked = [[int(v) for v in np.argsort(-row)[:ASKED] if row[v] > 0] for row in shared]
+    maps = _measured(straight, hull, sources, told)
+    images = [view.image for view in straight]
+    fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
+    for _ in range(ALIGNMENTS):
+        if not len(fused.cloud):
+            raise _not_measured()
+        cameras = _aligned(maps, cameras, fused)
+        fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
+    cloud, support = _cleaned(fused)
+    told(1.0)
+    moved = [replace(v.camera, eye=c.eye, axes=c.axes) for c, v in zip(cameras, views, strict=True)]
+    return DenseCloud(cloud, support, tuple(moved))
+
+
+def _not_measured() -> InputError:
+    return InputError(
+        "person_not_measured",
+        "The frames do not agree about the person's shape; film a slow circle around someone who stands still, in even light.",
+    )
+
+
+def _cropped(views: Sequence[CapturedView]) -> list[CapturedView]:
+    """The parts of the views that hold the person, all of one size: that is less to keep and to go through."""
+    boxes = [cv2.boundingRect(view.figure.astype(np.uint8)) for view in views]
+    height = min(max(box[3] for box in boxes) + 2 * BORDER, *(view.camera.size[0] for view in views))
+    width = min(max(box[2] for box in boxes) + 2 * BORDER, *(view.camera.size[1] for view in views))
+    parts = []
+    for view, (left, top, wide, high) in zip(views, boxes, strict=True):
+        x = min(max(left + (wide - width) // 2, 0), view.camera.size[1] - width)
+        y = min(max(top + (high - height) // 2, 0), view.camera.size[0] - height)
+        parts.append(view.cropped(x, y, (height, width)))
+    return parts
+
+
+def _measured(
+    views: Sequence[CapturedView], hull: VisualHull, sources: Sequence[Sequence[int]], told: Callable[[float], None]
+) -> list[DepthMap]:
+    """Each view's depth against its sources'."""
+    ready = [
+        StereoView(cv2.cvtColor(view.image, cv2.COLOR_RGB2GRAY).astype(np.float32), view.figure, view.camera)
+        for view in views
+    ]
+    maps = []
+    for number, view in enumerate(ready):
+        reach = depth_range(hull, view.camera, view.figure)
+        maps.append(patch_match_stereo(view, [ready[source] for source in sources[number]], reach, seed=number))
+        told(STEREO_SHARE * (number + 1) / len(ready))
+    return maps
+
+
+def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPoints) -> list[Camera]:
+    """The cameras, each moved with its view's depth as that lies best on what all views say."""
+    surface = fused.cloud[thinning(fused.cloud.points, ALIGNMENT_SPACING)]
+    moved = []
+    for measured, camera in zip(maps, cameras, strict=True):
+        y, x = np.nonzero((measured.depth > 0) & (measured.cost < ALIGNED_COST))
+        step = max(len(y) // ALIGNED_POINTS, 1)
+        y, x = y[::step], x[::step]
+        points = camera.unproject(np.stack([x, y], axis=-1).astype(np.float64), measured.depth[y, x])
+        normals = measured.normals[y, x]
+        motion = align_to_surface(points, normals, surface.points, surface.normals, ALIGNMENT_GATE)
+        moved.append(camera.moved(motion))
+    return moved
+
+
+def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
+    """One point in each cell, without lone points and pieces that hang apart, smoothed; and its support."""
+    chosen = thinning(fused.cloud.points, SPACING)
+    chosen = chosen[crowded(fused.cloud[chosen], CROWD_RADIUS, CROWD)]
+    chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP, PIECE_SHARE)]
+    return smoothed_along_normals(fused.cloud[chosen], SMOOTHING), fused.support[chosen]
