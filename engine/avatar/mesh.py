@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.eye_charts import avatar_uv
 from engine.body.rig import Rig
 from engine.body.template import Template
 from engine.geometry.morph_target import MorphTarget, morph_target
@@ -50,7 +51,7 @@ def surface_of(template: Template) -> Surface:
     vertex_of = pairs[:, 0].astype(np.intp)
     return Surface(
         vertex_of=vertex_of,
-        uv=template.uv[pairs[:, 1]].astype(np.float32),
+        uv=avatar_uv(template)[pairs[:, 1]],
         triangles=index.reshape(-1, 3).astype(np.int32),
         eyes={
             joint: np.flatnonzero(np.isin(vertex_of, template.vertices_of(part))) for joint, part in EYE_JOINTS.items()

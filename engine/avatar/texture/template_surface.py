@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.avatar.eye_charts import avatar_uv
 from engine.avatar.mesh import AVATAR_PARTS
 from engine.avatar.texture.views import ChartedSurface
 from engine.body.rig import Rig
@@ -51,7 +52,7 @@ def template_surface(template: Template, rig: Rig) -> TemplateSurface:
     """The surface of an avatar; `rig` is `engine.body.rig.HUMAN_RIG`'s, or another with Mixamo's names of hands."""
     faces = template.faces(*AVATAR_PARTS)
     triangles = triangulate(template.quads[faces])
-    atlas = atlas_from_uv(template.uv, triangulate(template.uv_quads[faces]))
+    atlas = atlas_from_uv(avatar_uv(template), triangulate(template.uv_quads[faces]))
     sizes = [template.parts[part][1] - template.parts[part][0] for part in AVATAR_PARTS]
     part = np.tile(np.arange(len(sizes)).repeat(sizes), 2)  # quads are halved: first halves, then second halves
     rest = template.vertices.astype(np.float64)

@@ -30,7 +30,7 @@ MIN_SEEN_SHARE = 0.05
 def place_mouth(texture: NDArray[np.uint8], surface: TemplateSurface, raster: Raster) -> None:
     """Paint teeth, tongue and the lining of the mouth into a `texture` (S, S, 3), in place."""
     for part in ("upper_teeth", "lower_teeth", "tongue"):
-        texels = PartTexels.of(raster, surface.of(part))
+        texels = PartTexels.fine(surface.atlas, surface.of(part), len(texture))
         places = texels.blend(surface.rest, surface.triangles)
         upper = part == "upper_teeth"
         texels.put(texture, painted_tongue(places) if part == "tongue" else painted_teeth(places, upper))
