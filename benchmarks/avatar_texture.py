@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import resource
 import time
+from functools import partial
 from pathlib import Path
 
 import cv2
@@ -58,7 +59,7 @@ def film_views(folder: Path, truth: Truth, surface: ChartedSurface, counts: dict
                 covered = (
                     rasterise(camera.project(surface.vertices), surface.triangles, camera.size, True).triangle >= 0
                 )
-                views.append(FrameView(camera, lambda rgb=rgb: rgb, lambda covered=covered: covered))
+                views.append(FrameView(camera, partial(np.asarray, rgb), partial(np.asarray, covered)))
     return views
 
 

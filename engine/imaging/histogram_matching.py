@@ -36,7 +36,7 @@ def matched_in_lab(
         have = np.quantile(own[:, channel], steps)
         want = np.quantile(goal[:, channel], TAIL + (1 - 2 * TAIL) * steps)
         inner = slice(QUANTILES // 10, -(QUANTILES // 10))
-        wider = np.ptp(want[inner]) / max(np.ptp(have[inner]), 1e-6)
+        wider = float(np.ptp(want[inner])) / max(float(np.ptp(have[inner])), 1e-6)
         want = np.median(want) + (want - np.median(want)) * min(1.0, max_stretch / max(wider, 1e-6))
         if np.ptp(have) < MIN_RANGE:
             out[:, channel] = own[:, channel] + np.median(want) - np.median(have)
