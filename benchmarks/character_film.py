@@ -13,7 +13,7 @@ import argparse
 import tempfile
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -30,19 +30,25 @@ from engine.character.motions import MotionChoice, choose_motion
 from engine.character.stages import fill_background
 from engine.export.encoders import VideoTarget
 from engine.export.video import VideoWriter
+from engine.geometry.skinning import skin
 from engine.render import character as renderer
+from engine.render.ground_shadow import cast_on_ground
+from engine.render.multisampling import draw_samples, select_pixels
+from engine.render.outline import facings, mark_outline
+from engine.render.rasteriser import draw_into
+from engine.render.texturing import colour_inside, colour_samples, corner_table
 
 FPS = 30.0
 """Frames a second of the film."""
-STAGE_FUNCTIONS = {
-    "posed": ("skin",),
-    "shadow": ("cast_on_ground",),
-    "triangles": ("draw_into",),
-    "outline": ("facings", "mark_outline"),
-    "inside": ("corner_table", "colour_inside"),
-    "edges": ("choose", "draw_samples", "colour_samples"),
+STAGE_FUNCTIONS: Mapping[str, tuple[Any, ...]] = {
+    "posed": (skin,),
+    "shadow": (cast_on_ground,),
+    "triangles": (draw_into,),
+    "outline": (facings, mark_outline),
+    "inside": (corner_table, colour_inside),
+    "edges": (select_pixels, draw_samples, colour_samples),
 }
-"""The functions that `engine.render.character` calls for each column."""
+"""The functions that `engine.render.character` calls for each column; imported, so that mypy knows where one is renamed."""
 END_FRAMES = 5
 """Frames at the beginning and at the end for which the cost is told apart."""
 
@@ -50,7 +56,8 @@ END_FRAMES = 5
 @contextmanager
 def timed(spent: dict[str, list[float]]) -> Iterator[None]:
     """Adds the seconds of processor time that each call of the stages takes to `spent`."""
-    before = {name: getattr(renderer, name) for names in (*STAGE_FUNCTIONS.values(), ("_draw_over",)) for name in names}
+    names = [one.__name__ for functions in STAGE_FUNCTIONS.values() for one in functions]
+    before = {name: getattr(renderer, name) for name in (*names, "_draw_over")}
 
     def counted(name: str) -> Callable[..., Any]:
         def call(*given: Any) -> Any:
@@ -111,7 +118,10 @@ def measure(photo: Path, seconds: float, folder: Path) -> tuple[list[list[str]],
         ("last", slice(count - END_FRAMES, count)),
         ("mean", slice(None)),
     ):
-        stages = [sum(float(np.mean(spent[name][part])) for name in names) for names in STAGE_FUNCTIONS.values()]
+        stages = [
+            sum(float(np.mean(spent[one.__name__][part])) for one in functions)
+            for functions in STAGE_FUNCTIONS.values()
+        ]
         total = stages[0] + stages[1] + float(np.mean(spent["_draw_over"][part]))
         encoded = worked / count if label == "mean" else float("nan")
         every = [*stages, total - sum(stages), total, encoded]
