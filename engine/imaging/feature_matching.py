@@ -23,6 +23,10 @@ MIN_MATCHES = 15
 """In accord with one motion; fewer come by chance."""
 MIN_AGREEING = 0.25
 """Share of the matches that must be in accord."""
+MANY_MATCHES = 400
+"""So many tie two pictures; where there are fewer, more are looked for along epipolar lines."""
+MIN_LIKENESS = 0.8
+"""Cosine between descriptors that are looked for so."""
 OVERLAP_FEATURES = 300
 """The largest features of each picture, by which it is seen which pictures show the same."""
 
@@ -33,6 +37,24 @@ def match_features(a: Features, b: Features, max_ratio: float = MAX_RATIO) -> ND
         return np.zeros((0, 2), np.intp)
     likeness = a.descriptors @ b.descriptors.T
     return np.asarray(_mutual(likeness, max_ratio), np.intp)
+
+
+def guided_matches(
+    a: Features, b: Features, fundamental: NDArray[np.float64], max_error: float, max_ratio: float = MAX_RATIO
+) -> NDArray[np.intp]:
+    """As `match_features`, where only what lies within `max_error` pixels of a feature's epipolar line is compared with it:
+    what looks like others elsewhere in the picture is found as well.
+
+    Parameters
+    ----------
+    fundamental : (3, 3), from pixels of the first picture to lines of the second.
+    """
+    likeness = a.descriptors @ b.descriptors.T
+    lines = np.concatenate([a.pixels, np.ones((len(a), 1))], axis=1) @ fundamental.T
+    lines /= np.maximum(np.linalg.norm(lines[:, :2], axis=1, keepdims=True), 1e-12)
+    _keep_near(likeness, lines, b.pixels.astype(np.float64), max_error)
+    matches = np.asarray(_mutual(likeness, max_ratio), np.intp)
+    return matches[likeness[matches[:, 0], matches[:, 1]] >= MIN_LIKENESS]
 
 
 def verified_matches(a: Features, b: Features, length: float, max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
@@ -49,13 +71,17 @@ def verified_matches(a: Features, b: Features, length: float, max_ratio: float =
     first, second = a.pixels[matches[:, 0]].astype(np.float64), b.pixels[matches[:, 1]].astype(np.float64)
     error = MAX_EPIPOLAR_ERROR * length / 1000
     try:
-        _, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, error, 0.999, 2000)
+        fundamental, mask = cv2.findFundamentalMat(first, second, cv2.USAC_MAGSAC, error, 0.999, 2000)
     except cv2.error:  # it asserts that it found a matrix, and among wrong matches alone it may not
         return none
     if mask is None:
         return none
     agreed = mask.ravel() > 0
-    return matches[agreed] if agreed.sum() >= max(MIN_MATCHES, MIN_AGREEING * len(matches)) else none
+    if agreed.sum() < max(MIN_MATCHES, MIN_AGREEING * len(matches)):
+        return none
+    if agreed.sum() >= MANY_MATCHES:
+        return matches[agreed]
+    return guided_matches(a, b, np.asarray(fundamental, np.float64)[:3], error, max_ratio)
 
 
 def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_RATIO) -> NDArray[np.intp]:
@@ -66,6 +92,15 @@ def overlaps(pictures: Sequence[Features], max_ratio: float = MAX_RATIO) -> NDAr
         for j in range(i):
             found[i, j] = found[j, i] = len(match_features(largest[i], largest[j], max_ratio))
     return found
+
+
+@njit(nogil=True)
+def _keep_near(likeness: np.ndarray, lines: np.ndarray, pixels: np.ndarray, max_error: float) -> None:
+    """Give up, as unlike, what is farther from a line (a, b, c) than this."""
+    for i in range(likeness.shape[0]):
+        for j in range(likeness.shape[1]):
+            if abs(lines[i, 0] * pixels[j, 0] + lines[i, 1] * pixels[j, 1] + lines[i, 2]) > max_error:
+                likeness[i, j] = -1
 
 
 @njit(nogil=True)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from engine.imaging.feature_matching import match_features, overlaps, verified_matches
+from engine.imaging.feature_matching import guided_matches, match_features, overlaps, verified_matches
 from engine.imaging.features import Features, find_features
 
 
@@ -92,3 +92,13 @@ def test_pictures_of_the_same_overlap(pair: tuple[Features, Features]) -> None:
     found = overlaps([*pair, find_features(wall(9), 1000)])
     assert found[0, 1] == found[1, 0] > 30
     assert found[0, 2] < 10 and found[1, 2] < 10
+
+
+def test_along_an_epipolar_line_features_are_found_that_look_like_others_elsewhere() -> None:
+    """By hand: the camera moved sideways, so rows are epipolar lines; two features look alike, one of them in the row."""
+    looks = np.eye(128, dtype=np.float32)
+    sideways = np.array([[0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])
+    a = Features(np.array([[10, 20], [90, 50]], np.float32), np.ones(2, np.float32), looks[[0, 1]])
+    b = Features(np.array([[30, 20.5], [50, 80], [70, 90]], np.float32), np.ones(3, np.float32), looks[[0, 0, 1]])
+    assert match_features(a, b).tolist() == [[1, 2]]
+    assert guided_matches(a, b, sideways, 1.0).tolist() == [[0, 0]]

@@ -33,6 +33,10 @@ GLOBAL_GROWTH = 1.25
 """By what the number of cameras grows until all are adjusted again."""
 LOCAL_CAMERAS = 6
 """Cameras adjusted when one joins: it, and those that share most points with it."""
+MAX_BEGINNINGS = 3
+"""Beginnings that are tried while the cameras are not enough."""
+ENOUGH_CAMERAS = 0.9
+"""Share of the pictures."""
 FOCAL_CAMERAS, DISTORTION_CAMERAS = 4, 10
 """Cameras from which the focal length, and the distortion, can be told."""
 
@@ -75,27 +79,45 @@ def reconstruct(
     pairs: Sequence[PairMatches],
     lens: Lens,
     tick: Callable[[float], None] = lambda fraction: None,
-    most_cameras: int | None = None,
 ) -> Reconstruction | None:
     """Cameras of as many pictures as can be found, and points; None where no two pictures can begin.
+
+    Where a beginning reaches few of them, another is tried, with the lens that came of the best so far.
 
     Parameters
     ----------
     features : of each picture (F, 2) pixels.
     pairs : matches, most of them right.
     lens : of all the pictures.
-    tick : is told the share of pictures that were tried.
-    most_cameras : so many are enough.
+    tick : is told the share of pictures that have joined.
     """
     tracks = join_tracks(pairs, [len(found) for found in features])
-    growing = _Mapping(features, tracks, lens)
-    if not growing.begin(pairs):
+    best: Reconstruction | None = None
+    tried = np.zeros(len(features), np.bool_)
+    for _ in range(MAX_BEGINNINGS):
+        found = _grow(
+            _Mapping(features, tracks, lens), [one for one in pairs if not tried[[one.first, one.second]].all()], tick
+        )
+        if found is None:
+            break
+        tried |= found.registered
+        if best is None or found.registered.sum() > best.registered.sum():
+            best = found
+        if best.registered.sum() >= ENOUGH_CAMERAS * len(features):
+            break
+        if not lens.known and best.registered.sum() > FOCAL_CAMERAS:
+            lens = replace(lens, parameters=best.bundle.lenses[0] * [1, 0, 0])
+    return best
+
+
+def _grow(growing: _Mapping, beginnings: Sequence[PairMatches], tick: Callable[[float], None]) -> Reconstruction | None:
+    """All that can be reached from one of the beginnings."""
+    if not growing.begin(beginnings):
         return None
-    enough = min(most_cameras or len(features), len(features))
     adjusted_at = 2
-    while growing.registered.sum() < enough and growing.join_next():
+    while growing.join_next():
         count = int(growing.registered.sum())
-        tick(count / len(features))
+        tick(count / len(growing.registered))
         if count >= GLOBAL_GROWTH * adjusted_at or count <= FOCAL_CAMERAS + 1:
             growing.adjust_all()
             adjusted_at = count
