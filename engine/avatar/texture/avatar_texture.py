@@ -42,7 +42,7 @@ def avatar_texture(
     """The texture, `size` texels a side, of the person whose template vertices are (V, 3), metres, as the cameras of `views`
     have them.
 
-    Raises InputError `person_unseen` where no frame shows the person.
+    Raises ValueError where no view shows the person.
     """
     fitted = surface.fitted(vertices)
     found = stitch_texture(fitted, views, size)

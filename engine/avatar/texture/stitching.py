@@ -14,7 +14,6 @@ from engine.avatar.texture.levelling import level_seams
 from engine.avatar.texture.painting import paint
 from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import ChartedSurface, FrameView
-from engine.errors import InputError
 from engine.geometry.surface import triangle_areas
 from engine.render.rasteriser import Raster
 from engine.render.texture_bake import charts_of, texel_raster
@@ -40,7 +39,7 @@ class StitchedTexture:
 def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: int = TEXTURE_SIZE) -> StitchedTexture:
     """The texture of `surface`, `size` texels along a side, from `views`, whose pictures are read twice.
 
-    Raises InputError `person_unseen` where no frame shows any of the surface.
+    Raises ValueError where no view shows any of the surface.
     """
     samples = sample_views(surface, views)
     gains = exposure_gains(samples)
@@ -48,9 +47,7 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
     best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
     del samples
     if (labels.labels == UNSEEN).all():
-        raise InputError(
-            "person_unseen", "No frame shows the person: film again, all around, with the whole body in view."
-        )
+        raise ValueError("no view shows any of the surface")
     raster = texel_raster(surface.atlas, size)
     painted = paint(surface, raster, labels.labels, views, gains)
     level_seams(painted, charts_of(surface.atlas, raster))
