@@ -30,7 +30,11 @@ SHAPE_WEIGHT = 3.0
 """By how much more a coefficient counts than its standard deviation: of the bodies sampled, the few are as odd as clothes are."""
 STIFF_JOINTS, STIFF_WEIGHT = ("Spine", "Spine1", "Spine2", "Neck", "Head"), 1 / 0.3
 """Joints that turn less than in other pictures while one stands for a scan, and by how much less."""
-LANDMARK_SIGMAS = {"Hip": 0.06, "Knee": 0.04, "Ankle": 0.04, "Heel": 0.04, "FootIndex": 0.04, "Ear": 0.04}
+LANDMARK_SIGMAS = {
+    **dict.fromkeys(("Elbow", "Wrist", "Index", "Pinky"), 0.012),
+    **dict.fromkeys(("Knee", "Ankle", "Heel", "FootIndex", "Ear"), 0.04),
+    "Hip": 0.06,
+}
 """Metres by which landmarks are off, usually, by their names without a side: under clothes, in shoes, and where perception sees
 them elsewhere than the template has them ..."""
 USUAL_SIGMA = 0.02
@@ -46,8 +50,11 @@ MAX_SIGMAS = 2.5
 MIN_LANDMARKS = 8
 SOLE_SIGMA = 0.01
 """Metres that soles reach below the ground, usually: nothing says where feet are that the cloud lacks, except that."""
-POINT_SIGMA, INDEPENDENT_POINTS = 0.006, 1500.0
-"""How far points are off, metres, and as how many independent measurements all of them count: clothes are off alike."""
+POINT_SIGMA = 0.006
+"""Metres by which points are off, usually, for clothes ..."""
+INDEPENDENT_POINTS = 500.0
+"""... and as how many independent measurements all of them count: clothes are off alike, and sleeves slide arms along, against
+what landmarks say of hands."""
 TANGENTIAL_SHARE = 0.15
 """What an offset along the surface counts of one across it."""
 HAND_TRUST = 0.4
