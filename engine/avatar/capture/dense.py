@@ -13,15 +13,17 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.capture.captured_view import CapturedView
+from engine.avatar.capture.silhouette_rims import rim_points
 from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.geometry.cloud_alignment import align_to_surface
 from engine.geometry.cloud_cleaning import crowded, in_large_pieces, smoothed_along_normals
 from engine.geometry.depth_fusion import Agreement, FusedPoints, fuse_depth_maps
 from engine.geometry.patch_match_stereo import DepthMap, StereoView, patch_match_stereo
-from engine.geometry.point_cloud import PointCloud, thinning
+from engine.geometry.point_cloud import PointCloud, joined, thinning
 from engine.geometry.view_selection import chosen_sources, shared_sight
 from engine.geometry.visual_hull import VisualHull, depth_range, visual_hull
 
@@ -53,6 +55,10 @@ STEREO_SHARE = 0.9
 """Of the work."""
 CROWD_RADIUS, CROWD = 0.012, 6
 """Metres within which a point of the surface has so many others."""
+RIM_GAP = 0.015
+"""Metres around a point of a silhouette's rim in which stereo found nothing."""
+RIM_RADIUS, RIM_CROWD = 0.01, 3
+"""Metres within which so many others confirm it, and from one that is taken to the next."""
 PIECE_GAP, PIECE_SHARE = 0.02, 0.01
 """Metres that part pieces, and what a piece must have of the largest one's points."""
 
@@ -97,7 +103,7 @@ def dense_cloud(
             raise _not_measured()
         cameras = _aligned(maps, cameras, fused)
         fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
-    cloud, support = _cleaned(fused)
+    cloud, support = _with_rims(*_cleaned(fused), straight, hull)
     told(1.0)
     moved = [replace(v.camera, eye=c.eye, axes=c.axes) for c, v in zip(cameras, views, strict=True)]
     return DenseCloud(cloud, support, tuple(moved))
@@ -160,3 +166,15 @@ def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
     chosen = chosen[crowded(fused.cloud[chosen], CROWD_RADIUS, CROWD)]
     chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP, PIECE_SHARE)]
     return smoothed_along_normals(fused.cloud[chosen], SMOOTHING), fused.support[chosen]
+
+
+def _with_rims(
+    cloud: PointCloud, support: NDArray[np.uint8], views: Sequence[CapturedView], hull: VisualHull
+) -> tuple[PointCloud, NDArray[np.uint8]]:
+    """The cloud and, where it has nothing, points of the silhouettes' rims on which several agree."""
+    rims = joined([rim_points(view, hull) for view in views])
+    rims = rims[crowded(rims, RIM_RADIUS, RIM_CROWD)]
+    rims = rims[thinning(rims.points, RIM_RADIUS)]
+    distance = np.asarray(cKDTree(cloud.points).query(rims.points, distance_upper_bound=RIM_GAP)[0])
+    rims = rims[~np.isfinite(distance)]
+    return joined([cloud, rims]), np.concatenate([support, np.zeros(len(rims), np.uint8)])
