@@ -50,7 +50,7 @@ def choose_frames(
             path, equal_movement(movement, count), limits, lambda fraction: tick(0.6 + 0.4 * fraction), warn
         )
     ]
-    greys = [cv2.cvtColor(one.rgb, cv2.COLOR_RGB2GRAY) for one in chosen]
+    greys = [np.asarray(cv2.cvtColor(one.rgb, cv2.COLOR_RGB2GRAY), np.uint8) for one in chosen]
     if np.median([np.percentile(grey, 90) for grey in greys]) < MIN_BRIGHTNESS:
         raise InputError("too_dark", "The clip is too dark to see the person's surface: film in brighter light.")
     if np.median([blur(grey) for grey in greys]) > MAX_BLUR:
