@@ -1,5 +1,74 @@
 """Two smartphone clips that orbit a person become a game-ready avatar.
 
-Source: Realistic Virtual Humans from Smartphone Videos, VRST 2020: S. Wenninger, J. Achenbach, A. Bartl, M. E. Latoschik,
-M. Botsch. "The paper" in this folder is that one.
+Source: S. Wenninger, J. Achenbach, A. Bartl, M. E. Latoschik, M. Botsch, Realistic Virtual Humans from Smartphone Videos,
+VRST 2020. "The paper" in this folder is that one.
 """
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from engine.avatar.options import AvatarOptions
+from engine.kind import Given, Input, Kind, Needs
+from engine.run import Run
+
+
+def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
+    from engine.avatar.pipeline import make_avatar  # the service reads KIND alone: it stays light
+
+    assert isinstance(options, AvatarOptions)
+    make_avatar(inputs, options, out, run)
+
+
+def _prepare() -> None:
+    from engine.avatar import pipeline  # noqa: F401 - importing it is half of the preparation
+    from engine.avatar.registration.models import load_models
+
+    load_models()  # a job may not read the user's cache, in which they lie
+
+
+KIND = Kind(
+    name="avatar",
+    summary="Two clips of a person become an avatar for games: rigged, with fingers and expressions.",
+    inputs=(
+        Input(
+            "body",
+            "video",
+            "A clip of the whole person, who stands still with the arms a little away from the body: one slow circle around the"
+            " upper body, then one around the legs.",
+        ),
+        Input(
+            "head",
+            "video",
+            "A clip of the same person's head: a slow circle, then the crown, then under the chin. Without it the face is as"
+            " coarse as the body's clip shows it.",
+            required=False,
+        ),
+        Input(
+            "motion",
+            "motion",
+            "A motion of one's own for the animation: BVH, or a GLB with an animated skeleton.",
+            required=False,
+            named_by="motion",
+            library="motions",
+            corrects=True,
+        ),
+        Input(
+            "driver",
+            "video",
+            "A video of anybody's face, which the avatar's face follows in the animation.",
+            required=False,
+            corrects=True,
+        ),
+    ),
+    options=AvatarOptions,
+    work=_work,
+    correctable=("height_m", "motion", "motion_joints", "motion_clip"),
+    prepare=_prepare,
+    needs=Needs(seconds=2400, memory_mb=6000, cores=2),  # 20 minutes, or twice that where the machine has more to do
+)
+
+__all__ = ["KIND", "AvatarOptions"]

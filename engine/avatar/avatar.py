@@ -1,0 +1,57 @@
+"""The avatar: the fitted template as engines take it, with its expressions and the pose in which it was filmed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.acting import standing_clip
+from engine.avatar.combined_targets import with_combined_targets
+from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of
+from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.body.rig import Rig
+from engine.body.template import Template
+from engine.geometry.decimation import decimate, joint_importance
+from engine.geometry.morph_target import MorphTarget, morph_target
+from engine.geometry.skinned_mesh import SkinnedMesh
+from engine.motion.clip import Clip
+
+FACE_IMPORTANCE = 8.0
+"""How much longer the head keeps its vertices than the rest: it is looked at, and has expressions."""
+
+
+@dataclass(frozen=True)
+class Avatar:
+    """`mesh` in T-pose; `morphs`: its expressions; `filmed`: the pose in which the person stood, one frame."""
+
+    mesh: SkinnedMesh
+    morphs: tuple[MorphTarget, ...]
+    filmed: Clip
+
+
+def assemble(
+    template: Template, rig: Rig, fitted: FittedTemplate, texture: NDArray[np.uint8], triangles: int
+) -> Avatar:
+    """The avatar of a fitted template with its texture (S, S, 3), of so many triangles at most. Expressions: ARKit's face
+    units, visemes, and what talking heads ask for besides."""
+    surface = surface_of(template)
+    whole = skinned_mesh(surface, rig, fitted.skeleton, fitted.rest, texture)
+    morphs = morphs_of(surface, with_combined_targets(fitted.expressions))
+    fewer = decimate(whole, triangles, joint_importance(whole, {"Head": FACE_IMPORTANCE, "Jaw": FACE_IMPORTANCE}))
+    if fewer.mesh is not whole:
+        count = len(whole.vertices)
+        morphs = tuple(morph_target(morph.name, morph.dense(count)[fewer.kept]) for morph in morphs)
+    filmed = standing_clip(fewer.mesh, fitted.rotations, fitted.joints[0], 30.0)
+    return Avatar(fewer.mesh, morphs, filmed)
+
+
+def coarser(avatar: Avatar, levels: int) -> list[SkinnedMesh]:
+    """Further levels of detail, each with a quarter of the triangles of the one before."""
+    found = []
+    mesh = avatar.mesh
+    for _ in range(levels):
+        mesh = decimate(mesh, len(mesh.triangles) // 4, joint_importance(mesh, {"Head": FACE_IMPORTANCE})).mesh
+        found.append(mesh)
+    return found

@@ -1,0 +1,203 @@
+"""Realistic Virtual Humans from Smartphone Videos (Wenninger, Achenbach, Bartl, Latoschik, Botsch; VRST 2020), stage by stage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from engine.avatar.acting import Scene, film
+from engine.avatar.avatar import Avatar, assemble
+from engine.avatar.capture.cameras import ClipCameras
+from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
+from engine.avatar.capture.coverage import coverage
+from engine.avatar.face_performance import acting_clip, capture_performance
+from engine.avatar.options import AvatarOptions
+from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.stages import ClipScan, find_cameras, fit_template, measure_cloud, scan_clip, stitch_texture
+from engine.avatar.turntable import turntable
+from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
+from engine.body.parts import BODY_PARTS, vertex_parts
+from engine.body.rig import HUMAN_RIG
+from engine.body.template import load_rig, load_template
+from engine.export.encoders import VideoTarget
+from engine.export.ply import write_ply
+from engine.export.still import write_first_impression, write_still
+from engine.export.video import VideoWriter
+from engine.geometry.point_cloud import PointCloud, joined
+from engine.geometry.rigid import Similarity
+from engine.kind import Given
+from engine.media.excerpt import Excerpt
+from engine.motion.clip import Clip
+from engine.motion.edit import in_place, repeat_loop
+from engine.motion.files.reading import read_motion
+from engine.motion.library import built_in
+from engine.motion.retargeting.joint_map import lost_warning
+from engine.motion.retargeting.retarget import retarget
+from engine.run import Run, write_report
+
+STAGES = {
+    "choose_frames": 2.0,
+    "find_cameras": 4.0,
+    "measure_cloud": 6.0,
+    "find_landmarks": 1.0,
+    "fit_template": 2.0,
+    "stitch_texture": 3.0,
+    "capture_face": 0.5,
+    "write_avatar": 1.0,
+    "turntable": 1.0,
+    "animate": 1.0,
+}
+"""The stages and their usual share of the time."""
+EACH_CLIP = ("choose_frames", "measure_cloud", "find_landmarks")
+"""Those that come once for each clip."""
+TURN_SECONDS = 6.0
+"""Of the turntable."""
+
+Clipped = tuple[ChosenFrames, ClipCameras, ClipScan]
+"""A clip: its frames, their cameras, and what they measured."""
+
+
+def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, run: Run) -> None:
+    """Make an avatar of the person in the clips `body` and `head`; leaves the artifacts of the contract in `out`."""
+    body, head, motion, driver = (_file(inputs, name) for name in ("body", "head", "motion", "driver"))
+    assert body is not None
+    run.plan(STAGES, dict.fromkeys(EACH_CLIP, 1 if head is None else 2))
+    if head is None:
+        run.warn(
+            "head_clip_missing", "Without a clip of the head, its shape and its texture are as good as the body's."
+        )
+
+    chosen = [
+        run.stage("choose_frames", choose_frames, path, count, name, run.limits, run.tick, run.warn)
+        for name, path, count in (("body", body, options.body_frames), ("head", head, options.head_frames))
+        if path is not None
+    ]
+    for early in write_first_impression(out, chosen[0].picture(0, 1280), None, run.mark_synthetic):
+        run.publish(early)
+    found = run.stage(
+        "find_cameras", find_cameras, chosen[0], chosen[1] if head else None, options.height_m, run.warn, run.tick
+    )
+    clips: list[Clipped] = []
+    for frames, cameras in zip(chosen, (found.body, found.head), strict=False):
+        if cameras is None:
+            continue
+        dense = run.stage("measure_cloud", measure_cloud, frames, cameras, run.tick)
+        clips.append((frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense)))
+    fitted = run.stage("fit_template", fit_template, clips[0][2], clips[1][2] if len(clips) > 1 else None)
+    for notice in fitted.notices:
+        run.warn(notice.code, notice.message)
+    if not found.height_known:
+        run.warn(
+            "height_guessed", "How tall the person is was not said: the avatar's size is that of an average person."
+        )
+    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, options.texture_size)
+
+    template, rig = load_template(), load_rig(HUMAN_RIG)
+    avatar = assemble(template, rig, fitted, texture.texture, options.triangles)
+    scene = _scene(avatar, motion, driver, options, run)
+    with run.timed("write_avatar"):
+        write_avatar(out, avatar, scene, options, run)
+        _write_capture(out, clips, fitted.head_to_body)
+    _write_films(out, avatar, scene, options, run)
+    height = float(np.ptp(fitted.rest[template.vertices_of("body"), 1]))
+    write_report(
+        out / "report.json",
+        "avatar",
+        run,
+        inputs={
+            name: {
+                "size": [frames.size[1], frames.size[0]],
+                "frames": frames.indices.tolist(),
+                "placed": len(scan.placed),
+            }
+            for name, (frames, _, scan) in zip(("body", "head"), clips, strict=False)
+        },
+        quality={
+            "height_m": round(height, 4),
+            "points": float(sum(len(scan.dense.cloud) for _, _, scan in clips)),
+            "seen_share": round(texture.seen_share, 4),
+            "triangles": float(len(avatar.mesh.triangles)),
+            "largest_coefficient": round(float(np.abs(fitted.coefficients).max()), 2),
+        },
+        more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, clips)},
+    )
+
+
+def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, float]:
+    """Which share of each part of the body the body's cloud shows."""
+    template = load_template()
+    part = vertex_parts(load_rig(HUMAN_RIG))
+    skin = np.zeros(len(part), np.bool_)
+    skin[template.vertices_of("body")] = True
+    shown = coverage(
+        fitted.vertices, {name: skin & (part == k) for k, name in enumerate(BODY_PARTS)}, clips[0][2].dense.cloud
+    )
+    return {name: round(share, 3) for name, share in shown.items()}
+
+
+def _scene(avatar: Avatar, motion: Path | None, driver: Path | None, options: AvatarOptions, run: Run) -> Scene:
+    """What the animation shows: a driver's face, or a motion by a file or a name."""
+    skeleton, fps = avatar.mesh.skeleton, options.fps
+    clip: Clip
+    if motion is not None:
+        carried = retarget(read_motion(motion, options.motion_clip), skeleton, options.motion_joints, fps=fps)
+        if lost := lost_warning(read_motion(motion, options.motion_clip), carried.mapping):
+            run.warn("motion_joints_unmapped", lost)
+        clip = replace(carried.clip, name="motion")
+    else:
+        clip = built_in(options.motion, skeleton, fps)
+    if driver is None:
+        return Scene(replace(clip, name=clip.name))
+    with run.timed("capture_face"):
+        performance = capture_performance(Excerpt(driver, fps, None, run.limits), run.tick, run.warn)
+    return Scene(acting_clip(skeleton, performance, in_place(clip)), performance.units)
+
+
+def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None) -> None:
+    """`points.ply` and `cameras.json`, both in the world of the body's clip."""
+    clouds: list[PointCloud] = []
+    written = []
+    for name, (frames, _, scan) in zip(("body", "head"), clips, strict=False):
+        cloud, cameras = scan.dense.cloud, scan.cameras
+        if name == "head" and into is not None:
+            cloud = replace(
+                cloud,
+                points=into(cloud.points).astype(np.float32),
+                normals=(cloud.normals @ into.rotation.T).astype(np.float32),
+            )
+            cameras = tuple(camera.moved(into) for camera in cameras)
+        clouds.append(cloud)
+        written.append(WrittenCameras(name, frames.indices[scan.placed], frames.seconds[scan.placed], cameras))
+    write_ply(out / "points.ply", joined(clouds))
+    write_cameras(out / "cameras.json", written)
+
+
+def _write_films(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions, run: Run) -> None:
+    """`turntable.mp4`, `animation.mp4`, and `poster.jpg`, the turntable's first frame."""
+    with run.timed("turntable"), _writer(out / "turntable.mp4", options, run) as writer:
+        for index, frame in enumerate(turntable(avatar.mesh, avatar.filmed, options.size, TURN_SECONDS, options.fps)):
+            if index == 0:
+                write_still(out / "poster.jpg", frame, run.mark_synthetic)
+            writer.write(frame)
+            run.tick(index / (TURN_SECONDS * options.fps))
+    shown = scene
+    if scene.expressions is None:
+        frames = max(1, round(options.seconds * options.fps))
+        shown = Scene(repeat_loop(scene.clip, frames))
+    with run.timed("animate"), _writer(out / "animation.mp4", options, run) as writer:
+        for index, frame in enumerate(film(avatar.mesh, avatar.morphs, shown, options.size)):
+            writer.write(frame)
+            run.tick(index / len(shown.clip.rotations))
+
+
+def _writer(path: Path, options: AvatarOptions, run: Run) -> VideoWriter:
+    return VideoWriter(VideoTarget(path, options.size, options.fps, "mp4", synthetic=run.mark_synthetic))
+
+
+def _file(inputs: Mapping[str, Given], name: str) -> Path | None:
+    given = inputs.get(name)
+    assert given is None or isinstance(given, Path)
+    return given

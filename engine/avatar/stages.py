@@ -1,0 +1,122 @@
+"""The stages of an avatar, each from what was found before to what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cameras
+from engine.avatar.capture.captured_view import CapturedView
+from engine.avatar.capture.chosen_frames import ChosenFrames
+from engine.avatar.capture.dense import DenseCloud, dense_cloud
+from engine.avatar.landmarks.detection import find_landmarks
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.models import load_models
+from engine.avatar.registration.register import Scan, register
+from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
+from engine.avatar.texture.template_surface import template_surface
+from engine.avatar.texture.views import FrameView
+from engine.body.rig import HUMAN_RIG
+from engine.body.template import load_rig, load_template
+from engine.geometry.camera import Camera
+from engine.imaging.resample import enlarged_mask
+
+FEATURE_SIDE = 1280
+"""Pixels of the longer side of frames in which features are found."""
+STEREO_SIDE = 960
+"""The same of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
+LANDMARK_SIDE = 1280
+"""The same of frames in which landmarks are found."""
+
+Tick = Callable[[float], None]
+Warn = Callable[[str, str], None]
+
+
+@dataclass(frozen=True)
+class ClipScan:
+    """What one clip gave: the `cameras` of those of its chosen frames that were placed (`placed`, their numbers), of the clip's
+    own size; the person's `dense` cloud and `landmarks`, in the cameras' world, metres."""
+
+    placed: NDArray[np.int64]
+    cameras: tuple[Camera, ...]
+    dense: DenseCloud
+    landmarks: SpatialLandmarks
+
+    def scan(self) -> Scan:
+        """What registration takes of it."""
+        return Scan(self.dense.cloud, self.landmarks)
+
+
+def find_cameras(
+    body: ChosenFrames, head: ChosenFrames | None, height_m: float | None, warn: Warn, tick: Tick
+) -> CaptureCameras:
+    """Where the cameras of both clips stood: section 3.2's first half. Raises what `solve_cameras` raises."""
+    clips = [
+        None if clip is None else [clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in (body, head)
+    ]
+    assert clips[0] is not None
+    return solve_cameras(clips[0], clips[1], height_m, warn, tick)
+
+
+def measure_cloud(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> DenseCloud:
+    """The person's cloud from one clip: section 3.2's second half. Raises what `dense_cloud` raises."""
+    views = []
+    for k in placed_frames(found):
+        image = chosen.picture(int(k), STEREO_SIDE)
+        figure = enlarged_mask(found.masks[k], (image.shape[1], image.shape[0]))
+        views.append(CapturedView(image, figure, _camera_of(found, int(k), (image.shape[0], image.shape[1]))))
+    return dense_cloud(views, told=tick)
+
+
+def scan_clip(chosen: ChosenFrames, found: ClipCameras, dense: DenseCloud) -> ClipScan:
+    """The landmarks of the person in one clip (section 3.3), with all that is known of it. The person's sway is in the cameras
+    as dense stereo has laid them on the cloud."""
+    placed = placed_frames(found)
+    cameras = tuple(_resized(camera, chosen.size) for camera in dense.cameras)
+    landmarks = find_landmarks(
+        (_resized(camera, (picture.shape[0], picture.shape[1])), picture)
+        for camera, picture in zip(cameras, (chosen.picture(int(k), LANDMARK_SIDE) for k in placed), strict=True)
+    )
+    return ClipScan(placed, cameras, dense, landmarks)
+
+
+def fit_template(body: ClipScan, head: ClipScan | None) -> FittedTemplate:
+    """The template fitted to the clouds: section 3.4. Raises what `register` raises."""
+    return register(load_models(), body.scan(), None if head is None else head.scan())
+
+
+def stitch_texture(
+    fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipCameras, ClipScan]], size: int
+) -> AvatarTexture:
+    """The texture, `size` texels a side, from the frames of the body's and of the head's clip: section 3.5."""
+    views: list[FrameView] = []
+    for (chosen, found, scan), into in zip(clips, (None, fitted.head_to_body), strict=False):
+        cameras = scan.cameras if into is None else tuple(camera.moved(into) for camera in scan.cameras)
+        views += [_frame_view(chosen, found, int(k), camera) for k, camera in zip(scan.placed, cameras, strict=True)]
+    template, rig = load_template(), load_rig(HUMAN_RIG)
+    return avatar_texture(template_surface(template, rig), rig, fitted.vertices, views, size)
+
+
+def placed_frames(found: ClipCameras) -> NDArray[np.int64]:
+    """The numbers of the frames whose cameras were found."""
+    return np.array([k for k, camera in enumerate(found.cameras) if camera is not None], np.int64)
+
+
+def _frame_view(chosen: ChosenFrames, found: ClipCameras, k: int, camera: Camera) -> FrameView:
+    height, width = chosen.size
+    return FrameView(camera, lambda: chosen.picture(k), lambda: enlarged_mask(found.masks[k], (width, height)))
+
+
+def _camera_of(found: ClipCameras, k: int, size: tuple[int, int]) -> Camera:
+    camera = found.cameras[k]
+    assert camera is not None
+    return _resized(camera, size)
+
+
+def _resized(camera: Camera, size: tuple[int, int]) -> Camera:
+    """The camera of the same picture at another size (height, width)."""
+    return replace(camera.scaled(size[1] / camera.size[1]), size=size)
