@@ -22,6 +22,7 @@ from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
+from engine.errors import InputError
 from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
@@ -80,12 +81,12 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     found = run.stage(
         "find_cameras", find_cameras, chosen[0], chosen[1] if head else None, options.height_m, run.warn, run.tick
     )
-    clips: list[Clipped] = []
-    for frames, cameras in zip(chosen, (found.body, found.head), strict=False):
-        if cameras is None:
-            continue
-        dense = run.stage("measure_cloud", measure_cloud, frames, cameras, run.tick)
-        clips.append((frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense)))
+    clips = [_scanned(chosen[0], found.body, run)]
+    if head and found.head is not None:
+        try:
+            clips.append(_scanned(chosen[1], found.head, run))
+        except InputError as refused:  # the body alone is an avatar, too
+            run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
     fitted = run.stage("fit_template", fit_template, clips[0][2], clips[1][2] if len(clips) > 1 else None)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
@@ -124,6 +125,12 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         },
         more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, clips)},
     )
+
+
+def _scanned(frames: ChosenFrames, cameras: ClipCameras, run: Run) -> Clipped:
+    """A clip with its cloud and landmarks."""
+    dense = run.stage("measure_cloud", measure_cloud, frames, cameras, run.tick)
+    return frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense)
 
 
 def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, float]:

@@ -61,6 +61,11 @@ class DepthMap:
     cost: NDArray[np.float32]
 
 
+def nothing_measured(size: tuple[int, int]) -> DepthMap:
+    """The depth map of a view of `size` (height, width) that nothing can be compared with."""
+    return DepthMap(np.zeros(size, np.float32), np.zeros((*size, 3), np.float32), np.full(size, 2, np.float32))
+
+
 def patch_match_stereo(
     view: StereoView, sources: Sequence[StereoView], reach: NDArray[np.float32], levels: int = 3, seed: int = 0
 ) -> DepthMap:

@@ -1,10 +1,9 @@
-"""The frames of a film from which a person is reconstructed (the paper's section 3.1): equal motion between them, the sharpest
-of their neighbours, no larger than what can be worked with."""
+"""The frames of a clip that everything is made of: section 3.1, kept as pictures on the disk."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -12,65 +11,107 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
+from engine.imaging.blur import blur_effect
 from engine.imaging.resample import resized, size_within
-from engine.media.frame_selection import SelectedFrame, equal_movement, measure_movement, read_selected
+from engine.media.film_strip import FilmStrip, FilmStripWriter
+from engine.media.frame_selection import equal_movement, measure_movement, read_selected
 from engine.media.limits import Limits
 from engine.media.video import Warn
 
-BODY_FRAMES, HEAD_FRAMES = 75, 50
-"""Frames of each film (the paper's values)."""
-LONGEST_SIDE = 1920
-"""Pixels of a chosen frame: 125 of them hold 780 MB."""
-MIN_BRIGHTNESS = 40
-"""Of 255: what the brightest tenth of a film's frames reaches at least."""
+FRAME_QUALITY = 95
+"""Of the JPEGs in which frames are kept: a third of a megabyte for one of 1080x1920."""
+MAX_MEGAPIXELS_PER_SECOND = 600.0
+"""4K at 60 frames a second has 498: phones film so, and only small flows and a few frames are made of it."""
+MIN_FRAMES = 12
+"""Of a clip of which anything can be made."""
+JUDGED_SIDE = 640
+"""Pixels of the longer side at which frames are judged."""
+MIN_BRIGHTNESS = 40.0
+"""Grey level that the brightest tenth of a frame's pixels reaches at least."""
 MAX_BLUR = 0.6
 """Of a film's frames, in the median: a sharp picture has 0.3 to 0.4, one of which nothing can be made out close to 1."""
-BLUR_SIDE = 640
-"""Pixels of the longer side at which blur is measured."""
-REBLUR_PIXELS = 9
-"""By which a picture is blurred once more, to see how much there was to lose (the value of the paper below)."""
+
+
+@dataclass(frozen=True)
+class ChosenFrames:
+    """N frames of a clip.
+
+    strip : the pictures, uint8 (H, W, 3) sRGB, upright, of the clip's own `size` (height, width).
+    indices : (N,) int64, which of the clip's frames they are.
+    seconds : (N,) float64 since the clip's first frame.
+    movement : mean length of the flow from frame to frame of the clip, in shares of the longer side.
+    """
+
+    strip: FilmStrip
+    size: tuple[int, int]
+    indices: NDArray[np.int64]
+    seconds: NDArray[np.float64]
+    movement: float
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def picture(self, frame: int, longest: int | None = None) -> NDArray[np.uint8]:
+        """One of them, (H, W, 3) uint8, or as small as its `longest` side has to be."""
+        whole = self.strip.picture(frame)
+        if longest is None or max(whole.shape[:2]) <= longest:
+            return whole
+        return resized(whole, size_within(whole.shape, longest))
 
 
 def choose_frames(
     path: Path,
     count: int,
-    limits: Limits | None = None,
+    name: str,
+    limits: Limits,
     tick: Callable[[float], None] = lambda fraction: None,
     warn: Warn | None = None,
-    longest_side: int = LONGEST_SIDE,
-) -> list[SelectedFrame]:
-    """`count` frames of a film, upright, in their order; fewer where it has no more.
+) -> ChosenFrames:
+    """`count` sharp frames of the clip that is the input `name`, with equal movement between them; all of a shorter one.
 
-    The film is decoded twice and never held. Raises `InputError`: what `probe_video` raises, `too_dark`, `too_blurred`.
+    Raises
+    ------
+    InputError : `clip_too_short`, `too_dark`, `too_blurred`, and what reading a video may raise.
     """
-    movement = measure_movement(path, limits, tick=lambda fraction: tick(0.6 * fraction))
-    chosen = [
-        replace(one, rgb=resized(one.rgb, size_within(one.rgb.shape, longest_side)).copy())
-        for one in read_selected(
-            path, equal_movement(movement, count), limits, lambda fraction: tick(0.6 + 0.4 * fraction), warn
-        )
-    ]
-    greys = [np.asarray(cv2.cvtColor(one.rgb, cv2.COLOR_RGB2GRAY), np.uint8) for one in chosen]
-    if np.median([np.percentile(grey, 90) for grey in greys]) < MIN_BRIGHTNESS:
-        raise InputError("too_dark", "The clip is too dark to see the person's surface: film in brighter light.")
-    if np.median([blur(grey) for grey in greys]) > MAX_BLUR:
+    wider = replace(
+        limits, video_megapixels_per_second=max(limits.video_megapixels_per_second, MAX_MEGAPIXELS_PER_SECOND)
+    )
+    movement = measure_movement(path, wider, tick=lambda fraction: tick(0.6 * fraction))
+    if len(movement) + 1 < MIN_FRAMES:
         raise InputError(
-            "too_blurred", "Even the sharpest frames of the clip are blurred: walk slower, and let the camera focus."
+            "clip_too_short", f"The clip of the {name} has too few frames: film a whole circle, slowly.", (name,)
         )
-    return chosen
+    indices, seconds, judged = [], [], []
+    size = (0, 0)
+    with FilmStripWriter(FRAME_QUALITY) as strip:
+        selected = equal_movement(movement, count)
+        for frame in read_selected(path, selected, wider, lambda fraction: tick(0.6 + 0.4 * fraction), warn):
+            strip.write(frame.rgb)
+            size = frame.rgb.shape[0], frame.rgb.shape[1]
+            indices.append(frame.index)
+            seconds.append(frame.time)
+            judged.append(_light_and_blur(frame.rgb))
+        light, blur = np.median(np.array(judged), axis=0)
+        _refuse_dark_or_blurred(float(light), float(blur), name)
+        return ChosenFrames(
+            strip.strip(), size, np.array(indices, np.int64), np.array(seconds, np.float64), float(movement.mean())
+        )
 
 
-def blur(grey: NDArray[np.uint8]) -> float:
-    """How blurred a grey picture (H, W) is, in [0, 1]: the share of its changes from pixel to pixel that it keeps when it is
-    blurred once more. A plain picture, in which nothing changes, counts as blurred.
+def _light_and_blur(rgb: NDArray[np.uint8]) -> tuple[float, float]:
+    """The grey level that nine tenths of a frame's pixels do not pass, and how blurred it is."""
+    small = np.asarray(cv2.cvtColor(resized(rgb, size_within(rgb.shape, JUDGED_SIDE)), cv2.COLOR_RGB2GRAY), np.uint8)
+    return float(np.percentile(small, 90)), blur_effect(small)
 
-    Source: F. Crete, T. Dolmiere, P. Ladret, M. Nicolas, The blur effect, SPIE 6492, 2007.
-    """
-    small = resized(grey, size_within(grey.shape, BLUR_SIDE)).astype(np.float32)
-    kept = []
-    for axis, kernel in ((0, (1, REBLUR_PIXELS)), (1, (REBLUR_PIXELS, 1))):
-        changes = np.abs(np.diff(small, axis=axis))
-        remaining = np.abs(np.diff(cv2.blur(small, kernel), axis=axis))
-        total = float(changes.sum())
-        kept.append(1.0 if total == 0 else 1 - float(np.maximum(changes - remaining, 0).sum()) / total)
-    return max(kept)
+
+def _refuse_dark_or_blurred(light: float, blur: float, name: str) -> None:
+    if light < MIN_BRIGHTNESS:
+        raise InputError(
+            "too_dark", f"The clip of the {name} is too dark: film in daylight, or with more lamps.", (name,)
+        )
+    if blur > MAX_BLUR:
+        raise InputError(
+            "too_blurred",
+            f"Even the sharpest frames of the clip of the {name} are blurred: walk slower, and let the camera focus.",
+            (name,),
+        )

@@ -22,7 +22,7 @@ from engine.geometry.camera import Camera
 from engine.geometry.cloud_alignment import align_to_surface
 from engine.geometry.cloud_cleaning import crowded, in_large_pieces, smoothed_along_normals
 from engine.geometry.depth_fusion import Agreement, FusedPoints, fuse_depth_maps
-from engine.geometry.patch_match_stereo import DepthMap, StereoView, patch_match_stereo
+from engine.geometry.patch_match_stereo import DepthMap, StereoView, nothing_measured, patch_match_stereo
 from engine.geometry.point_cloud import PointCloud, joined, thinning
 from engine.geometry.view_selection import chosen_sources, shared_sight
 from engine.geometry.visual_hull import VisualHull, depth_range, visual_hull
@@ -139,8 +139,12 @@ def _measured(
     ]
     maps = []
     for number, view in enumerate(ready):
-        reach = depth_range(hull, view.camera, view.figure)
-        maps.append(patch_match_stereo(view, [ready[source] for source in sources[number]], reach, seed=number))
+        others = [ready[source] for source in sources[number]]
+        if others:
+            reach = depth_range(hull, view.camera, view.figure)
+            maps.append(patch_match_stereo(view, others, reach, seed=number))
+        else:  # it sees what no other does
+            maps.append(nothing_measured(view.camera.size))
         told(STEREO_SHARE * (number + 1) / len(ready))
     return maps
 

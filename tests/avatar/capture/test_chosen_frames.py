@@ -1,62 +1,53 @@
-"""Frames are chosen of films that show something, and others are refused with a word."""
+"""Chosen frames: sharp ones with equal movement between them, as they were filmed; clips of no use are refused."""
 
-from __future__ import annotations
-
-from fractions import Fraction
 from pathlib import Path
 
-import av
 import cv2
 import numpy as np
 import pytest
-from made_room import pattern
+from made_clip import write_frames
 from numpy.typing import NDArray
 
-from engine.avatar.capture.chosen_frames import blur, choose_frames
+from engine.avatar.capture.chosen_frames import choose_frames
 from engine.errors import InputError
+from engine.media.limits import Limits
+
+BLOCKS = np.random.default_rng(8).integers(0, 256, (12, 75, 3), np.uint8)
+WIDE = cv2.GaussianBlur(BLOCKS.repeat(8, axis=0).repeat(8, axis=1), (0, 0), 1.0)
 
 
-def film(path: Path, frames: list[NDArray[np.uint8]]) -> Path:
-    with av.open(str(path), "w") as container:
-        stream = container.add_stream("libx264", rate=Fraction(30))
-        stream.height, stream.width = frames[0].shape[:2]
-        stream.pix_fmt, stream.options = "yuv420p", {"crf": "10"}
-        for frame in frames:
-            container.mux(stream.encode(av.VideoFrame.from_ndarray(frame, "rgb24")))
-        container.mux(stream.encode(None))
-    return path
+def pan(shifts: list[int]) -> list[NDArray[np.uint8]]:
+    """A camera that looks at a wide picture, each frame so many pixels further right."""
+    return [np.ascontiguousarray(WIDE[:, shift : shift + 128]) for shift in np.cumsum(shifts)]
 
 
-@pytest.fixture(scope="module")
-def frames() -> list[NDArray[np.uint8]]:
-    """A camera that passes a wall."""
-    wall = pattern(3, 120, 320).astype(np.uint8)
-    return [np.ascontiguousarray(wall[:, 3 * k : 3 * k + 160]) for k in range(40)]
+def refusal(path: Path) -> InputError:
+    with pytest.raises(InputError) as refused:
+        choose_frames(path, 12, "body", Limits())
+    return refused.value
 
 
-def test_so_many_frames_in_their_order_and_not_too_large(frames: list, tmp_path: Path) -> None:
-    path = film(tmp_path / "clip.mp4", frames)
-    chosen = choose_frames(path, 8)
-    assert len(chosen) == 8 and all(one.rgb.shape == (120, 160, 3) for one in chosen)
-    assert np.diff([one.index for one in chosen]) == pytest.approx(5, abs=4)  # each within two frames of its place
-    assert [one.rgb.shape for one in choose_frames(path, 2, longest_side=80)] == [(60, 80, 3)] * 2
+def test_frames_lie_where_the_camera_moves_and_come_back_as_they_were_filmed(tmp_path: Path) -> None:
+    shifts = [0] + [1] * 40 + [3] * 40
+    film = pan(shifts)
+    chosen = choose_frames(write_frames(tmp_path / "body.mp4", film), 20, "body", Limits())
+    assert len(chosen) == 20 and chosen.size == (96, 128)
+    travelled = np.cumsum(shifts)[chosen.indices]
+    steps = np.diff(travelled)
+    assert np.abs(steps - steps.mean()).max() < 0.7 * steps.mean()  # each up to two frames from where it was aimed
+    for k in (0, 10, 19):
+        error = chosen.picture(k).mean(axis=2) - film[chosen.indices[k]].mean(axis=2)
+        assert np.sqrt((error**2).mean()) < 9
+    assert chosen.seconds == pytest.approx(chosen.indices / 25, abs=0.001)
+    assert chosen.picture(3, longest=64).shape == (48, 64, 3)
 
 
-def test_a_dark_film_is_refused(frames: list, tmp_path: Path) -> None:
-    with pytest.raises(InputError) as error:
-        choose_frames(film(tmp_path / "clip.mp4", [frame // 8 for frame in frames]), 5)
-    assert error.value.code == "too_dark"
-
-
-def test_a_blurred_film_is_refused(frames: list, tmp_path: Path) -> None:
-    with pytest.raises(InputError) as error:
-        choose_frames(film(tmp_path / "clip.mp4", [cv2.GaussianBlur(frame, (0, 0), 4) for frame in frames]), 5)
-    assert error.value.code == "too_blurred"
-
-
-def test_blur_grows_with_the_radius(frames: list) -> None:
-    grey = cv2.cvtColor(frames[0], cv2.COLOR_RGB2GRAY)
-    values = [blur(grey), *(blur(cv2.GaussianBlur(grey, (0, 0), sigma)) for sigma in (1, 2, 4))]
-    assert values == sorted(values)
-    assert values[0] < 0.35 and values[-1] > 0.7
-    assert blur(np.full((50, 60), 80, np.uint8)) == 1
+def test_a_dark_a_blurred_and_a_short_clip_are_refused_by_the_name_of_their_input(tmp_path: Path) -> None:
+    film = pan([4] * 30)
+    dark = write_frames(tmp_path / "dark.mp4", [(frame // 16).astype(np.uint8) for frame in film])
+    blurred = write_frames(tmp_path / "blurred.mp4", [cv2.GaussianBlur(frame, (0, 0), 6) for frame in film])
+    short = write_frames(tmp_path / "short.mp4", film[:6])
+    for path, code in ((dark, "too_dark"), (blurred, "too_blurred"), (short, "clip_too_short")):
+        refused = refusal(path)
+        assert refused.code == code
+        assert "body" in refused.detail

@@ -2,11 +2,12 @@
 
 import type { Kind } from '../kind/kind';
 import type { Kinds } from '../kind/kinds';
+import { avatar } from './avatar';
 import { character } from './character';
 import { genericKind } from './generic';
 import { portrait } from './portrait';
 
-const all: Kinds['all'] = [portrait, character];
+const all: Kinds['all'] = [portrait, character, avatar];
 
 const inspections: readonly string[] = all.flatMap((kind) => kind.inspections);
 
