@@ -177,7 +177,9 @@ def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None)
             )
             cameras = tuple(camera.moved(into) for camera in cameras)
         clouds.append(cloud)
-        written.append(WrittenCameras(name, frames.indices[scan.placed], frames.seconds[scan.placed], cameras))
+        written.append(
+            WrittenCameras(name, frames.indices[scan.placed].tolist(), frames.seconds[scan.placed].tolist(), cameras)
+        )
     write_ply(out / "points.ply", joined(clouds))
     write_cameras(out / "cameras.json", written)
 

@@ -36,7 +36,7 @@ def test_what_is_exported() -> None:
     ]
     assert all(hasattr(galatea, name) for name in galatea.__all__)
     assert {name for name in vars(galatea) if not name.startswith("_")} - {
-        *galatea.__all__, "calls", "inputs", "noise", "options", "result"
+        *galatea.__all__, "calls", "inputs", "silence_libraries", "options", "result"
     } == set()  # fmt: skip
     assert issubclass(InputError, galatea.GalateaError) and issubclass(IncompleteInstallation, galatea.GalateaError)
 
