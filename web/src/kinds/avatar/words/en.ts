@@ -5,7 +5,7 @@ const english = {
   sharedTitle: 'An avatar made of two clips',
   result: 'The avatar',
   glb: 'Avatar for games (GLB)',
-  usdz: 'For AR on iPhones (USDZ)',
+  usdz: 'For AR on Apple devices (USDZ)',
   video: 'Seen from all around',
 
   /** By the names that the engine gives them. */
