@@ -118,8 +118,8 @@ import type { StudioProps } from '../../kind/kind';
 export default (props: StudioProps) => <><p>Toys are made here.</p><GenericStudio {...props} /></>;\n`,
     );
     const list = join(web, 'src/kinds/index.ts');
-    const [before, after] = readFileSync(list, 'utf8').split('[portrait, character]');
-    writeFileSync(list, `import { toy } from './toy';\n${before}[portrait, character, toy]${after}`);
+    const kinds = readFileSync(list, 'utf8').replace(/(\['all'\] = \[[^\]]+)\]/, '$1, toy]');
+    writeFileSync(list, `import { toy } from './toy';\n${kinds}`);
     execFileSync(join(web, 'node_modules/.bin/vite'), ['build', '--logLevel', 'error'], { cwd: web });
   });
   afterAll(() => rmSync(copy, { recursive: true, force: true }));
