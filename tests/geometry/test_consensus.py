@@ -26,7 +26,9 @@ def test_it_does_not_shrink_everything_onto_a_crowd() -> None:
     random = np.random.default_rng(2)
     points = random.normal(0, 1, (100, 3))
     there = TRUTH(points)
-    there[:55] = np.array([1.0, 2.0, 3.0]) + random.normal(0, 0.01, (55, 3))  # most pairs say one place, whatever their own
+    there[:55] = np.array([1.0, 2.0, 3.0]) + random.normal(
+        0, 0.01, (55, 3)
+    )  # most pairs say one place, whatever their own
     found = similarity_by_consensus(points, there, 0.05)
     assert found is not None
     assert found.transform.scale == pytest.approx(TRUTH.scale, rel=1e-6)

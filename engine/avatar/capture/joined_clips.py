@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.person_lock import PersonLock, focus_of
 from engine.avatar.capture.scene_cameras import ClipScene
+from engine.geometry.consensus import similarity_by_consensus
 from engine.geometry.rigid import Similarity, fit_rigid, fit_robustly
 from engine.geometry.structure_from_motion.mapping import Reconstruction
 from engine.imaging.feature_matching import match_features, verified_matches
@@ -53,11 +54,10 @@ def join_clips(first: PersonLock, second: PersonLock, rooms: tuple[ClipScene, Cl
     known = np.isfinite(a[:, 0]) & np.isfinite(b[:, 0])
     if known.sum() < MIN_SHARED:
         return None
-    fit = fit_robustly(b[known], a[known], ROOM_TOLERANCE * distance)
-    agreed = np.linalg.norm(fit.transform(b[known]) - a[known], axis=1) < 2 * ROOM_TOLERANCE * distance
-    if agreed.sum() < MIN_SHARED:
+    found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE * distance)
+    if found is None or found.agreed.sum() < MIN_SHARED:
         return None
-    change, count = fit.transform, int(agreed.sum())
+    change, count = found.transform, int(found.agreed.sum())
     own = tracks[first.person[tracks[:, 0]] & second.person[tracks[:, 1]]]
     a = first.scene.reconstruction.bundle.points[own[:, 0]]
     b = change(second.scene.reconstruction.bundle.points[own[:, 1]])

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.scene_cameras import ClipScene
 from engine.imaging.masks.colour_segmentation import grab_cut
+from engine.imaging.masks.mask_pieces import without_small_pieces
 from engine.imaging.resample import resized, size_within
 from engine.perception.segmentation import people_confidence
 
@@ -18,6 +19,8 @@ MASK_SIDE = 480
 """Pixels of the longer side."""
 SURE_BELIEF = 0.9
 """Belief of the networks from which they are trusted, and below one less which."""
+SPECK_SHARE = 0.002
+"""Of a mask's pixels: smaller pieces are nobody's, and smaller holes are nothing between arm and body."""
 MARK_SIDES = 100
 """A point marks what is around it: a spot with a radius of this part of the longer side."""
 
@@ -52,10 +55,16 @@ def settled_masks(
             ours, others = (ours & ~theirs) | (mine & ~theirs), (others & ~mine) | (theirs & ~mine)
             rather = (rather | mine) & ~others
         if ours.any() and others.any():
-            masks.append(grab_cut(small, ours, others, rather, rounds=2))
-        else:
-            masks.append(rather)
+            rather = grab_cut(small, ours, others, rather, rounds=2)
+        masks.append(_without_specks(rather))
     return masks
+
+
+def _without_specks(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A mask (h, w) without pieces and holes as small as the spots that points mark."""
+    least = SPECK_SHARE * mask.size
+    filled = ~without_small_pieces(~mask, least)
+    return without_small_pieces(filled, least)
 
 
 def _marks(
