@@ -84,7 +84,7 @@ describe('choosing', () => {
     await page.keyboard.press('Tab');
     await expect.poll(() => focused(page)).toBe('Skip to the content');
     await page.keyboard.press('Enter');
-    for (const place of ['Portrait', 'Character']) {
+    for (const place of ['Portrait', 'Character', 'Avatar']) {
       await page.keyboard.press('Tab');
       await expect.poll(() => focused(page)).toBe(place);
     }

@@ -1431,6 +1431,94 @@ export interface components {
             /** Format: date-time */
             created_at: string;
         };
+        /** @description Options of the avatar system; every one has a sound default. */
+        AvatarOptions: {
+            /**
+             * @description How tall the person is, metres. Without it the size is guessed from how people are built, and the report says so.
+             * @default null
+             * @example 1.75
+             */
+            height_m?: number | null;
+            /**
+             * @description Frames that are taken from the clip of the body.
+             * @default 75
+             */
+            body_frames?: number;
+            /**
+             * @description Frames that are taken from the clip of the head.
+             * @default 50
+             */
+            head_frames?: number;
+            /**
+             * @description Width and height of the texture in pixels.
+             * @default 4096
+             * @enum {integer}
+             */
+            texture_size?: 1024 | 2048 | 4096 | 8192;
+            /**
+             * @description Most triangles of the avatar.
+             * @default 27676
+             */
+            triangles?: number;
+            /**
+             * @description Further levels of detail, each with a quarter of the triangles, in the same GLB (MSFT_lod).
+             * @default 0
+             */
+            levels?: number;
+            /**
+             * @description Write the avatar as VRM 1.0, too.
+             * @default false
+             */
+            vrm?: boolean;
+            /**
+             * @description Whose the avatar is, as its VRM file says: nobody else may use it without asking.
+             * @default Galatea
+             */
+            vrm_author?: string;
+            /**
+             * @description The clip that the video shows, where no file is given.
+             * @default idle
+             * @enum {string}
+             */
+            motion?: "idle" | "walk" | "run" | "jump" | "sit" | "wave" | "dance" | "bow";
+            /**
+             * @description Which joint of the motion's file moves which of the character's, where that is not found by itself: {"Hips": "pelvis"}; null leaves one out.
+             * @default {}
+             */
+            motion_joints?: {
+                [key: string]: string | null;
+            };
+            /**
+             * @description Which of a GLB's animations is played, by its name; by default the first in which something moves.
+             * @default null
+             */
+            motion_clip?: string | null;
+            /**
+             * @description Width and height of the videos in pixels.
+             * @default [
+             *       720,
+             *       1280
+             *     ]
+             * @example [
+             *       720,
+             *       1280
+             *     ]
+             */
+            size?: [
+                number,
+                number
+            ];
+            /**
+             * @description Frames a second of clips and videos.
+             * @default 30
+             */
+            fps?: number;
+            /**
+             * @description Length of the animation: a longer motion is cut, and of a shorter one the last pose is held.
+             * @default 4
+             */
+            seconds?: number;
+        };
         /** @description Options of the character system; every one has a sound default. */
         CharacterOptions: {
             /**
@@ -1588,7 +1676,7 @@ export interface components {
         /** @description What a client asks for. */
         JobIn: {
             /** @enum {string} */
-            kind: "portrait" | "moments" | "character" | "motion";
+            kind: "portrait" | "moments" | "character" | "avatar" | "motion";
             /** @default {} */
             inputs?: {
                 [key: string]: string | string[];
