@@ -150,14 +150,15 @@ def _scene(avatar: Avatar, motion: Path | None, driver: Path | None, options: Av
     skeleton, fps = avatar.mesh.skeleton, options.fps
     clip: Clip
     if motion is not None:
-        carried = retarget(read_motion(motion, options.motion_clip), skeleton, options.motion_joints, fps=fps)
-        if lost := lost_warning(read_motion(motion, options.motion_clip), carried.mapping):
+        source = read_motion(motion, options.motion_clip)
+        carried = retarget(source, skeleton, options.motion_joints, fps=fps)
+        if lost := lost_warning(source, carried.mapping):
             run.warn("motion_joints_unmapped", lost)
         clip = replace(carried.clip, name="motion")
     else:
         clip = built_in(options.motion, skeleton, fps)
     if driver is None:
-        return Scene(replace(clip, name=clip.name))
+        return Scene(clip)
     with run.timed("capture_face"):
         performance = capture_performance(Excerpt(driver, fps, None, run.limits), run.tick, run.warn)
     return Scene(acting_clip(skeleton, performance, in_place(clip)), performance.units)
