@@ -44,7 +44,7 @@ from engine.character.template_fit import FittedBody, load_human, pose_template
 from engine.character.template_maps import SideMaps
 from engine.character.unseen_limbs import with_limbs_hidden
 from engine.errors import InputError
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.skinning import bone_transforms
 from engine.imaging.masks.mask_pieces import rows_apart
 from engine.media.limits import Limits

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_similarity
 from engine.media.film_strip import FilmStripWriter
 from engine.perception.face_track.face_crop import CROP_EYES, CROP_SHAPE
 from engine.perception.face_track.track import FaceTrack

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.bundle import Bundle, Observations
 from engine.geometry.camera import Camera
+from engine.geometry.multiview.bundle import Bundle, Observations
 
 SIZE = (640, 360)
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from trimesh.triangles import closest_point
 
-from engine.geometry.rigid import Similarity, fit_similarity
+from engine.geometry.registration.rigid import Similarity, fit_similarity
 from engine.render.rasteriser import depth_map
 
 SURFACE_SAMPLES = 40_000

@@ -19,7 +19,7 @@ from benchmarks.known_truth.known_person import Person
 from benchmarks.scan_studio.noise import space_noise
 from benchmarks.scan_studio.subject import Arm, Subject, room_light
 from engine.body.body_space import load_body_space
-from engine.body.face_points import face_points
+from engine.body.face.face_points import face_points
 from engine.body.makehuman import read_mask
 from engine.body.rig import HUMAN_RIG
 from engine.body.shape import Phenotype

@@ -13,8 +13,8 @@ from engine.avatar.mesh import morphs_of, skinned_mesh, surface_of
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.body.rig import Rig
 from engine.body.template import Template
-from engine.geometry.decimation import decimate, joint_importance
 from engine.geometry.morph_target import MorphTarget, morph_target
+from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.motion.clip import Clip
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.body_space import load_body_space
-from engine.body.face_capture import (
+from engine.body.face.face_capture import (
     CAPTURED_UNITS,
     FaceUnitModel,
     capture_face_units,

@@ -28,7 +28,7 @@ from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
 from engine.geometry.point_cloud import PointCloud, joined
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
 from engine.motion.clip import Clip

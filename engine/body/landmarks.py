@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
-from engine.body.face_points import EYE_CORNERS, MOUTH_CORNERS, face_points, nose_tip
+from engine.body.face.face_points import EYE_CORNERS, MOUTH_CORNERS, face_points, nose_tip
 from engine.body.rig import Rig
 from engine.body.template import Template
 

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.observation import Crossing
+from engine.body.fitting.observation import Crossing
 from engine.character.figure import SEEN, SIDES, Figure
 from engine.imaging.masks.colour_segmentation import ColourMixture
 from engine.perception.body import BODY_LANDMARKS

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.body.hand_fitting import HandAnchor, HandFit, fingers_apart, fit_hand, hand_length, openness
+from engine.body.fitting.hand_fitting import HandAnchor, HandFit, fingers_apart, fit_hand, hand_length, openness
 from engine.character.figure import Figure
 from engine.character.head import joint_axes
 from engine.character.template_fit import FittedBody, load_human

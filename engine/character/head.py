@@ -1,6 +1,6 @@
 """The head turned as the face says it is: the paper's head pose correction (section 5, first half).
 
-The 68 fiducials are known on the template's face (`engine.body.face_points`); where they are seen in the picture, the head's
+The 68 fiducials are known on the template's face (`engine.body.face.face_points`); where they are seen in the picture, the head's
 turn follows by PnP. Skipped where no face is seen.
 """
 
@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.body.face_points import PICTURE_TO_TEMPLATE
+from engine.body.face.face_points import PICTURE_TO_TEMPLATE
 from engine.character.face_region import in_profile
 from engine.character.figure import Figure
 from engine.character.template_fit import FittedBody, load_human

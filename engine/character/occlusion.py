@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.geometry.boundary_matching import match_boundaries
-from engine.geometry.mean_value_coordinates import mean_value_warp
+from engine.geometry.deformation.mean_value_coordinates import mean_value_warp
 from engine.imaging.filling.nearest import nearest_in
 from engine.imaging.masks.mask_distance import dilate_mask, distance_to
 from engine.imaging.masks.mask_pieces import largest_piece, outline, pieces_by_area

@@ -16,7 +16,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from engine.character.template_maps import SideMaps
 from engine.geometry.boundary_matching import match_boundaries
-from engine.geometry.mean_value_coordinates import mean_value_warp
+from engine.geometry.deformation.mean_value_coordinates import mean_value_warp
 from engine.geometry.normal_integration import integrate_normals
 from engine.imaging.filling.grid_diffusion import diffuse
 from engine.imaging.filling.harmonic_fill import HarmonicFill, harmonic_fill

@@ -38,7 +38,7 @@ from engine.character.template_fit import FittedBody, fit_figure, load_human, po
 from engine.character.texture import BackTexture, PictureOnGrid, atlas, paint_tiles
 from engine.character.turned_over import without_backs_in_view
 from engine.character.unfound_hands import unfound_hands
-from engine.geometry.decimation import decimate, joint_importance
+from engine.geometry.simplification.decimation import decimate, joint_importance
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.imaging.filling.background_plate import background_plate
 from engine.media.image import is_cut_out, over_white

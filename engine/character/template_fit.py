@@ -1,4 +1,4 @@
-"""The template fitted to the figure: what perception saw, as `engine.body.fitting` takes it."""
+"""The template fitted to the figure: what perception saw, as `engine.body.fitting.body_fitting` takes it."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from engine.body import load_template
 from engine.body.body_space import BodySpace, load_body_space
-from engine.body.contour import SkinPoints, skin_points, trace_contour
-from engine.body.face_points import face_points
-from engine.body.first_guess import facing, first_guess
-from engine.body.fitting import Fit, fit_body
+from engine.body.face.face_points import face_points
+from engine.body.fitting.body_fitting import Fit, fit_body
+from engine.body.fitting.contour import SkinPoints, skin_points, trace_contour
+from engine.body.fitting.first_guess import facing, first_guess
+from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
-from engine.body.observation import DIRECTED_LIMBS, Observation
 from engine.body.rig import Rig
 from engine.body.template import load_rig
 from engine.character.crossed_arms import CrossedArms, crossed_arms, without_hidden_hand

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from engine.compiled import njit
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 
 Axes = tuple[tuple[float, ...], ...]
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.rigid import fit_similarities
+from engine.geometry.registration.rigid import fit_similarities
 from engine.media.limits import Limits
 from engine.media.video import read_video
 from engine.perception.expression.features import frontalise, measure_expression

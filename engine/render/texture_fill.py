@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-from engine.geometry.cotangent_laplacian import cotangent_laplacian
-from engine.geometry.handles import HeldSystem, handles
+from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
+from engine.geometry.deformation.handles import HeldSystem, handles
 from engine.geometry.texture_atlas import TextureAtlas
 from engine.render.rasteriser import Raster
 from engine.render.texture_bake import BakedTexture, texel_raster

@@ -16,10 +16,10 @@ from engine.avatar.mesh import surface_of
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
+from engine.body.face.visemes import VISEMES, viseme_displacements
 from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig, load_template
-from engine.body.visemes import VISEMES, viseme_displacements
 from engine.geometry.camera import Camera
 from engine.geometry.morph_target import MorphTrack
 from engine.motion.library import built_in

@@ -9,12 +9,12 @@ import numpy as np
 
 from engine.body import load_template
 from engine.body.body_space import load_body_space
-from engine.body.contour import Contour, match_contour, skin_points, trace_contour
-from engine.body.first_guess import first_guess
-from engine.body.fitting import Fit, fit_body
+from engine.body.fitting.body_fitting import Fit, fit_body
+from engine.body.fitting.contour import Contour, match_contour, skin_points, trace_contour
+from engine.body.fitting.first_guess import first_guess
+from engine.body.fitting.observation import DIRECTED_LIMBS, Observation
+from engine.body.fitting.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
 from engine.body.landmarks import landmark_model
-from engine.body.observation import DIRECTED_LIMBS, Observation
-from engine.body.posing import FITTED_JOINTS, SHAPE_COEFFICIENTS, forward, rotation_matrices
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig
 from engine.geometry.camera import Camera

@@ -7,7 +7,7 @@ import pytest
 
 from engine.body import Template
 from engine.body.body_space import BodySpace, load_body_space
-from engine.body.face_points import face_points
+from engine.body.face.face_points import face_points
 from engine.body.landmarks import landmark_model
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig

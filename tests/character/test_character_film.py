@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from template_character import still, template_character
 
-from engine.body.fitting import Fit
+from engine.body.fitting.body_fitting import Fit
 from engine.character.film import WALL, film
 from engine.character.measures import pose
 from engine.character.rigging import Character

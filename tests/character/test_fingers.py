@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import Fit
+from engine.body.fitting.body_fitting import Fit
+from engine.body.fitting.posing import SHAPE_COEFFICIENTS
 from engine.body.hands import FINGERS
-from engine.body.posing import SHAPE_COEFFICIENTS
 from engine.character.figure import Figure
 from engine.character.hands import turn_hands
 from engine.character.head import joint_axes

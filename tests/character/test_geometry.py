@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.body.body_space import load_body_space
-from engine.body.fitting import Fit
+from engine.body.fitting.body_fitting import Fit
 from engine.body.parts import BODY_PARTS
 from engine.character.labels import (
     hair_beside_arms,

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import Fit
-from engine.body.posing import SHAPE_COEFFICIENTS
+from engine.body.fitting.body_fitting import Fit
+from engine.body.fitting.posing import SHAPE_COEFFICIENTS
 from engine.character.face_warp import Face, with_face
 from engine.character.figure import Figure
 from engine.character.head import turn_head

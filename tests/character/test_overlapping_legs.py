@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from engine.body.fitting import Fit
+from engine.body.fitting.body_fitting import Fit
+from engine.body.fitting.posing import SHAPE_COEFFICIENTS
 from engine.body.parts import BODY_PARTS, vertex_parts
-from engine.body.posing import SHAPE_COEFFICIENTS
 from engine.character.label_map import label_parts
 from engine.character.layers import build_layers
 from engine.character.overlapping_legs import as_the_template, leg_before

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from engine.body.observation import DIRECTED_LIMBS
+from engine.body.fitting.observation import DIRECTED_LIMBS
 from engine.character.template_fit import FLATTENED, legs_apart
 
 FRONT = np.array([0.0, 0, 1])

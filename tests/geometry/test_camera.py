@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from engine.geometry.camera import Camera
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 
 START = Camera(eye=(0.2, 1.5, 3.0), focal=800, centre=(319.5, 200.0), size=(480, 640))
 TARGET = (0.1, 0.9, 0.0)

@@ -14,8 +14,8 @@ from engine.avatar.capture.person_lock import PersonLock, lock_to_person, person
 from engine.avatar.capture.person_masks import believed_masks, settled_masks
 from engine.avatar.capture.scene_cameras import ClipScene, solve_scene
 from engine.geometry.camera import Camera
-from engine.geometry.rigid import Similarity
-from engine.geometry.structure_from_motion.mapping import Lens
+from engine.geometry.multiview.structure_from_motion.mapping import Lens
+from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized, size_within
 from engine.perception.body import Body, find_body
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.person_lock import PersonLock, focus_of
 from engine.avatar.capture.scene_cameras import ClipScene
-from engine.geometry.consensus import similarity_by_consensus
-from engine.geometry.rigid import Similarity, fit_rigid, fit_robustly
-from engine.geometry.structure_from_motion.mapping import Reconstruction
+from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
+from engine.geometry.registration.consensus import similarity_by_consensus
+from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly
 from engine.imaging.feature_matching import match_features, verified_matches
 from engine.imaging.features import Features
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.person_lock import PersonLock, focus_of
 from engine.avatar.capture.scene_cameras import ClipScene
-from engine.geometry.bundle import Bundle, undistorted
-from engine.geometry.rigid import Similarity
+from engine.geometry.multiview.bundle import Bundle, undistorted
+from engine.geometry.registration.rigid import Similarity
 from engine.perception.body import Body
 
 USUAL_HEIGHT = 1.7

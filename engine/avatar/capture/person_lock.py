@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.capture.scene_cameras import ClipScene, with_reconstruction
-from engine.geometry.bundle_adjustment import PosePrior
-from engine.geometry.rigid import fit_robustly
-from engine.geometry.structure_from_motion.mapping import Reconstruction
-from engine.geometry.structure_from_motion.refinement import refine
+from engine.geometry.multiview.bundle_adjustment import PosePrior
+from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
+from engine.geometry.multiview.structure_from_motion.refinement import refine
+from engine.geometry.registration.rigid import fit_robustly
 
 REACH = 0.6
 """Radius of what a person fills, in distances of the cameras from the middle of their view."""

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import InputError
-from engine.geometry.structure_from_motion.mapping import Lens, Reconstruction, reconstruct
-from engine.geometry.structure_from_motion.tracks import PairMatches
+from engine.geometry.multiview.structure_from_motion.mapping import Lens, Reconstruction, reconstruct
+from engine.geometry.multiview.structure_from_motion.tracks import PairMatches
 from engine.imaging.feature_matching import overlaps, verified_matches
 from engine.imaging.features import Features, find_features
 

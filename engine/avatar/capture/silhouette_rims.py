@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.capture.captured_view import CapturedView
+from engine.geometry.multiview.visual_hull import VisualHull, depth_range
 from engine.geometry.point_cloud import PointCloud
-from engine.geometry.visual_hull import VisualHull, depth_range
 
 LONGEST_CHORD = 0.25
 """Metres within the hull up to which the middle is taken for where the line of sight touches the person."""

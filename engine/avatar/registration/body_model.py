@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from engine.avatar.registration.skin import Skin
 from engine.body.body_space import BodySpace
+from engine.body.fitting.posing import BodyPoser
 from engine.body.landmarks import LandmarkModel
-from engine.body.posing import BodyPoser
 from engine.compiled import njit
 from engine.geometry.skinning import skin as blend
 
@@ -20,7 +20,7 @@ SHAPE_DIFFERENCE = 0.5
 
 
 class BodyModel:
-    """Skin by linear blend skinning from the parameters (P,) of `engine.body.posing.BodyPoser`: the root's translation,
+    """Skin by linear blend skinning from the parameters (P,) of `engine.body.fitting.posing.BodyPoser`: the root's translation,
     the rotation vectors of its joints, and K coefficients of the space."""
 
     def __init__(self, space: BodySpace, skin: Skin, coefficients: int):

@@ -16,10 +16,10 @@ from scipy.spatial.transform import Rotation
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.body_model import BodyModel
+from engine.body.fitting.least_squares import levenberg_marquardt
+from engine.body.fitting.pose_prior import ARMS_LOWERED, joint_limits, pose_prior
+from engine.body.fitting.posing import FITTED_JOINTS
 from engine.body.landmarks import LandmarkModel
-from engine.body.least_squares import levenberg_marquardt
-from engine.body.pose_prior import ARMS_LOWERED, joint_limits, pose_prior
-from engine.body.posing import FITTED_JOINTS
 from engine.errors import InputError
 from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from engine.avatar.registration.skin import Skin
 from engine.body.template import FACE_UNITS, Template
-from engine.geometry.deformation_transfer import DeformationTransfer
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.deformation.deformation_transfer import DeformationTransfer
+from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.surface import triangle_areas
 
 RIGID_PARTS = (

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from engine.avatar.registration.skin import Skin
 from engine.body.template import Template
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_similarity
 
 SURROUNDINGS = {
     "left_eye": 0.03,

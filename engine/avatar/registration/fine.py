@@ -9,13 +9,13 @@ from scipy.sparse.linalg import splu
 
 from engine.avatar.registration.skin import Skin
 from engine.geometry.adjacency import neighbours
-from engine.geometry.nonrigid_registration import (
+from engine.geometry.point_cloud import PointCloud
+from engine.geometry.registration.nonrigid_registration import (
     ElasticSurface,
     SurfaceLandmarks,
     geometric_steps,
     lay_on_points,
 )
-from engine.geometry.point_cloud import PointCloud
 
 BODY_STEPS = geometric_steps(7, (1e-5, 1e-10), (1.0, 1e-2), (0.08, 0.03))
 """In metres the paper's weights, 1 to 1e-7, would leave the body as it is. A power of ten less than this crumples it."""

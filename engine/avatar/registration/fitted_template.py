@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.errors import Notice
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 from engine.geometry.skeleton import Skeleton
 
 

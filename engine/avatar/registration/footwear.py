@@ -12,8 +12,8 @@ from engine.body.cache import cached_arrays
 from engine.body.garments.shoes import shod
 from engine.body.garments.toe_cap import ToeCap, toe_cap
 from engine.geometry.closest_points import closest_points
-from engine.geometry.nonrigid_registration import ElasticSurface, geometric_steps, lay_on_points
 from engine.geometry.point_cloud import PointCloud
+from engine.geometry.registration.nonrigid_registration import ElasticSurface, geometric_steps, lay_on_points
 
 REACH = 0.03
 """Metres from the feet within which points are of them, and beyond which a point's distance counts no more."""

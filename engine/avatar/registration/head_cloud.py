@@ -10,9 +10,9 @@ from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.skin import Skin, grown
 from engine.errors import InputError
-from engine.geometry.iterative_closest_point import rigid_onto_surface
 from engine.geometry.point_cloud import PointCloud, joined
-from engine.geometry.rigid import Similarity, fit_robustly
+from engine.geometry.registration.iterative_closest_point import rigid_onto_surface
+from engine.geometry.registration.rigid import Similarity, fit_robustly
 
 LANDMARK_SIGMA = 0.006
 """Metres by which face landmarks are off, usually."""

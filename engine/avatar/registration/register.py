@@ -19,12 +19,12 @@ from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
-from engine.body.head_space import load_head_space
-from engine.body.visemes import viseme_displacements
+from engine.body.face.head_space import load_head_space
+from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
-from engine.geometry.cage_coordinates import cage_coordinates
+from engine.geometry.deformation.cage_coordinates import cage_coordinates
 from engine.geometry.point_cloud import PointCloud, thinned
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 
 BODY_SPACING = 0.0035
 """Metres between points of the body's cloud that are used: twice the template's density, about 150,000 in all."""

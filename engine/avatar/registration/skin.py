@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from engine.body.body_space import BodySpace
 from engine.body.cache import cached_arrays
-from engine.body.face_points import face_points
+from engine.body.face.face_points import face_points
 from engine.body.rig import Rig
 from engine.body.template import Template, vertex_mask
 from engine.geometry.adjacency import neighbours

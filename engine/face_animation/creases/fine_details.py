@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from engine.compiled import njit
 from engine.face_animation.creases.outliers import Outliers, find_outliers
 from engine.face_animation.motion_transfer.head_motion import turn_angles
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.masks.colour_segmentation import grab_cut
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map

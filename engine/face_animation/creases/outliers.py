@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.compiled import njit
-from engine.geometry.rigid import Similarity, fit_similarity
+from engine.geometry.registration.rigid import Similarity, fit_similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.landmarks import fiducials
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import Similarity, fit_similarity
+from engine.geometry.registration.rigid import Similarity, fit_similarity
 from engine.perception.landmarks import EYES_AND_NOSE_TIP
 
 

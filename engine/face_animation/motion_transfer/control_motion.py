@@ -20,7 +20,7 @@ from engine.face_animation.motion_transfer.head_proxy import HeadProxy, build_he
 from engine.face_animation.motion_transfer.landmark_residuals import LandmarkResiduals
 from engine.face_animation.motion_transfer.lids_and_lips import constrain_lids_and_lips, lid_ratio
 from engine.face_animation.mouth.lips_and_skin import keep_lips_off_skin, philtrum_compression
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.track import FaceTrack
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import MESH_SIZE, eye_distance

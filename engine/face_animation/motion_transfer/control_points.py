@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.contour import beside_contour
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 from engine.geometry.surface import area_vectors, summed_at_corners
 from engine.imaging.warping.delaunay import delaunay
 from engine.perception.head_pose import canonical_face

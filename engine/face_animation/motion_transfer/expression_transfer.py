@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 
 NEIGHBOURHOOD_EYE_DISTANCES = 0.6
 """Width of the neighbourhood the local map is fitted over, in eye distances."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import fit_similarities
+from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.landmarks import RIGID_VERTICES
 
 SOFT_WEIGHT = 0.01

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.head_motion import SOFT_WEIGHT, HeadMotion, turn_angles
-from engine.geometry.rigid import fit_similarities
+from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE, RIGID_VERTICES, eye_distance
 

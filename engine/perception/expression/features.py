@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import fit_similarities
+from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.head_pose import canonical_face, mirror_vertices
 from engine.perception.landmarks import LIPS_INNER, LIPS_OUTER, RIGID_VERTICES, eye_distance, eye_opening, mouth_opening
 

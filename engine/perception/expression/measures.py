@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import fit_similarities
+from engine.geometry.registration.rigid import fit_similarities
 from engine.perception.expression.features import frontalise
 from engine.perception.head_pose import canonical_face
 from engine.perception.landmarks import RIGID_VERTICES, eye_opening

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import fit_similarity
+from engine.geometry.registration.rigid import fit_similarity
 from engine.imaging.warping.delaunay import delaunay
 from engine.imaging.warping.mesh_warp import inverse_map
 from engine.perception.landmarks import LIPS_INNER

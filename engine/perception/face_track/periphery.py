@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.geometry.rigid import Similarity, fit_similarity
+from engine.geometry.registration.rigid import Similarity, fit_similarity
 from engine.perception.face_track.held_face import EASE_BACK, return_share
 from engine.perception.segmentation import selfie_mask
 

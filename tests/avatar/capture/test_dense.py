@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from textured_sphere import CENTRE, RADIUS, picture, ring, seen_depth
 
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.errors import InputError
 from engine.geometry.camera import Camera
-from engine.geometry.rigid import Similarity
-from tests.geometry.textured_sphere import CENTRE, RADIUS, picture, ring, seen_depth
+from engine.geometry.registration.rigid import Similarity
 
 CAMERAS = [*ring(14), *ring(10, height=1.2, first=0.2)]
 SWAY = Similarity(np.eye(3), np.array([0.004, 0.003, 0.0]))

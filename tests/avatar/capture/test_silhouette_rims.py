@@ -1,11 +1,11 @@
 """Along a sphere's outline the points and normals are the sphere's."""
 
 import numpy as np
+from textured_sphere import CENTRE, RADIUS, ring, seen_depth
 
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.silhouette_rims import rim_points
-from engine.geometry.visual_hull import visual_hull
-from tests.geometry.textured_sphere import CENTRE, RADIUS, ring, seen_depth
+from engine.geometry.multiview.visual_hull import visual_hull
 
 
 def test_points_of_the_outline_lie_on_the_sphere_and_their_normals_point_away() -> None:

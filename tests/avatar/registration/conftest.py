@@ -8,7 +8,7 @@ from known_person import KnownPerson
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.models import HumanModels, load_models
-from engine.body.posing import FITTED_JOINTS
+from engine.body.fitting.posing import FITTED_JOINTS
 
 
 @pytest.fixture(scope="session")

@@ -6,8 +6,8 @@ import numpy as np
 
 from engine.avatar.registration.expressions import transferred_units
 from engine.avatar.registration.models import HumanModels
+from engine.body.face.visemes import VISEMES, viseme_displacements
 from engine.body.template import FACE_UNITS
-from engine.body.visemes import VISEMES, viseme_displacements
 
 
 def test_the_template_itself_has_its_own_and_one_twice_as_large_has_them_twice(models: HumanModels) -> None:

@@ -13,7 +13,7 @@ from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.register import Scan, register
 from engine.errors import InputError
 from engine.geometry.point_cloud import PointCloud
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 
 TO_HEAD = Similarity(1.3 * Rotation.from_rotvec([0.1, 0.4, -0.1]).as_matrix(), np.array([0.1, -1.5, 0.3]))
 """From the body's world to that of the head's clip."""

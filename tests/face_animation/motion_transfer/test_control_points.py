@@ -9,7 +9,7 @@ from made_face import placed
 from numpy.typing import NDArray
 
 from engine.face_animation.motion_transfer.control_points import ControlPoints, carry_periphery, place_control_points
-from engine.geometry.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity
 from engine.perception.face_track.periphery import tracked_weights
 from engine.perception.landmarks import FACE_OVAL, MESH_SIZE
 

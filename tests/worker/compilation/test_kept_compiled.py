@@ -9,7 +9,7 @@ from pathlib import Path
 
 HEAP = """
 import numpy as np
-from engine.geometry.heap import sift_up
+from engine.geometry.simplification.heap import sift_up
 
 def heap():
     keys, items = np.array([1.0, 2.0, 0.0]), np.arange(3)

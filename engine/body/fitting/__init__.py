@@ -1,0 +1,1 @@
+"""The template fitted to what is seen of a person: body and hands, from landmarks and outlines."""

@@ -1,0 +1,53 @@
+"""Points turned and shifted onto a surface near which they are.
+
+Source: Y. Chen, G. Medioni, Object modelling by registration of multiple range images, Image and Vision Computing 10, 1992
+(distances to tangential planes, which let points slide along the surface).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from engine.geometry.closest_points import closest_points
+from engine.geometry.registration.rigid import Similarity
+from engine.geometry.surface import face_normals
+
+STEADY = 1e-9
+"""What keeps a motion along which the surface is the same, such as a ball's turn, at none."""
+
+
+def rigid_onto_surface(
+    points: NDArray[np.floating],
+    vertices: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    gate: float,
+    rounds: int,
+) -> Similarity:
+    """The turn and shift, of scale one, that bring `points` (N, 3) onto the surface `triangles` (T, 3) over `vertices` (V, 3),
+    after so many `rounds`. Points further away than `gate`, in the same unit, do not count."""
+    surface = np.asarray(vertices, np.float64)
+    start = np.asarray(points, np.float64)
+    normals = face_normals(surface, triangles)
+    found = Similarity(np.eye(3), np.zeros(3))
+    for _ in range(rounds):
+        moved = found(start)
+        nearest = closest_points(moved, surface, triangles)
+        used = nearest.distance < gate
+        if used.sum() < 6:
+            break
+        at = moved[used]
+        across = normals[nearest.triangle[used]]
+        there = np.einsum(
+            "nk,nkc->nc", nearest.barycentrics[used], surface[np.asarray(triangles)[nearest.triangle[used]]]
+        )
+        middle = at.mean(0)
+        rows = np.concatenate([np.cross(at - middle, across), across], 1)
+        off = ((there - at) * across).sum(1)
+        hessian = rows.T @ rows
+        step = np.linalg.solve(hessian + STEADY * np.trace(hessian) * np.eye(6), rows.T @ off)
+        turn = Rotation.from_rotvec(step[:3]).as_matrix()
+        shift = middle + step[3:] - turn @ middle
+        found = Similarity(turn @ found.linear, turn @ found.shift + shift)
+    return found

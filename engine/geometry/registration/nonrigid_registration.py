@@ -1,0 +1,154 @@
+"""A surface laid on a cloud of points: near its closest points, and otherwise bent as little as can be.
+
+Source: equation 1 of S. Wenninger, J. Achenbach, A. Bartl, M. E. Latoschik, M. Botsch, Realistic Virtual Humans from
+Smartphone Videos, VRST 2020; minimised as in J. Achenbach, T. Waltemate, M. E. Latoschik, M. Botsch, Fast generation of
+realistic virtual humans, VRST 2017: by turns for the places of vertices, the turns of edges and the closest points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
+
+from engine.geometry.closest_points import closest_points
+from engine.geometry.deformation.handles import surface_points
+from engine.geometry.deformation.hinge_laplacian import HingeLaplacian
+from engine.geometry.surface import vertex_normals
+
+MIN_NORMAL_COSINE = 0.2
+"""Between the normals of a point and of the surface there: what faces another way is another side of the body."""
+ITERATIONS = 3
+"""Of each step: new closest points, new turns, new places."""
+UNBOUND = 1e-14
+"""What holds vertices of no hinge where they are, against any other pull."""
+
+
+@dataclass(frozen=True)
+class ElasticSurface:
+    """What is laid on the points.
+
+    `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
+    `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
+    near a vertex count.
+    """
+
+    rest: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    matched: NDArray[np.bool_]
+    stiffness: NDArray[np.float64]
+    trust: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SurfaceLandmarks:
+    """Points of the surface with known places: `rows` (L, V) sparse, each the weights of vertices, summing to one, and
+    `places` (L, 3) metres."""
+
+    rows: sp.csr_array
+    places: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Step:
+    """Weights of equation 1 while so many `ITERATIONS` last, in metres: `regularisation` grows with the fourth power of the
+    unit of length. `gate`: metres from which on points pull no more (J. Tukey's weight)."""
+
+    regularisation: float
+    landmarks: float
+    gate: float
+
+
+def geometric_steps(
+    count: int, regularisation: tuple[float, float], landmarks: tuple[float, float], gate: tuple[float, float]
+) -> list[Step]:
+    """So many steps, each quantity from its first value to its last by equal factors."""
+    series = [np.geomspace(*ends, count) for ends in (regularisation, landmarks, gate)]
+    return [Step(float(stiff), float(drawn), float(reach)) for stiff, drawn, reach in zip(*series, strict=True)]
+
+
+def lay_on_points(
+    surface: ElasticSurface,
+    points: NDArray[np.floating],
+    normals: NDArray[np.floating],
+    steps: Sequence[Step],
+    landmarks: SurfaceLandmarks | None = None,
+    start: NDArray[np.floating] | None = None,
+) -> NDArray[np.float64]:
+    """The vertices (V, 3) float64 metres of the surface, laid on `points` (N, 3) metres with unit `normals` (N, 3).
+
+    `start` (V, 3): where it is first, by default at rest. Raises ValueError where no point is near the surface and there are
+    no landmarks.
+    """
+    hinges = HingeLaplacian(surface.rest, surface.triangles)
+    shares = hinges.areas * surface.stiffness[hinges.hinges].max(1) / hinges.areas.sum()
+    weighed = sp.csr_array(hinges.operator.T @ sp.diags_array(shares))
+    bending = sp.csr_array(weighed @ hinges.operator)
+    vertices = surface.rest.copy() if start is None else np.asarray(start, np.float64).copy()
+    system = _SameSparsity()
+    for step in steps:
+        for _ in range(ITERATIONS):
+            matrix, right = _matched_points(surface, vertices, points, normals, step.gate)
+            if landmarks is not None:
+                pull = step.landmarks / len(landmarks.places)
+                matrix = matrix + pull * (landmarks.rows.T @ landmarks.rows)
+                right = right + pull * (landmarks.rows.T @ landmarks.places)
+            elif not matrix.nnz:
+                raise ValueError("no point of the cloud is near the surface")
+            bent = weighed @ hinges.turned(hinges.rotations(vertices))
+            held = UNBOUND * sp.eye_array(len(vertices))
+            vertices = system.solve(
+                sp.csc_array(matrix + step.regularisation * bending + held),
+                right + step.regularisation * bent + UNBOUND * vertices,
+            )
+    return vertices
+
+
+def _matched_points(
+    surface: ElasticSurface,
+    vertices: NDArray[np.float64],
+    points: NDArray[np.floating],
+    normals: NDArray[np.floating],
+    gate: float,
+) -> tuple[sp.csr_array, NDArray[np.float64]]:
+    """The normal equations of the closeness term: (V, V) sparse, and (V, 3)."""
+    candidates = np.asarray(surface.triangles)[surface.matched]
+    nearest = closest_points(points, vertices, candidates)
+    corners = candidates[nearest.triangle]
+    own = vertex_normals(vertices, surface.triangles)[corners]
+    facing = np.einsum("nk,nkc,nc->n", nearest.barycentrics, own, normals) > MIN_NORMAL_COSINE
+    weights = facing * np.maximum(1 - (nearest.distance / gate) ** 2, 0) ** 2
+    weights *= np.einsum("nk,nk->n", nearest.barycentrics, surface.trust[corners])
+    used = weights > 0
+    total = weights.sum()
+    count = len(vertices)
+    if not total:
+        return sp.csr_array((count, count)), np.zeros((count, 3))
+    rows = surface_points(candidates, nearest.triangle[used], nearest.barycentrics[used], count)
+    weighed = sp.csr_array(rows.T @ sp.diags_array(weights[used] / total))
+    return sp.csr_array(weighed @ rows), np.asarray(weighed @ np.asarray(points, np.float64)[used])
+
+
+class _SameSparsity:
+    """Systems with one pattern, one after the other: the order in which they are factorised is sought for the first."""
+
+    def __init__(self) -> None:
+        self._order: NDArray[np.intp] | None = None
+
+    def solve(self, matrix: sp.csc_array, right: NDArray[np.float64]) -> NDArray[np.float64]:
+        options = {"SymmetricMode": True}
+        if self._order is None:
+            factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+            self._order = np.argsort(factors.perm_c)
+            return np.asarray(factors.solve(right))
+        order = self._order
+        factors = splu(
+            sp.csc_array(matrix[order][:, order]), permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options
+        )
+        solved = np.empty_like(right)
+        solved[order] = factors.solve(right[order])
+        return solved

@@ -1,0 +1,1 @@
+"""Meshes with fewer triangles: edges are collapsed, the cheapest first."""

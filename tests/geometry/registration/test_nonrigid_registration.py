@@ -1,0 +1,75 @@
+"""Surfaces laid on points."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+import trimesh
+from numpy.typing import NDArray
+
+from engine.geometry.closest_points import closest_points
+from engine.geometry.registration.nonrigid_registration import (
+    ElasticSurface,
+    SurfaceLandmarks,
+    geometric_steps,
+    lay_on_points,
+)
+from engine.geometry.surface import vertex_normals
+
+STEPS = geometric_steps(5, (1e-5, 1e-10), (1, 1e-2), (0.08, 0.03))
+
+
+def icosphere(subdivisions: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    mesh = trimesh.creation.icosphere(subdivisions)
+    return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int32)
+
+
+def _surface(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> ElasticSurface:
+    ones = np.ones(len(vertices))
+    return ElasticSurface(vertices, triangles, np.ones(len(triangles), np.bool_), ones, ones)
+
+
+def test_a_sphere_becomes_the_ellipsoid_that_was_measured() -> None:
+    vertices, triangles = icosphere(3)
+    sphere, ellipsoid = vertices * 0.2, vertices * [0.22, 0.25, 0.18]
+    fine, fine_triangles = icosphere(5)
+    points = fine * [0.22, 0.25, 0.18]
+    laid = lay_on_points(_surface(sphere, triangles), points, vertex_normals(points, fine_triangles), STEPS)
+    assert closest_points(points, laid, triangles).distance.mean() < 1e-3
+    assert np.linalg.norm(laid - ellipsoid, axis=1).mean() < 0.01  # slides little
+
+
+def test_a_hole_is_bridged_and_outliers_are_ignored() -> None:
+    vertices, triangles = icosphere(3)
+    fine, fine_triangles = icosphere(5)
+    points, normals = fine * 0.21, vertex_normals(fine, fine_triangles)
+    there = points[:, 1] < 0.15
+    stray = np.array([[0.0, 0.5, 0], [0.5, 0, 0], [0, 0, -0.6]])
+    seen = np.concatenate([points[there], stray])
+    facing = np.concatenate([normals[there], stray / np.linalg.norm(stray, axis=1, keepdims=True)])
+    laid = lay_on_points(_surface(vertices * 0.2, triangles), seen, facing, STEPS)
+    assert np.abs(np.linalg.norm(laid, axis=1) - 0.21).max() < 6e-3
+
+
+def test_landmarks_pull_along_the_surface() -> None:
+    """Points of a sphere do not tell how it was turned; landmarks do."""
+    vertices, triangles = icosphere(3)
+    rest = vertices * 0.2
+    angle = 0.25
+    turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    turned = rest @ turn.T
+    chosen = np.arange(0, len(rest), 40)
+    rows = sp.csr_array((np.ones(len(chosen)), (np.arange(len(chosen)), chosen)), (len(chosen), len(rest)))
+    normals = vertex_normals(turned, triangles)
+    free = lay_on_points(_surface(rest, triangles), turned, normals, STEPS)
+    drawn = lay_on_points(_surface(rest, triangles), turned, normals, STEPS, SurfaceLandmarks(rows, turned[chosen]))
+    off = [np.linalg.norm(laid - turned, axis=1).mean() for laid in (free, drawn)]
+    assert off[0] > 0.02  # metres
+    assert off[1] < 0.008  # and less with more iterations
+
+
+def test_nothing_near_is_said() -> None:
+    vertices, triangles = icosphere(1)
+    with pytest.raises(ValueError, match="no point"):
+        lay_on_points(_surface(vertices, triangles), np.full((4, 3), 9.0), np.ones((4, 3)), STEPS)
