@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
-LATTICE = 32
+LATTICE_CELLS = 32
 """Cells along the side of the random lattice that fills space again and again."""
 
 
@@ -27,10 +27,10 @@ def space_noise(
     points: NDArray[np.floating], cells: tuple[float, ...], random: np.random.Generator
 ) -> NDArray[np.float32]:
     """(N,) float32 of about unit spread at points (N, 3): the same with cells in the points' unit; it repeats after
-    `LATTICE` cells."""
+    `LATTICE_CELLS` cells."""
     total = np.zeros(len(points), np.float32)
     for cell in cells:
-        lattice = random.standard_normal((LATTICE, LATTICE, LATTICE)).astype(np.float32)
+        lattice = random.standard_normal((LATTICE_CELLS, LATTICE_CELLS, LATTICE_CELLS)).astype(np.float32)
         at = np.asarray(points, np.float32).T / np.float32(cell)
         total += map_coordinates(lattice, at, order=1, mode="grid-wrap")
     return total * np.float32(1.5 / np.sqrt(len(cells)))  # what is interpolated linearly spreads less

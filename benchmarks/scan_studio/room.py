@@ -14,7 +14,7 @@ from benchmarks.scan_studio.room_textures import Texture
 
 TEXELS_PER_METRE = 256
 """Of the room's texture: 4 millimetres each."""
-HALF = 3.2
+WALL_DISTANCE = 3.2
 """Metres from the middle of the room to its walls."""
 CEILING = 2.8
 """Metres from the floor up."""
@@ -71,12 +71,12 @@ def furnished_room(seed: int, texels_per_metre: int = TEXELS_PER_METRE) -> Room:
 
 
 def _shell() -> list[Panel]:
-    side, low = 2 * HALF, -HALF
+    side, low = 2 * WALL_DISTANCE, -WALL_DISTANCE
     walls = [
         ((low, CEILING, low), (side, 0, 0)),
-        ((HALF, CEILING, low), (0, 0, side)),
-        ((HALF, CEILING, HALF), (-side, 0, 0)),
-        ((low, CEILING, HALF), (0, 0, -side)),
+        ((WALL_DISTANCE, CEILING, low), (0, 0, side)),
+        ((WALL_DISTANCE, CEILING, WALL_DISTANCE), (-side, 0, 0)),
+        ((low, CEILING, WALL_DISTANCE), (0, 0, -side)),
     ]
     lights = (0.95, 0.85, 0.9, 0.8)
     found = [
@@ -88,7 +88,7 @@ def _shell() -> list[Panel]:
     return [
         *found,
         Panel((low, 0, low), (side, 0, 0), (0, 0, side), board),
-        Panel((low, CEILING, HALF), (side, 0, 0), (0, 0, -side), ceiling, 0.85),
+        Panel((low, CEILING, WALL_DISTANCE), (side, 0, 0), (0, 0, -side), ceiling, 0.85),
     ]
 
 
@@ -102,12 +102,12 @@ def _posters(random: np.random.Generator) -> list[Panel]:
     for wall in range(4):
         turn = np.array([[0, -1], [1, 0]])
         turned = np.linalg.matrix_power(turn, wall)
-        x = -HALF + random.uniform(0.2, 0.5)
-        while x < HALF - 1.0:
+        x = -WALL_DISTANCE + random.uniform(0.2, 0.5)
+        while x < WALL_DISTANCE - 1.0:
             wide, high = random.uniform(0.6, 1.4), random.uniform(0.6, 1.3)
-            wide = min(wide, HALF - 0.1 - x)
+            wide = min(wide, WALL_DISTANCE - 0.1 - x)
             top = random.uniform(max(high + 0.2, 1.5), CEILING - 0.15)
-            across, along = turned @ [x, -HALF + 0.01], turned @ [wide, 0.0]
+            across, along = turned @ [x, -WALL_DISTANCE + 0.01], turned @ [wide, 0.0]
             corner = (float(across[0]), float(top), float(across[1]))
             found.append(
                 Panel(corner, (float(along[0]), 0.0, float(along[1])), (0, -high, 0), room_textures.poster, 0.95)

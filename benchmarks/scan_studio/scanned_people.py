@@ -16,7 +16,7 @@ from benchmarks.scan_studio.subject import Arm, Subject, room_light
 from engine.geometry.surface import vertex_normals
 from engine.geometry.welding import same_rows
 
-METRES = 1.75
+SCANNED_HEIGHT = 1.75
 """Of height, to which they are scaled."""
 RIGGED = {
     "readyplayer.me": ("body_rpm_man/readyplayer.me.glb", 1.0),
@@ -61,7 +61,10 @@ def _joined(name: str, parts: Sequence[TexturedPart], joints: Mapping[str, NDArr
     points = np.concatenate([part.vertices for part in parts])
     triangles = np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)])
     low, high = points.min(0), points.max(0)
-    scale, ground = METRES / (high[1] - low[1]), np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
+    scale, ground = (
+        SCANNED_HEIGHT / (high[1] - low[1]),
+        np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2]),
+    )
     vertices = (points - ground) * scale
     placed = {joint: (place - ground) * scale for joint, place in joints.items()}
     uv, texture = _one_texture(parts)

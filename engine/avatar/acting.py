@@ -21,7 +21,7 @@ from engine.motion.rotation import from_matrix
 from engine.render.character import Actor, film_cast, prepare_character
 from engine.render.ground_shadow import GroundShadow
 
-TRAVELS = 0.1
+TRAVEL_METRES = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""
 VIEW_POINTS = 12
 """Frames of a clip by which the camera is placed so that all of them are in the picture."""
@@ -47,7 +47,9 @@ def standing_clip(mesh: SkinnedMesh, rotations: NDArray[np.floating], root: NDAr
 def built_in_clips(mesh: SkinnedMesh, fps: float) -> list[Clip]:
     """All built-in motions; those that would go somewhere in place."""
     clips = [built_in(name, mesh.skeleton, fps) for name in CLIPS]
-    return [in_place(clip) if clip.loops and np.linalg.norm(loop_travel(clip)) > TRAVELS else clip for clip in clips]
+    return [
+        in_place(clip) if clip.loops and np.linalg.norm(loop_travel(clip)) > TRAVEL_METRES else clip for clip in clips
+    ]
 
 
 def film(

@@ -18,7 +18,7 @@ MAX_STEPS = 60
 """Steps in which triangles are made alike, at most."""
 MIN_GAIN = 1e-4
 """The share of the energy that a step must gain for another to follow."""
-STEADY = 1e-8
+DAMPING = 1e-8
 """What keeps the system of a step regular, as a share of its mean diagonal."""
 SAFE_SHARE = 0.8
 """Of the way to where a triangle would be turned over, how far a step leads at most."""
@@ -112,7 +112,7 @@ def _step(
     left_over = wanted - system @ flat_places
     own = system[:, columns]
     normal = sp.csc_array(own.T @ own)
-    normal = normal + STEADY * normal.diagonal().mean() * sp.eye_array(2 * free)
+    normal = normal + DAMPING * normal.diagonal().mean() * sp.eye_array(2 * free)
     moved = np.zeros_like(places)
     moved[:free] = splu(sp.csc_array(normal)).solve(own.T @ left_over).reshape(2, free).T
     share = min(1.0, SAFE_SHARE * _until_turned_over(places, moved, corners))

@@ -16,7 +16,7 @@ DESCRIPTOR_LENGTH = 128
 MIN_CONTRAST = 0.006
 """Contrast of an extremum between scales, times the layers of an octave, from which it counts (OpenCV's unit; what others
 call a peak threshold of 0.002). Lowe's 0.04 leaves plain cloth without features."""
-LAYERS = 3
+SCALES_PER_OCTAVE = 3
 """Scales in each octave (Lowe's value)."""
 MAX_EDGE_RATIO = 10.0
 """Of the two curvatures at a feature (Lowe's value): beyond, it may slide along an edge."""
@@ -53,7 +53,7 @@ def find_features(
     rgb : (H, W, 3).
     favoured : (H, W), where half of them are taken from, if there are so many.
     """
-    sift = cv2.SIFT_create(0, LAYERS, min_contrast, MAX_EDGE_RATIO, 1.6, True)  # type: ignore[attr-defined]
+    sift = cv2.SIFT_create(0, SCALES_PER_OCTAVE, min_contrast, MAX_EDGE_RATIO, 1.6, True)  # type: ignore[attr-defined]
     grey = cv2.cvtColor(rgb, cv2.COLOR_RGB2GRAY)
     found = sorted(sift.detect(grey, None), key=lambda one: -one.response)
     if favoured is not None and len(found) > count:

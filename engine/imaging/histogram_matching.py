@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 QUANTILES = 65
 """At which two distributions are compared; between them the map is linear."""
-TAIL = 0.02
+IGNORED_TAIL = 0.02
 """Share of the reference at either end that is not followed: highlights, and what is not of it."""
 
 MIN_RANGE = 2.0
@@ -34,7 +34,7 @@ def matched_in_lab(
     out = np.empty_like(own)
     for channel in range(3):
         have = np.quantile(own[:, channel], steps)
-        want = np.quantile(goal[:, channel], TAIL + (1 - 2 * TAIL) * steps)
+        want = np.quantile(goal[:, channel], IGNORED_TAIL + (1 - 2 * IGNORED_TAIL) * steps)
         inner = slice(QUANTILES // 10, -(QUANTILES // 10))
         wider = float(np.ptp(want[inner])) / max(float(np.ptp(have[inner])), 1e-6)
         want = np.median(want) + (want - np.median(want)) * min(1.0, max_stretch / max(wider, 1e-6))

@@ -31,28 +31,28 @@ HULL_SPACING = 0.008
 """Metres from voxel to voxel."""
 SILHOUETTE_ERROR = 1.5
 """Pixels by which segmentation errs, at the size at which stereo works."""
-SIGHTED = 16
-"""Of so many points of the hull's surface one tells which views share sight."""
+SIGHT_SUBSAMPLING = 16
+"""One of so many points of the hull's surface tells which views share sight."""
 SOURCES, ASKED = 4, 12
 """Views that a view is measured against, and those that are asked about its points."""
-ALIGNMENTS = 2
+ALIGNMENT_ROUNDS = 2
 """Rounds of laying views on the fused cloud."""
 ALIGNED_POINTS = 1500
-"""Of a view, at most, that are laid on the cloud."""
+"""Points of a view, at most, that are laid on the cloud."""
 ALIGNMENT_GATE = 0.02
 """Metres within which the cloud's surface is looked for."""
-SPACING = 0.003
+CLOUD_SPACING = 0.003
 """Metres: of points in one cell so wide one stays."""
 ALIGNMENT_SPACING = 0.006
-"""The same, of the surface on which views are laid."""
-SMOOTHING = 0.008
+"""Metres between points of the surface on which views are laid."""
+SMOOTHING_RADIUS = 0.008
 """Metres about a point whose points smooth it."""
 ALIGNED_COST = 0.5
 """Greatest cost of the measurements by which a view is laid on the cloud."""
-BORDER = 8
+CROP_BORDER = 8
 """Pixels around the person that are kept."""
 STEREO_SHARE = 0.9
-"""Of the work."""
+"""Share of the stage's time that stereo takes."""
 CROWD_RADIUS, CROWD = 0.012, 6
 """Metres within which a point of the surface has so many others."""
 RIM_GAP = 0.015
@@ -91,14 +91,14 @@ def dense_cloud(
         hull = visual_hull([view.figure for view in straight], cameras, HULL_SPACING, SILHOUETTE_ERROR)
     except ValueError as error:
         raise _not_measured() from error
-    shared = shared_sight(cameras, *(part[::SIGHTED] for part in hull.surface()))
+    shared = shared_sight(cameras, *(part[::SIGHT_SUBSAMPLING] for part in hull.surface()))
     centre = hull.box().mean(axis=0)
     sources = chosen_sources(shared, cameras, centre, SOURCES)
     asked = [[int(v) for v in np.argsort(-row)[:ASKED] if row[v] > 0] for row in shared]
     maps = _measured(straight, hull, sources, told)
     images = [view.image for view in straight]
     fused = fuse_depth_maps(maps, cameras, images, asked, agreement)
-    for _ in range(ALIGNMENTS):
+    for _ in range(ALIGNMENT_ROUNDS):
         if not len(fused.cloud):
             raise _not_measured()
         cameras = _aligned(maps, cameras, fused)
@@ -119,8 +119,8 @@ def _not_measured() -> InputError:
 def _cropped(views: Sequence[CapturedView]) -> list[CapturedView]:
     """The parts of the views that hold the person, all of one size: that is less to keep and to go through."""
     boxes = [cv2.boundingRect(view.figure.astype(np.uint8)) for view in views]
-    height = min(max(box[3] for box in boxes) + 2 * BORDER, *(view.camera.size[0] for view in views))
-    width = min(max(box[2] for box in boxes) + 2 * BORDER, *(view.camera.size[1] for view in views))
+    height = min(max(box[3] for box in boxes) + 2 * CROP_BORDER, *(view.camera.size[0] for view in views))
+    width = min(max(box[2] for box in boxes) + 2 * CROP_BORDER, *(view.camera.size[1] for view in views))
     parts = []
     for view, (left, top, wide, high) in zip(views, boxes, strict=True):
         x = min(max(left + (wide - width) // 2, 0), view.camera.size[1] - width)
@@ -166,10 +166,10 @@ def _aligned(maps: Sequence[DepthMap], cameras: Sequence[Camera], fused: FusedPo
 
 def _cleaned(fused: FusedPoints) -> tuple[PointCloud, NDArray[np.uint8]]:
     """One point in each cell, without lone points and pieces that hang apart, smoothed; and its support."""
-    chosen = thinning(fused.cloud.points, SPACING)
+    chosen = thinning(fused.cloud.points, CLOUD_SPACING)
     chosen = chosen[crowded(fused.cloud[chosen], CROWD_RADIUS, CROWD)]
     chosen = chosen[in_large_pieces(fused.cloud[chosen], PIECE_GAP, PIECE_SHARE)]
-    return smoothed_along_normals(fused.cloud[chosen], SMOOTHING), fused.support[chosen]
+    return smoothed_along_normals(fused.cloud[chosen], SMOOTHING_RADIUS), fused.support[chosen]
 
 
 def _with_rims(

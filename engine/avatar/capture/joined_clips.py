@@ -19,9 +19,9 @@ from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robust
 from engine.imaging.feature_matching import match_features, verified_matches
 from engine.imaging.features import Features
 
-PARTNERS = 3
+MATCHED_FRAMES = 3
 """Frames of the first film that each of the second is matched with."""
-LARGEST = 300
+COARSE_FEATURES = 300
 """Features by which partners are chosen."""
 MIN_SHARED = 20
 """Points in common by which two films are joined."""
@@ -75,7 +75,7 @@ def _shared_tracks(first: ClipScene, second: ClipScene) -> NDArray[np.intp]:
     small = [[_largest(one) for one in scene.features] for scene in (first, second)]
     for j in np.flatnonzero(second.reconstruction.registered):
         counts = np.array([len(match_features(one, small[1][j])) for one in small[0]])
-        for i in np.argsort(-counts * first.reconstruction.registered, kind="stable")[:PARTNERS]:
+        for i in np.argsort(-counts * first.reconstruction.registered, kind="stable")[:MATCHED_FRAMES]:
             matches = verified_matches(first.features[i], second.features[j], first.length)
             pair = np.stack([names[0][i][matches[:, 0]], names[1][j][matches[:, 1]]], axis=1)
             found.append(pair[(pair >= 0).all(axis=1)])
@@ -93,4 +93,4 @@ def _tracks_of_features(scene: ClipScene) -> list[NDArray[np.intp]]:
 
 
 def _largest(features: Features) -> Features:
-    return features[np.argsort(-features.sizes, kind="stable")[:LARGEST]]
+    return features[np.argsort(-features.sizes, kind="stable")[:COARSE_FEATURES]]

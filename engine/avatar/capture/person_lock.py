@@ -18,7 +18,7 @@ from engine.geometry.multiview.structure_from_motion.mapping import Reconstructi
 from engine.geometry.multiview.structure_from_motion.refinement import refine
 from engine.geometry.registration.rigid import fit_robustly
 
-REACH = 0.6
+PERSON_RADIUS = 0.6
 """Radius of what a person fills, in distances of the cameras from the middle of their view."""
 SWAY_TURN = 0.002
 """Radians that a person who holds still turns in the mean."""
@@ -74,7 +74,7 @@ def person_tracks(scene: ClipScene, masks: Sequence[NDArray[np.bool_]] | None) -
     focus = focus_of(found)
     points = found.bundle.points
     with np.errstate(invalid="ignore"):
-        inside = np.linalg.norm(points - focus.middle, axis=1) < REACH * focus.distance
+        inside = np.linalg.norm(points - focus.middle, axis=1) < PERSON_RADIUS * focus.distance
     if masks is None:
         return inside
     on = np.zeros(len(found.seen))

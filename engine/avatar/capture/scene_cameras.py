@@ -16,8 +16,8 @@ from engine.geometry.multiview.structure_from_motion.tracks import PairMatches
 from engine.imaging.feature_matching import overlaps, verified_matches
 from engine.imaging.features import Features, find_features
 
-FEATURES = 4096
-"""Of a frame (the value of the trial)."""
+FEATURES_PER_FRAME = 4096
+"""Features that are found in a frame, at most."""
 NEXT_FRAMES = 4
 """Frames after each that it is matched with."""
 FAR_FRAMES = 4
@@ -76,7 +76,7 @@ def solve_scene(
     length = max(height, width)
     masks: Sequence[NDArray[np.bool_] | None] = favoured or [None] * len(frames)
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="features") as pool:
-        features = list(pool.map(lambda frame, mask: find_features(frame, FEATURES, mask), frames, masks))
+        features = list(pool.map(lambda frame, mask: find_features(frame, FEATURES_PER_FRAME, mask), frames, masks))
         tick(0.3)
         chosen = film_pairs(features)
         found = pool.map(lambda pair: verified_matches(features[pair[0]], features[pair[1]], length), chosen)

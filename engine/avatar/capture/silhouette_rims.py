@@ -19,7 +19,7 @@ LONGEST_CHORD = 0.25
 """Metres within the hull up to which the middle is taken for where the line of sight touches the person."""
 NORMALS_BLUR = 1.5
 """Pixels of the Gaussian by which the outline is smoothed before it tells normals."""
-BORDER = 2
+PICTURE_BORDER = 2
 """Pixels at a picture's borders where an outline is that of the picture."""
 
 
@@ -29,7 +29,7 @@ def rim_points(view: CapturedView, hull: VisualHull) -> PointCloud:
     figure = view.figure.astype(np.uint8)
     rim = view.figure & (cv2.erode(figure, np.ones((3, 3), np.uint8)) == 0)
     inner = np.zeros_like(rim)
-    inner[BORDER:-BORDER, BORDER:-BORDER] = True
+    inner[PICTURE_BORDER:-PICTURE_BORDER, PICTURE_BORDER:-PICTURE_BORDER] = True
     reach = depth_range(hull, view.camera, rim & inner)
     y, x = np.nonzero((reach[..., 0] > 0) & (reach[..., 1] - reach[..., 0] < LONGEST_CHORD))
     pixels = np.stack([x, y], axis=-1).astype(np.float64)

@@ -25,7 +25,8 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.surface import face_normals
 
-COEFFICIENTS = 20
+SHAPE_COEFFICIENTS = 20
+"""Directions of the body space in which a body may differ from the mean."""
 SHAPE_WEIGHT = 3.0
 """By how much more a coefficient counts than its standard deviation: of the bodies sampled, the few are as odd as clothes are."""
 STIFF_JOINTS, STIFF_WEIGHT = ("Spine", "Spine1", "Spine2", "Neck", "Head"), 1 / 0.3
@@ -69,7 +70,8 @@ class Round:
     points: int
 
 
-ROUNDS = (*[Round(0.06, 0.3, 4000)] * 5, *[Round(0.04, 0.4, 6000)] * 4, *[Round(0.03, 0.5, 8000)] * 5)
+CLOSEST_POINT_ROUNDS = (*[Round(0.06, 0.3, 4000)] * 5, *[Round(0.04, 0.4, 6000)] * 4, *[Round(0.03, 0.5, 8000)] * 5)
+"""The rounds of closest points: gates close and more points are looked at as the body comes nearer."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,7 @@ def fit_to_points(
     landmarks: SpatialLandmarks,
     cloud: PointCloud,
     start: NDArray[np.float64],
-    rounds: Sequence[Round] = ROUNDS,
+    rounds: Sequence[Round] = CLOSEST_POINT_ROUNDS,
 ) -> NDArray[np.float64]:
     """The parameters (P,), from `start` (P,), for which the skin is near the cloud as well."""
     names = [name for name in carried.names if name in landmarks.body]

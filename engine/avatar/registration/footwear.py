@@ -15,7 +15,7 @@ from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
 from engine.geometry.registration.nonrigid_registration import ElasticSurface, geometric_steps, lay_on_points
 
-REACH = 0.03
+FOOT_REACH = 0.03
 """Metres from the feet within which points are of them, and beyond which a point's distance counts no more."""
 STIFF_STEPS = geometric_steps(3, (1e-4, 1e-7), (1.0, 1.0), (0.05, 0.02))
 """In which feet go where the points are and are bent a little: toes stay toes."""
@@ -68,14 +68,14 @@ def wears_shoes(skin: Skin, feet: Feet, bare: NDArray[np.float64], cloud: PointC
     triangles = skin.triangles[toes[skin.triangles].any(1)]
     laid = [_laid(skin, whole, shape, near) for shape in (bare, covered)]
     distances = [closest_points(at_toes.points, shape, triangles).distance for shape in laid]
-    about = np.minimum(*distances) < REACH
-    means = [float(np.minimum(distance[about], REACH).mean()) for distance in distances]
+    about = np.minimum(*distances) < FOOT_REACH
+    means = [float(np.minimum(distance[about], FOOT_REACH).mean()) for distance in distances]
     return bool(about.sum() >= MIN_POINTS and means[1] < means[0] - MIN_ADVANTAGE)
 
 
 def _about(cloud: PointCloud, places: NDArray[np.float64]) -> PointCloud:
     """The points in the box of places (N, 3), and a little around."""
-    return cloud[((cloud.points > places.min(0) - REACH) & (cloud.points < places.max(0) + REACH)).all(1)]
+    return cloud[((cloud.points > places.min(0) - FOOT_REACH) & (cloud.points < places.max(0) + FOOT_REACH)).all(1)]
 
 
 def _laid(skin: Skin, chosen: NDArray[np.bool_], shape: NDArray[np.float64], cloud: PointCloud) -> NDArray[np.float64]:

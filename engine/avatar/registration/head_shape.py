@@ -18,7 +18,7 @@ from engine.geometry.point_cloud import PointCloud
 from engine.geometry.registration.rigid import fit_similarity
 from engine.geometry.surface import face_normals
 
-GATES = (*[0.02] * 5, *[0.008] * 7)
+GATE_METRES = (*[0.02] * 5, *[0.008] * 7)
 """Metres within which points are of the surface there, by rounds."""
 POINTS_PER_ROUND = 5000
 """Points of the cloud that are looked at in each round."""
@@ -79,7 +79,7 @@ def head_shape(
     marks = np.searchsorted(own, skin.face_points[known])
     corners = _counted_triangles(skin, own)
     random = np.random.default_rng(0)
-    for gate in GATES:
+    for gate in GATE_METRES:
         picked = cloud[random.choice(len(cloud), min(POINTS_PER_ROUND, len(cloud)), replace=False)]
         rows, off = _point_rows(head, corners, picked, gate)
         if not len(rows):

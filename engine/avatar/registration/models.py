@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.registration.body_model import BodyModel
-from engine.avatar.registration.coarse import COEFFICIENTS
+from engine.avatar.registration.coarse import SHAPE_COEFFICIENTS
 from engine.avatar.registration.footwear import Feet, load_feet
 from engine.avatar.registration.skin import Skin, load_skin
 from engine.body.body_space import BodySpace, load_body_space
@@ -41,6 +41,6 @@ def load_models() -> HumanModels:
     """Load them; the first time, everything that is made once is made (some minutes)."""
     template, space, rig = load_template(), load_body_space(), load_rig(HUMAN_RIG)
     skin = load_skin(template, space, rig)
-    body = BodyModel(space, skin, COEFFICIENTS)
+    body = BodyModel(space, skin, SHAPE_COEFFICIENTS)
     feet = load_feet(skin, space.mean[skin.vertices])
     return HumanModels(template, rig, space, landmark_model(template, space, rig), skin, body, feet)

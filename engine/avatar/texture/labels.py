@@ -23,7 +23,8 @@ SEAM_WEIGHT = 4.0
 """Of the seams against the data."""
 FRAMES_PER_FACE = 16
 """Best frames of a face among which it chooses, beside those that it begins with."""
-SWEEPS = 3
+EXPANSION_SWEEPS = 3
+"""Rounds of expansions over all labels."""
 UNSEEN = -1
 """The label of a face that no frame shows."""
 
@@ -60,7 +61,7 @@ def stitched(samples: ViewSamples, gains: NDArray[np.floating], areas: NDArray[n
         number[samples.pairs[inner]],
         lambda which, first, second: SEAM_WEIGHT * colour_cost(inner[which], first, second),
         begin[known],
-        SWEEPS,
+        EXPANSION_SWEEPS,
     )
     labels = np.full(len(costs), UNSEEN, np.intp)
     labels[known] = found.labels

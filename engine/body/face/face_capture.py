@@ -53,7 +53,7 @@ BLINK_GAIN = 1.35
 """What a tracked mesh shows of lids that shut is three quarters of it: measured on the project's own performances."""
 SMOOTHNESS = 0.03
 """Weight of the squares of changes from frame to frame, as a share of each unit's own sum of squares."""
-SWEEPS = 60
+DESCENT_SWEEPS = 60
 """Rounds over all frames and units: the last changes weights by less than a thousandth."""
 
 
@@ -144,7 +144,7 @@ def _descend(
 ) -> None:
     """Coordinate descent on weights (N, U) within [0, 1]: the least of w'Gw - 2w'p with the terms beside it, in place."""
     frames, units = weights.shape
-    for _ in range(SWEEPS):
+    for _ in range(DESCENT_SWEEPS):
         for n in range(frames):
             for u in range(units):
                 if gram[u, u] <= 0:

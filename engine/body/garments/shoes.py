@@ -16,8 +16,8 @@ from engine.geometry.surface import vertex_normals
 
 CAP_BLUNTNESS = 2.6
 """Exponent of the superellipse along a cap: 2 is an ellipsoid, more is blunter."""
-REACH = 1.1
-"""How far caps reach before the rim, in what the toes do."""
+CAP_REACH = 1.1
+"""How far caps reach before the rim, in lengths of the toes there."""
 SIDE_NORMAL, SOLE_NORMAL = -0.2, -0.7
 """The vertical part of the normals where the sides of a foot end, and where all is sole."""
 SOLE_RISE = 0.035
@@ -48,7 +48,7 @@ def _cap_places(vertices: NDArray[np.float64], cap: ToeCap, ground: float) -> ND
     middle = rim.mean(0)
     ahead = (toes.mean(0) - middle) * [1, 0, 1]
     ahead /= np.linalg.norm(ahead)
-    reach = REACH * ((toes - middle) @ ahead).max()
+    reach = CAP_REACH * ((toes - middle) @ ahead).max()
     radius = np.minimum(np.linalg.norm(cap.disk, axis=1), 1)
     turn = np.mod(np.arctan2(cap.disk[:, 1], cap.disk[:, 0]), 2 * np.pi)
     lengths = np.linalg.norm(np.roll(rim, -1, 0) - rim, axis=1)

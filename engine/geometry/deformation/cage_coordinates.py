@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from engine.compiled import njit
 
-NEAR = 1e-9
+COINCIDENT = 1e-9
 """Radians, and shares of a length, below which a point lies on the surface, or in a triangle's plane."""
 
 
@@ -39,7 +39,7 @@ def _coordinates(points, vertices, triangles):  # type: ignore[no-untyped-def]
         away = vertices - points[n]
         length = np.sqrt((away**2).sum(1))
         at = np.argmin(length)
-        if length[at] < NEAR:
+        if length[at] < COINCIDENT:
             out[n, at] = 1
             continue
         unit = away / length.reshape(-1, 1)
@@ -59,7 +59,7 @@ def _add_triangle(corners, unit, length, weights):  # type: ignore[no-untyped-de
         chord = unit[corners[(k + 1) % 3]] - unit[corners[(k + 2) % 3]]
         angle[k] = 2 * np.arcsin(min(np.sqrt((chord**2).sum()) / 2, 1.0))
     half = angle.sum() / 2
-    if np.pi - half < NEAR:
+    if np.pi - half < COINCIDENT:
         weights[:] = 0
         for k in range(3):
             one, other = corners[(k + 1) % 3], corners[(k + 2) % 3]
@@ -73,7 +73,7 @@ def _add_triangle(corners, unit, length, weights):  # type: ignore[no-untyped-de
         one, other = angle[(k + 1) % 3], angle[(k + 2) % 3]
         cosine[k] = 2 * np.sin(half) * np.sin(half - angle[k]) / (np.sin(one) * np.sin(other)) - 1
         sine[k] = sign * np.sqrt(max(1 - cosine[k] ** 2, 0.0))
-        if abs(sine[k]) < NEAR or not np.isfinite(sine[k]):
+        if abs(sine[k]) < COINCIDENT or not np.isfinite(sine[k]):
             return False  # the point lies in the plane, outside of the triangle
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3

@@ -19,8 +19,8 @@ from engine.geometry.camera import Camera
 from engine.geometry.multiview.patch_match_stereo import DepthMap
 from engine.geometry.point_cloud import PointCloud
 
-ROUNDS = 2
-"""Of asking the views: the second time where the first has moved the point."""
+FUSION_ROUNDS = 2
+"""How often the views are asked about a point: the second time where the first has moved it."""
 NORMALS_AGREE = 0.5
 """Least cosine between normals that agree: 60 degrees."""
 
@@ -102,7 +102,7 @@ def _confirmed(
     for n in prange(len(points)):
         heights = np.empty(len(asked) + 1)
         moved = 0.0  # along the normal, from where the point's own view has it
-        for _ in range(ROUNDS):
+        for _ in range(FUSION_ROUNDS):
             count, denied = 1, 0
             heights[0] = -moved
             for view in asked:

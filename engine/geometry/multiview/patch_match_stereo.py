@@ -22,11 +22,11 @@ from engine.geometry.multiview.window_matching import WINDOW_RADIUS, WINDOW_STEP
 
 FIRST_ROUNDS, FINER_ROUNDS = 5, 2
 """Rounds over all pixels in the coarsest pictures and in each finer one."""
-REACHES = (1, 3, 5)
+PROPAGATION_STEPS = (1, 3, 5)
 """Pixels away in which a plane is fetched, in each of four directions: odd, so that they are of the other colour."""
-RESTART = 0.35
+REDRAWN_SHARE = 0.35
 """Share of the depth's range at which depths are drawn anew in the first round; it halves from round to round."""
-DRAWS = 1 << 16
+RANDOM_NUMBERS = 1 << 16
 """Random numbers drawn for one run; pixels take theirs in turn."""
 LIMIT_OF_TILT = 0.17
 """Least cosine between a plane's normal and the line of sight: 80 degrees."""
@@ -78,7 +78,7 @@ def patch_match_stereo(
         sought more often near the first of the two.
     levels : sizes of the pictures, each half of the next.
     """
-    draws = np.random.default_rng(seed).random((DRAWS, 4), np.float32)
+    draws = np.random.default_rng(seed).random((RANDOM_NUMBERS, 4), np.float32)
     views = [(view, list(sources))]
     for _ in range(levels - 1):
         coarser, others = views[-1]
@@ -115,7 +115,7 @@ def _searched(
     cost = np.full(view.grey.shape, np.inf, np.float32)
     rounds = FIRST_ROUNDS if coarsest else FINER_ROUNDS
     for turn in range(rounds):
-        spread = RESTART * 0.5**turn if coarsest else RESTART * 0.5 ** (FIRST_ROUNDS + turn)
+        spread = REDRAWN_SHARE * 0.5**turn if coarsest else REDRAWN_SHARE * 0.5 ** (FIRST_ROUNDS + turn)
         for colour in (0, 1):
             _visit(
                 view.grey, view.figure, measured, bounds, lens, greys, figures, relative,
@@ -185,7 +185,7 @@ def _visit(
                 if attempt < 4:
                     trial = _fetched(planes, cost, measured, x, y, attempt, ray, lens)
                 else:
-                    row = draws[((y * width + x) * 3 + attempt + visit * 7919) % DRAWS]
+                    row = draws[((y * width + x) * 3 + attempt + visit * 7919) % RANDOM_NUMBERS]
                     trial = _changed(best, row, attempt, np.float32(spread), far - near, ray)
                 if near <= trial[0] <= far:
                     found = plane_cost(trial, ray, lens, window, samples, variance, greys, figures, relative)
@@ -209,7 +209,7 @@ def _fetched(
     """The best plane in one of four directions, as the ray of pixel (x, y) meets it; depth 0 where there is none."""
     step_x, step_y = (direction == 0) - (direction == 1), (direction == 2) - (direction == 3)
     from_x, from_y, lowest = -1, -1, np.float32(np.inf)
-    for reach in REACHES:
+    for reach in PROPAGATION_STEPS:
         px, py = x + step_x * reach, y + step_y * reach
         if 0 <= px < cost.shape[1] and 0 <= py < cost.shape[0] and measured[py, px] and cost[py, px] < lowest:
             from_x, from_y, lowest = px, py, cost[py, px]

@@ -13,7 +13,7 @@ import numpy as np
 
 from engine.compiled import njit
 
-NEAREST = 1e-9
+MIN_DEPTH = 1e-9
 """Distance along the view axis from which on a point is before the camera."""
 OWN, POINT = 9, 12
 """Columns of an observation's Jacobian: turn (3), shift (3), focal length, k1 and k2; then those of the point (3)."""
@@ -34,7 +34,7 @@ def linearise(
     x = turn[0, 0] * point[0] + turn[0, 1] * point[1] + turn[0, 2] * point[2] + shift[0]
     y = turn[1, 0] * point[0] + turn[1, 1] * point[1] + turn[1, 2] * point[2] + shift[1]
     z = turn[2, 0] * point[0] + turn[2, 1] * point[1] + turn[2, 2] * point[2] + shift[2]
-    if z <= NEAREST:
+    if z <= MIN_DEPTH:
         return False
     u, v = x / z, y / z
     focal, k1, k2 = lens

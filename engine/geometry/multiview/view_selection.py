@@ -17,7 +17,7 @@ BEST_ANGLE = 25.0
 """Degrees between two lines of sight at which stereo is most exact for what still looks alike: by trial on films, where 10 erred by a fifth more."""
 NARROWER, WIDER = 6.0, 12.0
 """Degrees of the angle's spread below and above the best."""
-APART = 6.0
+DISTINCT_DEGREES = 6.0
 """Degrees at which two sources tell different things."""
 
 
@@ -58,7 +58,7 @@ def chosen_sources(
             if left[best] <= 0:
                 break
             own.append(best)
-            left *= 1 - np.exp(-((between[best] / APART) ** 2))
+            left *= 1 - np.exp(-((between[best] / DISTINCT_DEGREES) ** 2))
             left[best] = 0
         chosen.append(own)
     return chosen

@@ -20,7 +20,7 @@ from engine.geometry.camera import Camera
 
 COARSE_CELLS = 40
 """Cells along the longest side of the grid in which the body is looked for first."""
-SIGHT = 1.6
+CUBE_SIDE = 1.6
 """Side of the cube in which a body is looked for, in mean distances of the cameras from where they look."""
 WRONG_SILHOUETTES = 0.08
 """Share of the silhouettes that see a voxel and may leave it out: segmentation errs in single frames."""
@@ -28,8 +28,8 @@ MIN_SIGHTINGS = 0.15
 """Share of the views that must have a voxel in their picture: what fewer see is not known to be there."""
 NORMALS_BLUR = 1.5
 """Voxels of the Gaussian by which occupancy is blurred before it tells normals."""
-STEP = 0.5
-"""Of a voxel, along a line of sight."""
+RAY_STEP = 0.5
+"""Steps along a line of sight, in voxels."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def visual_hull(
     outside = [_distance(silhouette) for silhouette in silhouettes]
     eyes = np.array([camera.eye for camera in cameras])
     centre = _meeting_point(eyes, np.array([camera.axes[2] for camera in cameras]))
-    half = SIGHT / 2 * float(np.linalg.norm(eyes - centre, axis=1).mean())
+    half = CUBE_SIDE / 2 * float(np.linalg.norm(eyes - centre, axis=1).mean())
     box = np.stack([centre - half, centre + half])
     for _ in range(2):  # the second time in the box of what the first has found
         coarse = float((box[1] - box[0]).max()) / COARSE_CELLS
@@ -192,7 +192,7 @@ def _march(
                     first, last = max(first, min(enter, leave)), min(last, max(enter, leave))
                 elif not -0.5 <= at[k] <= occupied.shape[k] - 0.5:
                     last = -1.0
-            step = STEP / np.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
+            step = RAY_STEP / np.sqrt(along[0] ** 2 + along[1] ** 2 + along[2] ** 2)
             away = first
             while away <= last:
                 i = int(np.floor(at[0] + away * along[0] + 0.5))

@@ -18,9 +18,9 @@ WINDOW_RADIUS, WINDOW_STEP = 4, 2
 """Pixels from the middle of a window to its sides, and from one sample to the next."""
 BEST_SOURCES = 2
 """Sources that count of those given: those that agree best; from the others the place may be hidden."""
-NOISE = 1.0
+NOISE_GREY_LEVELS = 1.0
 """Grey levels by which windows without texture differ: keeps those from matching anything."""
-UNSEEN = 2.0
+UNSEEN_COST = 2.0
 """Cost of a plane that a source does not see: that of pictures that are each other's negatives."""
 
 
@@ -58,11 +58,11 @@ def plane_cost(
 ) -> np.float32:
     """Mean over the best sources of one less the correlation of the window with what the plane sees there."""
     one, half, reach = np.float32(1), np.float32(0.5), np.float32(WINDOW_RADIUS)
-    first, second = np.float32(UNSEEN), np.float32(UNSEEN)
+    first, second = np.float32(UNSEEN_COST), np.float32(UNSEEN_COST)
     height, width = greys.shape[1:]
     offset = plane[0] * (plane[1] * ray[0] + plane[2] * ray[1] + plane[3])
     a, b, c = plane[1] / offset, plane[2] / offset, plane[3] / offset
-    total, floor = np.float32(samples), np.float32(NOISE * NOISE)
+    total, floor = np.float32(samples), np.float32(NOISE_GREY_LEVELS * NOISE_GREY_LEVELS)
     for s in range(len(greys)):
         m = relative[s]
         # the homography of the plane, applied to the ray of the pixel and to the steps of a pixel in x and y

@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from engine.geometry.registration.rigid import Similarity
 
-ROUNDS = 4
-"""Of finding the closest points."""
-PRIOR = 1e-3
+CLOSEST_POINT_ROUNDS = 4
+"""How often closest points are found anew."""
+REST_WEIGHT = 1e-3
 """Weight of no motion beside the mean of the points': what they do not determine stays as it is."""
 
 
@@ -33,7 +33,7 @@ def align_to_surface(
     tree = cKDTree(surface)
     rotation, shift = np.eye(3), np.zeros(3)
     centre = points.mean(axis=0)
-    for _ in range(ROUNDS):
+    for _ in range(CLOSEST_POINT_ROUNDS):
         moved = points @ rotation.T + shift
         distance, nearest = (np.asarray(found) for found in tree.query(moved, distance_upper_bound=gate))
         near = np.flatnonzero(np.isfinite(distance))
@@ -47,7 +47,7 @@ def align_to_surface(
         arm = moved[near] - centre
         slope = np.hstack([np.cross(arm, across), across])  # by turns about the centre, and by shifts
         normal_matrix = (slope * weights[:, None]).T @ slope
-        normal_matrix += PRIOR * np.diag(
+        normal_matrix += REST_WEIGHT * np.diag(
             np.repeat([np.trace(normal_matrix[:3, :3]), np.trace(normal_matrix[3:, 3:])], 3)
         )
         step = np.linalg.solve(normal_matrix, -(slope * weights[:, None]).T @ residual)

@@ -24,7 +24,7 @@ MIN_NORMAL_COSINE = 0.2
 """Between the normals of a point and of the surface there: what faces another way is another side of the body."""
 ITERATIONS = 3
 """Of each step: new closest points, new turns, new places."""
-UNBOUND = 1e-14
+FREE_VERTEX_WEIGHT = 1e-14
 """What holds vertices of no hinge where they are, against any other pull."""
 
 
@@ -100,10 +100,10 @@ def lay_on_points(
             elif not matrix.nnz:
                 raise ValueError("no point of the cloud is near the surface")
             bent = weighed @ hinges.turned(hinges.rotations(vertices))
-            held = UNBOUND * sp.eye_array(len(vertices))
+            held = FREE_VERTEX_WEIGHT * sp.eye_array(len(vertices))
             vertices = system.solve(
                 sp.csc_array(matrix + step.regularisation * bending + held),
-                right + step.regularisation * bent + UNBOUND * vertices,
+                right + step.regularisation * bent + FREE_VERTEX_WEIGHT * vertices,
             )
     return vertices
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.scan_studio.scanned_people import METRES, RIGGED, UNRIGGED, read_subject
+from benchmarks.scan_studio.scanned_people import RIGGED, SCANNED_HEIGHT, UNRIGGED, read_subject
 from benchmarks.scan_studio.subject import Subject
 from benchmarks.scan_studio.template_people import LIP_RGB, template_subject
 from engine.body.makehuman import read_mask
@@ -25,7 +25,7 @@ def direction(subject: Subject, start: str, end: str) -> np.ndarray:
 def test_scanned_people_are_of_one_height_and_stand_on_the_ground(name: str, media: Callable[[str], Path]) -> None:
     subject = read_subject(name, media("scans3d"))
     assert subject.vertices[:, 1].min() == pytest.approx(0)
-    assert subject.height == pytest.approx(METRES)
+    assert subject.height == pytest.approx(SCANNED_HEIGHT)
     assert 0 <= subject.uv.min() <= subject.uv.max() <= 1
     assert subject.uv_triangles.shape == subject.triangles.shape
 

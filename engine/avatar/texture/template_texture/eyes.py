@@ -15,7 +15,7 @@ from engine.performances.modelling.eyes import EYEBALL_RADIUS, IRIS_RADIUS, PUPI
 from engine.render.sampling import bilinear
 from engine.render.visibility import depth_buffer, seen_points
 
-SLACK = 5e-4
+LID_THICKNESS = 5e-4
 """Metres behind the surface at which a point of an eyeball still counts as seen: lids are thin."""
 BEST_VIEWS = 6
 """Frames of an eye that are asked: those that have most pixels on its iris."""
@@ -96,7 +96,7 @@ def eye_samples(
             break
         camera = views[n].camera
         pixels = camera.project(points)
-        seen = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels, SLACK)
+        seen = seen_points(depth_buffer(camera, surface.vertices, surface.triangles), pixels, LID_THICKNESS)
         colours = np.clip(bilinear(views[n].picture(), pixels) * gains[n], 0, 255).astype(np.float32)
         margin = min(1 / fineness, MAX_MARGIN)
         iris.append(colours[seen & (off > IRIS_BAND[0]) & (off < IRIS_BAND[1] - margin)])

@@ -13,7 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-CONFIDENCE = 0.9999
+RANSAC_CONFIDENCE = 0.9999
+"""Probability with which a sample without a wrong match is to be among those drawn."""
 RESECTION_SAMPLES = 2000
 
 
@@ -36,7 +37,7 @@ def relative_pose(first: NDArray[np.float64], second: NDArray[np.float64], max_e
     if len(first) < 8:
         return None
     essential, mask = cv2.findEssentialMat(
-        first, second, np.eye(3), method=cv2.RANSAC, prob=CONFIDENCE, threshold=max_error
+        first, second, np.eye(3), method=cv2.RANSAC, prob=RANSAC_CONFIDENCE, threshold=max_error
     )
     if essential is None or essential.shape != (3, 3):
         return None
@@ -54,7 +55,7 @@ def resection(points: NDArray[np.float64], seen: NDArray[np.float64], max_error:
         *(points, seen, np.eye(3), None),
         iterationsCount=RESECTION_SAMPLES,
         reprojectionError=max_error,
-        confidence=CONFIDENCE,
+        confidence=RANSAC_CONFIDENCE,
         flags=cv2.SOLVEPNP_AP3P,
     )
     if not found or inliers is None or len(inliers) < 6:
