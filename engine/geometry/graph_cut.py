@@ -68,8 +68,8 @@ def expansion_moves(
     unary : (N, L) cost of each label at each node; infinite where a node cannot have it.
     edges : (E, 2) neighbours, each pair once.
     pair_cost : any cost >= 0 of an edge and two labels, as the difference of two textures along a seam. Where it is a
-        metric of the labels for each edge, a move is the best of all moves, and in the end the energy is at most 2 c
-        times the least there is, c being the largest ratio of two costs of one edge. Other costs are taken for larger in
+        metric of the labels for each edge, a move is the best of all moves. In the end the energy is then at most 2 c
+        times the least there is; c is the largest ratio of two costs of one edge. Other costs are taken for larger in
         a move where that is needed (C. Rother, S. Kumar, V. Kolmogorov, A. Blake, Digital tapestry, CVPR 2005): no move
         makes the energy rise.
     labels : (N,) to begin with. The result is never worse; with two labels it is the best there is.

@@ -134,9 +134,10 @@ def bake(
 
 
 def pad_charts(texture: NDArray, known: NDArray[np.bool_], charts: NDArray[np.int32]) -> NDArray:
-    """A texture (S, S, C) whose texels beside the charts have the colour of the nearest that is `known` (S, S) on the nearest
-    chart, so that neither filtering nor smaller sizes of it bring in anything else; `charts` (S, S) as `BakedTexture` has
-    them. Texels of the charts stay, those that are not known, too.
+    """A texture (S, S, C) whose texels beside the charts have colours of the nearest chart.
+
+    Each has that of the nearest texel that is `known` (S, S) there, so that neither filtering nor smaller sizes bring in
+    anything else. `charts` (S, S) is as `BakedTexture` has it. Texels of the charts stay, those that are not known, too.
 
     Smaller sizes keep charts apart as long as the gap between two (`chart_gap`) is four of their texels. A chart of which
     nothing is known takes from others.

@@ -23,8 +23,11 @@ MIN_PIECE = 20
 
 
 def inner_skin(skin: Skin, before: NDArray[np.floating], after: NDArray[np.floating]) -> NDArray[np.float64]:
-    """The skin `after` (S, 3) the fit, with what is not seen as it was `before` (S, 3), moved as smoothly as its rim asks for
-    (the bi-Laplacian of the displacement), and then shrunk towards the rim's middle until it lies inside of the head."""
+    """The skin `after` (S, 3) the fit, with what of the mouth is not seen set anew, from where it was `before` (S, 3).
+
+    It moves as smoothly as its rim asks for (the bi-Laplacian of the displacement). Then it is shrunk towards the rim's
+    middle until it lies inside of the head.
+    """
     inner = skin.regions["inner"]
     beside = neighbours(skin.triangles, len(inner))
     laplacian = sp.csr_array(sp.diags_array(beside.sum(1)) - beside)

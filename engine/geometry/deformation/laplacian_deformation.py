@@ -71,9 +71,9 @@ class LaplacianDeformation:
 class AsRigidAsPossible:
     """Keeps the surroundings of each vertex as rigid as the targets allow.
 
-    Minimises the sum over vertices and their edges of weight / 2 * |edge - R * edge at rest|^2, each vertex with a rotation R
-    of its own, plus what soft targets cost, in turns: vertices for rotations, rotations for vertices. The energy never
-    rises. Weights are cotangents and without unit.
+    Minimises the sum over vertices and their edges of weight / 2 * |edge - R * edge at rest|^2, plus what soft targets cost.
+    Each vertex has a rotation R of its own. Vertices are solved for by rotations and rotations by vertices, in turns; the
+    energy never rises. Weights are cotangents and without unit.
 
     Source: O. Sorkine, M. Alexa, As-rigid-as-possible surface modeling, SGP 2007.
     """

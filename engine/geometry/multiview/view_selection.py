@@ -24,9 +24,12 @@ DISTINCT_DEGREES = 6.0
 def shared_sight(
     cameras: Sequence[Camera], points: NDArray[np.floating], normals: NDArray[np.floating]
 ) -> NDArray[np.float64]:
-    """(V, V) how well each view is measured by each other: the mean over the points (N, 3), metres, with normals (N, 3) out of
-    the body, which the first has in its picture and on the side that faces it, of a score of the angle at which the second
-    sees them too; 0 to 1, 0 for a view and itself."""
+    """(V, V) how well each view is measured by each other, 0 to 1; 0 for a view and itself.
+
+    For each of the `points` (N, 3), metres, with `normals` (N, 3) out of the body, there is a score of the angle between the
+    two lines of sight. Its mean is taken over the points that the first view has in its picture, on the side that faces it;
+    those that the second does not see score 0.
+    """
     eyes = np.array([camera.eye for camera in cameras])
     sight = eyes[:, None] - points
     sight /= np.linalg.norm(sight, axis=-1, keepdims=True)

@@ -67,8 +67,8 @@ def reconcile_with_plate(
     """The layer's colours `front` (H, W, 3), changed so that over this `plate` the layer at rest gives `rgb`.
 
     A plate is a likely background, not the one that shone through the hair. What the composition at rest
-    misses is given back to the layer's colours, in full where it is nearly opaque and less the more
-    transparent it is, where it would turn into specks once the layer moves.
+    misses is given back to the layer's colours: in full where it is nearly opaque, and less the more transparent it is.
+    There it would turn into specks once the layer moves.
     """
     a = alpha[..., None]
     missing = rgb - a * front - (1 - a) * plate
