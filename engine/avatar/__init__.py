@@ -66,7 +66,10 @@ KIND = Kind(
     ),
     options=AvatarOptions,
     work=_work,
-    correctable=("height_m", "motion", "motion_joints", "motion_clip"),
+    correctable=(
+        *("height_m", "body_frames_left_out", "head_frames_left_out", "landmarks"),
+        *("motion", "motion_joints", "motion_clip"),
+    ),
     prepare=_prepare,
     needs=Needs(seconds=2400, memory_mb=6000, cores=2),  # 20 minutes, or twice that where the machine has more to do
 )

@@ -6,13 +6,28 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from engine.motion.options import MotionClip, MotionJoints
+from engine.motion.options import JointName, MotionClip, MotionJoints
 
 Side = Annotated[int, Field(ge=64, le=4096)]
 Frames = Annotated[int, Field(ge=12, le=150)]
+FrameIndex = Annotated[int, Field(ge=0, le=1_000_000)]
+LeftOut = Annotated[tuple[FrameIndex, ...], Field(max_length=150)]
+Coordinate = Annotated[float, Field(ge=-16384, le=16384)]
 Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
+
+
+class PlacedLandmark(BaseModel):
+    """Where a landmark of the body is in one frame of its clip."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    frame: FrameIndex = Field(description="Which frame of the clip; one of those in the report's `inputs`.")
+    place: tuple[Coordinate, Coordinate] = Field(description="Pixel (x, y) of the upright frame.")
+
+
+Placed = Annotated[tuple[PlacedLandmark, ...], Field(min_length=2, max_length=150)]
 
 
 class AvatarOptions(BaseModel):
@@ -39,6 +54,18 @@ class AvatarOptions(BaseModel):
     vrm: bool = Field(False, description="Write the avatar as VRM 1.0, too.")
     vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
         "Galatea", description="Whose the avatar is, as its VRM file says: nobody else may use it without asking."
+    )
+    body_frames_left_out: LeftOut = Field(
+        (),
+        description="Frames of the body's clip, by their numbers in the report's `inputs`, of which nothing is made.",
+    )
+    head_frames_left_out: LeftOut = Field((), description="The same of the head's clip.")
+    landmarks: dict[JointName, Placed] = Field(
+        {},
+        max_length=33,
+        examples=[{"LeftElbow": [{"frame": 120, "place": [402, 611]}, {"frame": 480, "place": [231, 598]}]}],
+        description="Landmarks of the body (MediaPipe's names, such as `LeftElbow`) where they are not found well, in two"
+        " frames or more that show them from different sides. The person's own left and right.",
     )
     motion: Motion = Field("idle", description="The clip that the video shows, where no file is given.")
     motion_joints: MotionJoints = {}

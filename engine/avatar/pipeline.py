@@ -14,9 +14,18 @@ from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
 from engine.avatar.face_performance import acting_clip, capture_performance
+from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
-from engine.avatar.stages import ClipScan, find_cameras, fit_template, measure_cloud, scan_clip, stitch_texture
+from engine.avatar.stages import (
+    ClipScan,
+    find_cameras,
+    fit_template,
+    measure_cloud,
+    placed_frames,
+    scan_clip,
+    stitch_texture,
+)
 from engine.avatar.turntable import turntable
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.parts import BODY_PARTS, vertex_parts
@@ -76,15 +85,20 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         for name, path, count in (("body", body, options.body_frames), ("head", head, options.head_frames))
         if path is not None
     ]
+    left_out = (options.body_frames_left_out, options.head_frames_left_out)
+    chosen = [
+        frames.without(some, name) for frames, some, name in zip(chosen, left_out, ("body", "head"), strict=False)
+    ]
     for early in write_first_impression(out, chosen[0].picture(0, 1280), None, run.mark_synthetic):
         run.publish(early)
     found = run.stage(
         "find_cameras", find_cameras, chosen[0], chosen[1] if head else None, options.height_m, run.warn, run.tick
     )
-    clips = [_scanned(chosen[0], found.body, run)]
+    given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
+    clips = [_scanned(chosen[0], found.body, given, run)]
     if head and found.head is not None:
         try:
-            clips.append(_scanned(chosen[1], found.head, run))
+            clips.append(_scanned(chosen[1], found.head, (), run))
         except InputError as refused:  # the body alone is an avatar, too
             run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
     fitted = run.stage("fit_template", fit_template, clips[0][2], clips[1][2] if len(clips) > 1 else None)
@@ -127,10 +141,10 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     )
 
 
-def _scanned(frames: ChosenFrames, cameras: ClipCameras, run: Run) -> Clipped:
-    """A clip with its cloud and landmarks."""
+def _scanned(frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], run: Run) -> Clipped:
+    """A clip with its cloud and landmarks, some `given` by hand."""
     dense = run.stage("measure_cloud", measure_cloud, frames, cameras, run.tick)
-    return frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense)
+    return frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense, given)
 
 
 def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, float]:

@@ -13,6 +13,7 @@ from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.landmarks.detection import find_landmarks
+from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import load_models
@@ -72,16 +73,19 @@ def measure_cloud(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> Dense
     return dense_cloud(views, told=tick)
 
 
-def scan_clip(chosen: ChosenFrames, found: ClipCameras, dense: DenseCloud) -> ClipScan:
+def scan_clip(
+    chosen: ChosenFrames, found: ClipCameras, dense: DenseCloud, given: tuple[GivenLandmark, ...]
+) -> ClipScan:
     """The landmarks of the person in one clip (section 3.3), with all that is known of it. The person's sway is in the cameras
-    as dense stereo has laid them on the cloud."""
+    as dense stereo has laid them on the cloud. Those `given` by hand are in pixels of the clip's own size."""
     placed = placed_frames(found)
     cameras = tuple(_resized(camera, chosen.size) for camera in dense.cameras)
     landmarks = find_landmarks(
         (_resized(camera, (picture.shape[0], picture.shape[1])), picture)
         for camera, picture in zip(cameras, (chosen.picture(int(k), LANDMARK_SIDE) for k in placed), strict=True)
     )
-    return ClipScan(placed, cameras, dense, landmarks)
+    by_hand = {one.name: placed_by_hand(one, cameras) for one in given}
+    return ClipScan(placed, cameras, dense, replace(landmarks, body={**landmarks.body, **by_hand}))
 
 
 def fit_template(body: ClipScan, head: ClipScan | None) -> FittedTemplate:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -36,7 +36,8 @@ MAX_BLUR = 0.6
 class ChosenFrames:
     """N frames of a clip.
 
-    strip : the pictures, uint8 (H, W, 3) sRGB, upright, of the clip's own `size` (height, width).
+    strip : pictures, uint8 (H, W, 3) sRGB, upright, of the clip's own `size` (height, width).
+    numbers : (N,) int64, which of the strip's pictures they are.
     indices : (N,) int64, which of the clip's frames they are.
     seconds : (N,) float64 since the clip's first frame.
     movement : mean length of the flow from frame to frame of the clip, in shares of the longer side.
@@ -44,6 +45,7 @@ class ChosenFrames:
 
     strip: FilmStrip
     size: tuple[int, int]
+    numbers: NDArray[np.int64]
     indices: NDArray[np.int64]
     seconds: NDArray[np.float64]
     movement: float
@@ -53,10 +55,24 @@ class ChosenFrames:
 
     def picture(self, frame: int, longest: int | None = None) -> NDArray[np.uint8]:
         """One of them, (H, W, 3) uint8, or as small as its `longest` side has to be."""
-        whole = self.strip.picture(frame)
+        whole = self.strip.picture(int(self.numbers[frame]))
         if longest is None or max(whole.shape[:2]) <= longest:
             return whole
         return resized(whole, size_within(whole.shape, longest))
+
+    def without(self, left_out: Collection[int], name: str) -> ChosenFrames:
+        """These but for the frames of the clip that are `left_out`, by their `indices`; `name` is the clip's input.
+
+        Raises `InputError`: `clip_too_short` where too few are left.
+        """
+        kept = np.flatnonzero(~np.isin(self.indices, list(left_out)))
+        if len(kept) < MIN_FRAMES:
+            raise InputError(
+                "clip_too_short",
+                f"Of the clip of the {name} only {len(kept)} frames are left; {MIN_FRAMES} are needed.",
+                (f"{name}_frames_left_out",),
+            )
+        return replace(self, numbers=self.numbers[kept], indices=self.indices[kept], seconds=self.seconds[kept])
 
 
 def choose_frames(
@@ -94,7 +110,12 @@ def choose_frames(
         light, blur = np.median(np.array(judged), axis=0)
         _refuse_dark_or_blurred(float(light), float(blur), name)
         return ChosenFrames(
-            strip.strip(), size, np.array(indices, np.int64), np.array(seconds, np.float64), float(movement.mean())
+            strip.strip(),
+            size,
+            np.arange(len(indices)),
+            np.array(indices, np.int64),
+            np.array(seconds, np.float64),
+            float(movement.mean()),
         )
 
 

@@ -41,6 +41,15 @@ def test_frames_lie_where_the_camera_moves_and_come_back_as_they_were_filmed(tmp
     assert chosen.seconds == pytest.approx(chosen.indices / 25, abs=0.001)
     assert chosen.picture(3, longest=64).shape == (48, 64, 3)
 
+    left_out = chosen.indices[[0, 4, 19]].tolist()
+    kept = chosen.without([*left_out, 9999], "body")
+    assert kept.indices.tolist() == [index for index in chosen.indices if index not in left_out]
+    assert np.array_equal(kept.picture(0), chosen.picture(1)) and np.array_equal(kept.picture(16), chosen.picture(18))
+    assert kept.seconds[16] == chosen.seconds[18] and len(kept) == 17
+    with pytest.raises(InputError, match="only 8 frames are left") as refused:
+        chosen.without(chosen.indices[:12].tolist(), "body")
+    assert refused.value.correctable == ("body_frames_left_out",)
+
 
 def test_a_dark_a_blurred_and_a_short_clip_are_refused_by_the_name_of_their_input(tmp_path: Path) -> None:
     film = pan([4] * 30)

@@ -1476,6 +1476,41 @@ export interface components {
              */
             vrm_author?: string;
             /**
+             * @description Frames of the body's clip, by their numbers in the report's `inputs`, of which nothing is made.
+             * @default []
+             */
+            body_frames_left_out?: number[];
+            /**
+             * @description The same of the head's clip.
+             * @default []
+             */
+            head_frames_left_out?: number[];
+            /**
+             * @description Landmarks of the body (MediaPipe's names, such as `LeftElbow`) where they are not found well, in two frames or more that show them from different sides. The person's own left and right.
+             * @default {}
+             * @example {
+             *       "LeftElbow": [
+             *         {
+             *           "frame": 120,
+             *           "place": [
+             *             402,
+             *             611
+             *           ]
+             *         },
+             *         {
+             *           "frame": 480,
+             *           "place": [
+             *             231,
+             *             598
+             *           ]
+             *         }
+             *       ]
+             *     }
+             */
+            landmarks?: {
+                [key: string]: components["schemas"]["PlacedLandmark"][];
+            };
+            /**
              * @description The clip that the video shows, where no file is given.
              * @default idle
              * @enum {string}
@@ -1742,6 +1777,16 @@ export interface components {
              * @default null
              */
             motion_clip?: string | null;
+        };
+        /** @description Where a landmark of the body is in one frame of its clip. */
+        PlacedLandmark: {
+            /** @description Which frame of the clip; one of those in the report's `inputs`. */
+            frame: number;
+            /** @description Pixel (x, y) of the upright frame. */
+            place: [
+                number,
+                number
+            ];
         };
         /** @description Options of the portrait system; every one has a sound default. */
         PortraitOptions: {

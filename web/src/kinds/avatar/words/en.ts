@@ -32,6 +32,8 @@ const english = {
     person_not_measured: 'The person’s shape could not be measured',
     cloud_too_thin: 'Too little of the person was measured',
     landmarks_needed: 'The person’s joints were not found',
+    landmark_unknown: 'A landmark has a name that is none',
+    frame_not_used: 'A landmark is placed in a frame that is not used',
     person_unseen: 'No frame shows the person',
   },
 
@@ -42,6 +44,9 @@ const english = {
     motion: 'motion',
     driver: 'driver',
     height_m: 'height',
+    body_frames_left_out: 'frames left out of the body clip',
+    head_frames_left_out: 'frames left out of the head clip',
+    landmarks: 'joints',
     body_frames: 'frames of the body',
     head_frames: 'frames of the head',
     texture_size: 'texture',
