@@ -14,6 +14,7 @@ from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
 from engine.avatar.face_performance import acting_clip, capture_performance
+from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
@@ -36,7 +37,7 @@ from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
 from engine.export.video import VideoWriter
-from engine.geometry.point_cloud import PointCloud, joined
+from engine.geometry.point_cloud import PointCloud, joined, thinned
 from engine.geometry.registration.rigid import Similarity
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
@@ -65,6 +66,8 @@ EACH_CLIP = ("choose_frames", "measure_cloud", "find_landmarks")
 """Those that come once for each clip."""
 TURN_SECONDS = 6.0
 """Of the turntable."""
+PREVIEW_SPACING = 0.006
+"""Metres between the points of `preview.ply`, which pages show: one or two megabytes."""
 
 Clipped = tuple[ChosenFrames, ClipCameras, ClipScan]
 """A clip: its frames, their cameras, and what they measured."""
@@ -85,6 +88,8 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         for name, path, count in (("body", body, options.body_frames), ("head", head, options.head_frames))
         if path is not None
     ]
+    for early in write_frame_sheets(out, dict(zip(("body", "head"), chosen, strict=False)), run.mark_synthetic):
+        run.publish(early)
     left_out = (options.body_frames_left_out, options.head_frames_left_out)
     chosen = [
         frames.without(some, name) for frames, some, name in zip(chosen, left_out, ("body", "head"), strict=False)
@@ -96,6 +101,8 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     )
     given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
     clips = [_scanned(chosen[0], found.body, given, run)]
+    for early in _write_capture(out, clips, None)[1:]:  # written again once the head's have joined them
+        run.publish(early)
     if head and found.head is not None:
         try:
             clips.append(_scanned(chosen[1], found.head, (), run))
@@ -178,8 +185,8 @@ def _scene(avatar: Avatar, motion: Path | None, driver: Path | None, options: Av
     return Scene(acting_clip(skeleton, performance, in_place(clip)), performance.units)
 
 
-def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None) -> None:
-    """`points.ply` and `cameras.json`, both in the world of the body's clip."""
+def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None) -> tuple[Path, Path, Path]:
+    """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the body's clip; their paths."""
     clouds: list[PointCloud] = []
     written = []
     for name, (frames, _, scan) in zip(("body", "head"), clips, strict=False):
@@ -195,8 +202,12 @@ def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None)
         written.append(
             WrittenCameras(name, frames.indices[scan.placed].tolist(), frames.seconds[scan.placed].tolist(), cameras)
         )
-    write_ply(out / "points.ply", joined(clouds))
-    write_cameras(out / "cameras.json", written)
+    points, preview, cameras_path = (out / name for name in ("points.ply", "preview.ply", "cameras.json"))
+    cloud = joined(clouds)
+    write_ply(points, cloud)
+    write_ply(preview, thinned(cloud, PREVIEW_SPACING))
+    write_cameras(cameras_path, written)
+    return points, preview, cameras_path
 
 
 def _write_films(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions, run: Run) -> None:
