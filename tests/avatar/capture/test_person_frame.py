@@ -5,8 +5,6 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
-from engine.geometry.multiview.structure_from_motion.tracks import Tracks
 from made_orbit import SIZE, orbit
 from scipy.spatial.transform import Rotation
 
@@ -14,6 +12,8 @@ from engine.avatar.capture.person_frame import person_frame, upward
 from engine.avatar.capture.person_lock import PersonLock
 from engine.avatar.capture.scene_cameras import ClipScene
 from engine.geometry.multiview.bundle import Bundle, Observations
+from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
+from engine.geometry.multiview.structure_from_motion.tracks import Tracks
 from engine.geometry.registration.rigid import Similarity
 from engine.perception.body import BODY_LANDMARKS, Body
 

@@ -7,8 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import FilmedRoom
-from engine.geometry.multiview.structure_from_motion.mapping import Lens, Reconstruction, reconstruct
-from engine.geometry.multiview.structure_from_motion.tracks import PairMatches
 from made_orbit import SIZE as MADE_SIZE
 from made_orbit import observed
 from made_orbit import orbit as bare_orbit
@@ -17,6 +15,8 @@ from made_room import PILLAR_HEIGHT, PILLAR_RADIUS, pillar_mask
 from engine.avatar.capture.person_lock import focus_of, lock_to_person, person_tracks
 from engine.avatar.capture.scene_cameras import ClipScene
 from engine.geometry.multiview.bundle import Bundle
+from engine.geometry.multiview.structure_from_motion.mapping import Lens, Reconstruction, reconstruct
+from engine.geometry.multiview.structure_from_motion.tracks import PairMatches
 from engine.geometry.registration.rigid import fit_similarity
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conftest import FilmedRoom
-from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from made_room import FOCAL, Room, orbit, pattern
 
 from engine.avatar.capture.scene_cameras import film_pairs, solve_scene
 from engine.errors import InputError
 from engine.geometry.camera import Camera
+from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.registration.rigid import fit_similarity
 
 

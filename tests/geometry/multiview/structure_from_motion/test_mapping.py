@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from made_orbit import SIZE, observed, orbit
+
+from engine.geometry.multiview.bundle import Bundle
 from engine.geometry.multiview.structure_from_motion.mapping import Lens, Reconstruction, reconstruct
 from engine.geometry.multiview.structure_from_motion.poses import relative_pose, resection
 from engine.geometry.multiview.structure_from_motion.tracks import PairMatches, join_tracks
 from engine.geometry.multiview.structure_from_motion.triangulation import triangulate
-from made_orbit import SIZE, observed, orbit
-
-from engine.geometry.multiview.bundle import Bundle
 from engine.geometry.registration.rigid import fit_similarity
 
 CENTRE = np.array([SIZE[1] / 2 - 0.5, SIZE[0] / 2 - 0.5])
