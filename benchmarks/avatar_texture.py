@@ -13,6 +13,8 @@ from __future__ import annotations
 import argparse
 import resource
 import time
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -47,12 +49,20 @@ BACKGROUND = 110
 FOCAL_OF_SHEET = 900
 
 
-def film_views(folder: Path, truth: Truth, surface: ChartedSurface, counts: dict[str, int]) -> list[FrameView]:
-    """Evenly spread frames of the films, by the person's own cameras, with masks of the true silhouette."""
+def spread_frames(truth: Truth, counts: Mapping[str, int]) -> dict[str, list[int]]:
+    """Evenly spread frames of the films, so many of each."""
+    return {
+        film: np.linspace(0, len(truth.films[film].cameras), count, endpoint=False).astype(int).tolist()
+        for film, count in counts.items()
+    }
+
+
+def film_views(
+    folder: Path, truth: Truth, surface: ChartedSurface, frames: Mapping[str, Collection[int]]
+) -> list[FrameView]:
+    """Frames of the films, by the person's own cameras, with masks of the true silhouette."""
     views = []
-    for film, count in counts.items():
-        total = len(truth.films[film].cameras)
-        chosen = set(np.linspace(0, total, count, endpoint=False).astype(int).tolist())
+    for film, chosen in frames.items():
         for k, frame in enumerate(read_video(folder / f"{film}.mp4")):
             if k in chosen:
                 camera, rgb = truth.person_camera(film, k), frame.rgb.copy()
@@ -88,14 +98,9 @@ def errors(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[Fram
     return float(np.sqrt(np.mean(squares)))
 
 
-def true_gains(truth: Truth, counts: dict[str, int]) -> NDArray[np.float64]:
+def true_gains(truth: Truth, frames: Mapping[str, Sequence[int]]) -> NDArray[np.float64]:
     """(N, 3) what the chosen frames' colours would be multiplied by, of mid grey, of mean 1 in logarithms."""
-    light = np.concatenate(
-        [
-            film.gains[np.linspace(0, len(film.cameras), counts[name], endpoint=False).astype(int)]
-            for name, film in truth.films.items()
-        ]
-    )
+    light = np.concatenate([truth.films[film].gains[chosen] for film, chosen in frames.items()])
     grey = srgb_light(np.array(0.5))
     return np.asarray(0.5 / srgb_code(np.clip(light * grey, 0, 1)))
 
@@ -127,6 +132,38 @@ def sheet_of(surface: ChartedSurface, texture: NDArray[np.uint8], views: list[Fr
     )
 
 
+@dataclass(frozen=True)
+class TexturedTruth:
+    """The person's true shape with the texture that the stage makes of `views`; `stage` tells how."""
+
+    surface: ChartedSurface
+    texture: NDArray[np.uint8]
+    views: list[FrameView]
+    stage: AvatarTexture | StitchedTexture
+    seconds: float
+
+
+def textured_truth(folder: Path, truth: Truth, frames: Mapping[str, Collection[int]], size: int) -> TexturedTruth:
+    """The texture stage with true shape and cameras: as for avatars, where the person is one of the template's."""
+    subject = truth.subject
+    if subject.template:
+        rig = load_rig(HUMAN_RIG)
+        template = template_surface(load_template(), rig)
+        surface = template.fitted(subject.vertices)
+        views = film_views(folder, truth, surface, frames)
+        began = time.perf_counter()
+        whole = avatar_texture(template, rig, subject.vertices, views, size)
+        return TexturedTruth(surface, whole.texture, views, whole, time.perf_counter() - began)
+    atlas, _ = unwrap(subject.vertices, subject.triangles, size)
+    surface = ChartedSurface(subject.vertices, subject.triangles, atlas, np.ones(len(subject.triangles), np.bool_))
+    views = film_views(folder, truth, surface, frames)
+    began = time.perf_counter()
+    skin = stitch_texture(surface, views, size)
+    charts = charts_of(atlas, skin.raster)
+    texture = pad_charts(skin.texture, charts >= 0, charts)
+    return TexturedTruth(surface, texture, views, skin, time.perf_counter() - began)
+
+
 def main() -> None:
     """Measure and print."""
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
@@ -136,30 +173,17 @@ def main() -> None:
     arguments.add_argument("--head", type=int, default=50)
     arguments.add_argument("--sheet", type=Path)
     asked = arguments.parse_args()
-    truth, counts = read_truth(asked.folder), {"body": asked.body, "head": asked.head}
-    subject = truth.subject
-    found: AvatarTexture | StitchedTexture
-    if subject.template:
-        rig = load_rig(HUMAN_RIG)
-        template = template_surface(load_template(), rig)
-        surface = template.fitted(subject.vertices)
-        views = film_views(asked.folder, truth, surface, counts)
-        began = time.perf_counter()
-        found = avatar_texture(template, rig, subject.vertices, views, asked.size)
-        texture = found.texture
+    truth = read_truth(asked.folder)
+    frames = spread_frames(truth, {"body": asked.body, "head": asked.head})
+    made = textured_truth(asked.folder, truth, frames, asked.size)
+    surface, texture, views, found = made.surface, made.texture, made.views, made.stage
+    if isinstance(found, AvatarTexture):
         print(f"seen: {found.seen_share:.1%} of the skin; eyes {'seen' if found.eyes_seen else 'not seen'}")
-    else:
-        atlas, _ = unwrap(subject.vertices, subject.triangles, asked.size)
-        surface = ChartedSurface(subject.vertices, subject.triangles, atlas, np.ones(len(subject.triangles), np.bool_))
-        views = film_views(asked.folder, truth, surface, counts)
-        began = time.perf_counter()
-        found = stitch_texture(surface, views, asked.size)
-        charts = charts_of(atlas, found.raster)
-        texture = pad_charts(found.texture, charts >= 0, charts)
-    seconds = time.perf_counter() - began
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"{len(views)} frames, {asked.size} texels: {seconds:.1f} s, peak {peak:.0f} MB with all frames in memory")
-    true = true_gains(truth, counts)
+    print(
+        f"{len(views)} frames, {asked.size} texels: {made.seconds:.1f} s, peak {peak:.0f} MB with all frames in memory"
+    )
+    true = true_gains(truth, frames)
     print(f"exposure: {spread(true):.4f} before, {spread(found.gains / true):.4f} after (of mid grey, logarithms)")
     for name, labels in (("best view", found.best), ("stitched", found.labels)):
         print(f"{name}: data {labels.data:.1f}, seams {labels.seams:.1f}, {labels.patches} patches")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import cv2
 import numpy as np
@@ -35,15 +36,17 @@ def film_colour_error(
     stands: Sequence[NDArray[np.floating]],
     frames: Iterable[NDArray[np.uint8]],
     cameras: Sequence[Camera],
-    gains: NDArray[np.floating] | None = None,
+    gains: NDArray[np.floating] | Literal["fitted"] | None = None,
 ) -> ColourError:
     """Compare a film's frames (H, W, 3) with a mesh whose vertices (V, 3) stand before each frame's camera as `stands` has it.
 
     `gains` (F, 3), where they are known: by what the phone multiplied red, green and blue light; the drawn colours are
-    multiplied by them, too, so that the drift of the exposure is nobody's fault. Raises ValueError where no frame shows any.
+    multiplied by them, too, so that the drift of the exposure is nobody's fault. "fitted": by the median of what each frame
+    shows brighter than drawn. Raises ValueError where no frame shows any.
     """
     squares, counts = [], []
-    given = np.ones((len(cameras), 3)) if gains is None else gains
+    fits = isinstance(gains, str)
+    given = np.ones((len(cameras), 3)) if gains is None or isinstance(gains, str) else gains
     for frame, vertices, camera, gain in zip(frames, stands, cameras, given, strict=True):
         drawn = np.zeros((*camera.size, 3), np.uint8)
         covered = draw_over(drawn, empty_depths(camera), mesh, vertices, camera)
@@ -51,6 +54,8 @@ def film_colour_error(
         inside = cv2.erode(covered.astype(np.uint8), np.ones((side, side), np.uint8), borderValue=1) > 0
         counts.append(int(inside.sum()))
         if counts[-1]:
+            if fits:
+                gain = _brighter(frame[inside], drawn[inside])
             away = cielab(frame[inside]) - cielab(_brightened(drawn[inside], gain))
             squares.append(float((away**2).sum()))
         else:
@@ -67,6 +72,12 @@ def cielab(rgb: NDArray[np.uint8]) -> NDArray[np.float64]:
     share = (srgb_light(np.arange(256) / 255)[rgb] @ matrix.T) / matrix.sum(1)
     x, y, z = np.where(share > (6 / 29) ** 3, np.cbrt(share), share / (3 * (6 / 29) ** 2) + 4 / 29).T
     return np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], 1)
+
+
+def _brighter(frame: NDArray[np.uint8], drawn: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """(3,) by what the light of colours (N, 3) is more than that of others."""
+    light = srgb_light(np.arange(1, 257) / 256)  # black has no ratio
+    return np.asarray(np.median(light[frame] / light[drawn], axis=0))
 
 
 def _brightened(rgb: NDArray[np.uint8], gain: NDArray[np.floating]) -> NDArray[np.uint8]:

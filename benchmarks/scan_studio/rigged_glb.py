@@ -1,8 +1,8 @@
-"""Rigged characters of GLB files, brought to A-pose by the letter of the specification (Khronos, glTF 2.0, 3.7.3)."""
+"""Rigged characters of GLB files, brought to A-pose or to where a clip begins, by the letter of the specification (Khronos, glTF 2.0, 3.7.3)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -14,7 +14,7 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from engine.body.rest_pose import shortest_rotation
-from engine.motion.files.gltf_file import GltfFile
+from engine.motion.files.gltf_file import GltfFile, Part
 
 COMPONENT_TYPES: dict[int, Any] = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 COMPONENT_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
@@ -72,9 +72,27 @@ def read_in_a_pose(path: Path, facing: float) -> tuple[list[TexturedPart], dict[
     return parts, {names[j]: towards @ posed[j][:3, 3] for j in names}
 
 
-def _worlds(file: GltfFile, turned: Callable[[int, NDArray[np.float64]], NDArray[np.float64]]) -> NDArray[np.float64]:
-    """(N, 4, 4) each node to the world; `turned` may turn a node, and with it all below."""
-    nodes = file.parts.nodes
+def read_in_clip(path: Path, clip: str) -> list[TexturedPart]:
+    """The parts of a character as they are at the beginning of one of its clips."""
+    file = GltfFile(path)
+    nodes = [Part(node) for node in file.parts.nodes]
+    animation = next(one for one in file.parts.animations if one.name == clip)
+    for channel in animation.channels:
+        if channel.target.path in ("rotation", "translation"):
+            first = _array(file, animation.samplers[channel.sampler].output)[0]
+            nodes[channel.target.node][channel.target.path] = first.tolist()
+    posed = _worlds(file, lambda node, world: world, nodes)
+    return [part for node in nodes if node.mesh is not None for part in _parts(file, node, posed, {}, np.eye(3))]
+
+
+def _worlds(
+    file: GltfFile,
+    turned: Callable[[int, NDArray[np.float64]], NDArray[np.float64]],
+    nodes: Sequence[Any] | None = None,
+) -> NDArray[np.float64]:
+    """(N, 4, 4) each node to the world; `turned` may turn a node, and with it all below. `nodes` may stand in for the
+    file's."""
+    nodes = file.parts.nodes if nodes is None else nodes
     worlds = np.tile(np.eye(4), (len(nodes), 1, 1))
     waiting = [(root, np.eye(4)) for root in file.parts.scenes[file.parts.scene or 0].nodes]
     while waiting:
@@ -124,7 +142,7 @@ def _parts(
     skin = file.parts.skins[node.skin]
     inverse_bind = _array(file, skin.inverseBindMatrices).reshape(-1, 4, 4).transpose(0, 2, 1)
     moves = posed[skin.joints] @ inverse_bind
-    carried = np.array([[joint in below[side] for joint in skin.joints] for side in ("Left", "Right")], np.float64)
+    carried = np.array([[joint in below.get(side, ()) for joint in skin.joints] for side in ("Left", "Right")], float)
     found = []
     for primitive in file.parts.meshes[node.mesh].primitives:
         at = primitive.attributes
