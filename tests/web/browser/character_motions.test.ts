@@ -83,7 +83,7 @@ const checks = async (): Promise<number> =>
 
 describe('the joints of a motion', () => {
   it('are those that the engine knows', async () => {
-    const { groups, required } = await import('@web/kinds/character/motion/joint_mapping');
+    const { groups, required } = await import('@web/motion/joint_mapping');
     expect(Object.values(groups).flat().sort()).toEqual([...names[0]].sort());
     expect([...required].sort()).toEqual([...names[1]].sort());
   });

@@ -4,7 +4,7 @@ import { characterOptions } from './types';
 import { textOf } from '../../works/inputs';
 import { strings } from '../../language/strings';
 import type { Kind } from '../../kind/kind';
-import { DEFAULT_MOTION, motionName } from './motion/motion_names';
+import { DEFAULT_MOTION, motionName } from '../../motion/motion_names';
 import { type CharacterOrder, namesOf, request } from './order';
 import { words } from './words';
 

@@ -1,19 +1,12 @@
 /** An order of a character: the picture, and how it is to move. */
 
 import type { JobRequest } from '../../api';
-import type { CharacterOptions, MotionName } from './types';
+import type { CharacterOptions } from './types';
 import { randomKey } from '../../api/idempotency';
 import { fileTitle } from '../../language/format';
-import { plain } from '../../language/strings';
 import type { Order, OrderNames, Upload } from '../../kind/kind';
-import { motionName } from './motion/motion_names';
-
-/** How a character moves: one of our clips, or a file. */
-export type Motion =
-  | { by: 'name'; name: MotionName }
-  /** One of the user's own, which the service keeps. */
-  | { by: 'kept'; name: string }
-  | { by: 'file'; file: File };
+import { motionTitle } from '../../motion/draft';
+import type { Motion } from '../../motion/types';
 
 export interface CharacterOrder extends Order {
   kind: 'character';
@@ -27,20 +20,9 @@ export const characterOrder = (photo: File, motion: Motion, options: CharacterOp
   ...{ key: randomKey(), sent: {} },
 });
 
-function motionOf(motion: Motion): string {
-  switch (motion.by) {
-    case 'name':
-      return motionName(motion.name);
-    case 'kept':
-      return plain(motion.name);
-    case 'file':
-      return fileTitle(motion.file);
-  }
-}
-
 export const namesOf = (order: CharacterOrder): OrderNames => ({
   picture: fileTitle(order.photo),
-  performance: motionOf(order.motion),
+  performance: motionTitle(order.motion),
 });
 
 export async function request(order: CharacterOrder, upload: Upload): Promise<JobRequest> {

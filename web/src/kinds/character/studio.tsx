@@ -1,8 +1,8 @@
 /** The start page of characters: a picture of somebody, a motion, and off it goes. */
 
-import type { CharacterOptions, MotionJoints } from './types';
+import type { CharacterOptions } from './types';
 import { CharacterFields, type Choices, KeepField, optionsOf, defaults, VideoFields } from './choices';
-import { MotionPicker } from './motion/motion_picker';
+import { MotionPicker } from '../../motion/motion_picker';
 import { useDropsAnywhere } from '../../studio/drops';
 import { Demo } from '../../studio/demo';
 import { StudioForm, useStudioTitle } from '../../studio/form';
@@ -12,8 +12,10 @@ import { useDraft } from '../../studio/draft';
 import { useRefusals } from '../../studio/refusals';
 import { isMotion, isPicture } from '../../studio/media_types';
 import type { StudioProps } from '../../kind/kind';
-import { DEFAULT_MOTION } from './motion/motion_names';
-import { characterOrder, type Motion } from './order';
+import { DEFAULT_MOTION } from '../../motion/motion_names';
+import type { Motion, MotionJoints } from '../../motion/types';
+import { words as motionWords } from '../../motion/words';
+import { characterOrder } from './order';
 import { samples } from './samples';
 import { useSending } from '../../sending/use_sending';
 import { strings } from '../../language/strings';
@@ -69,7 +71,7 @@ export default function CharacterStudio({ kind }: StudioProps) {
     return true;
   }, refusePhoto);
 
-  const wrong = refused.photo ? strings.studio.wrongPicture : refused.motion ? words.wrongMotion : null;
+  const wrong = refused.photo ? strings.studio.wrongPicture : refused.motion ? motionWords.wrong : null;
   const missing = wrong ?? (photo ? '' : words.needPhoto);
   const order = photo ? () => characterOrder(photo, motion, { ...optionsOf(choices), ...said(joints, clip) }) : null;
   const change = (part: Partial<Choices>): void => alter({ choices: { ...choices, ...part } });

@@ -1,6 +1,7 @@
 /** What a character takes, and what it leaves that is read here. */
 
 import type { Frame, Job, Report, Schemas } from '../../api';
+import type { MotionJoints, MotionName } from '../../motion/types';
 
 /** A path of a brush over the picture, both in its pixels. */
 export interface Stroke {
@@ -8,8 +9,6 @@ export interface Stroke {
   radius: number;
 }
 export type BodyPart = 'head' | 'torso' | 'left_arm' | 'right_arm' | 'left_leg' | 'right_leg';
-/** Which joint of a motion's file moves which of ours, where it is not as found; null leaves one out. */
-export type MotionJoints = Readonly<Record<string, string | null>>;
 export interface CharacterCorrections {
   /** Where the person is looked for. */
   person_box?: Frame;
@@ -28,20 +27,9 @@ export interface CharacterCorrections {
 }
 export type CharacterOptions = Omit<Partial<Schemas['CharacterOptions']>, keyof CharacterCorrections> &
   Omit<CharacterCorrections, 'motion' | 'mask' | 'labels'> & {
-    motion?: NonNullable<Schemas['CharacterOptions']['motion']>;
+    motion?: MotionName;
     back_texture?: 'mirror' | 'inpaint';
   };
-export type MotionName = NonNullable<CharacterOptions['motion']>;
-
-/** What is in a motion file (motion.json); only what this page reads. */
-export interface MotionDetails {
-  /** The joints of its skeleton. */
-  joints: readonly { name: string }[];
-  /** Which of them moves which of ours, as it was found. */
-  mapping: Readonly<Record<string, string>>;
-  /** The names of its animations, where it has several. */
-  clips?: readonly string[];
-}
 
 /** Null takes one back: to what is found by itself, or to the default. */
 type Changes<T> = { [Name in keyof T]?: T[Name] | null };

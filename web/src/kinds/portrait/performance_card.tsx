@@ -16,28 +16,6 @@ export const symbols = {
     'M19 40c-3-5-6-9-8-12 2-3 5-1 8 2V12c0-4 5-4 5 0v11l9 2c3 1 4 3 3 6l-3 9M11 12a10 10 0 0 1 5-8m11 0a10 10 0 0 1 5 8',
 };
 
-interface SymbolCardProps {
-  value: string;
-  symbol: string;
-  label: string;
-  hint?: string;
-  checked: boolean;
-  onChoose: () => void;
-}
-
-/** Stands for something else than one performance. */
-export function SymbolCard({ value, symbol, label, hint, checked, onChoose }: SymbolCardProps) {
-  return (
-    <label class={checked ? 'card checked' : 'card'} title={hint}>
-      <input type="radio" name="performance" value={value} checked={checked} onChange={onChoose} />
-      <svg viewBox="0 0 48 48" aria-hidden="true">
-        <path d={symbol} />
-      </svg>
-      <span>{label}</span>
-    </label>
-  );
-}
-
 /** What a card shows, and what a job names to be driven by it. */
 interface Shown {
   value: string;

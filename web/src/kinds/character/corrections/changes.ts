@@ -1,20 +1,18 @@
 /** What a revision of a character asks for: nothing but what differs from the job before. */
 
 import type { Frame, Job } from '../../../api';
-import { characterOptions, type CharacterChanges, type MotionJoints } from '../types';
+import { characterOptions, type CharacterChanges } from '../types';
 import type { Pose } from '../../../viewer/posing/pose';
 import { stem } from '../../../language/format';
-import { DEFAULT_MOTION } from '../motion/motion_names';
-import type { Motion } from '../order';
+import { type MotionDraft, motionChanges, motionDraftOf } from '../../../motion/draft';
+import { DEFAULT_MOTION } from '../../../motion/motion_names';
+import type { GivenInput } from '../../../motion/types';
 import { plain } from '../../../language/strings';
 import { changedOptions, type Choices, choicesOf } from '../choices';
 import type { Joints } from '../joints/skeleton';
 import type { LabelStroke, MaskStroke } from '../masks/strokes';
 
-/** What is kept of a job: the file that it had before. */
-export type GivenInput = { by: 'held'; input: string };
-
-export interface RevisionDraft extends Choices {
+export interface RevisionDraft extends Choices, MotionDraft {
   /** Which of the people found, counted from the largest; null where that is asked. */
   person: number | 'all' | null;
   /** Where the person is looked for; null for the whole picture. */
@@ -26,10 +24,6 @@ export interface RevisionDraft extends Choices {
   /** Files in place of what is found; strokes are painted over them. */
   maskFile: File | GivenInput | null;
   labelsFile: File | GivenInput | null;
-  motion: Motion | GivenInput;
-  motionJoints: MotionJoints;
-  /** Which of the motion's animations; null for the first in which something moves. */
-  motionClip: string | null;
   pose: Pose;
 }
 
@@ -54,6 +48,7 @@ export function draftOf(job: Job): RevisionDraft {
   };
   return {
     ...choicesOf(made),
+    ...motionDraftOf(job, DEFAULT_MOTION),
     person: made.person_index ?? (job.error?.code === 'crowd' ? null : 0),
     box: made.person_box ?? null,
     joints: made.joints ?? {},
@@ -61,9 +56,6 @@ export function draftOf(job: Job): RevisionDraft {
     labels: made.label_strokes ?? [],
     maskFile: held('mask'),
     labelsFile: held('labels'),
-    motion: held('motion') ?? { by: 'name', name: made.motion ?? DEFAULT_MOTION },
-    motionJoints: made.motion_joints ?? {},
-    motionClip: made.motion_clip ?? null,
     pose: (made.pose as Pose | undefined) ?? {},
   };
 }
@@ -88,8 +80,7 @@ const same = (a: unknown, b: unknown): boolean => JSON.stringify(a) === JSON.str
 /** `sent`: the ids of the files that were sent. */
 export function changesOf(before: RevisionDraft, now: RevisionDraft, sent: Sent): CharacterChanges {
   const filled = <T extends object>(value: T): T | null => (Object.keys(value).length ? value : null);
-  const { motion } = now;
-  const renamed = motion.by === 'name' && !same(before.motion, motion);
+  const moved = motionChanges(before, now);
   const corrections = {
     ...(!same(indexOf(before), indexOf(now)) && { person_index: indexOf(now) }),
     ...(!same(before.box, now.box) && { person_box: now.box }),
@@ -98,15 +89,12 @@ export function changesOf(before: RevisionDraft, now: RevisionDraft, sent: Sent)
     ...(before.labelsFile && !now.labelsFile && { labels: null }),
     ...(!same(before.mask, now.mask) && { mask_strokes: filled(now.mask) }),
     ...(!same(before.labels, now.labels) && { label_strokes: filled(now.labels) }),
-    ...(renamed && before.motion.by === 'held' && { motion: null }),
-    ...(motion.by === 'kept' && { motion: motion.name }),
-    ...(!same(before.motionClip, now.motionClip) && { motion_clip: now.motionClip }),
-    ...(!same(before.motionJoints, now.motionJoints) && { motion_joints: filled(now.motionJoints) }),
+    ...moved.corrections,
     ...sent,
   };
   const options = {
     ...changedOptions(before, now),
-    ...(renamed && { motion: motion.name }),
+    ...moved.options,
     ...(!same(before.pose, now.pose) && { pose: filled(now.pose) }),
   };
   return { corrections, options } as CharacterChanges;

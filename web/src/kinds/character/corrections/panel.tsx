@@ -16,7 +16,7 @@ import { mayRepeat } from '../../../result/next_step';
 import { strings } from '../../../language/strings';
 import { forPerson, isChanged, isEverybody, type RevisionDraft, draftOf } from './changes';
 import { CharacterFields, KeepField, VideoFields } from '../choices';
-import { MotionField } from '../motion/motion_field';
+import { MotionField } from '../../../motion/motion_field';
 import { MasksField } from '../masks/masks_field';
 import { People } from '../people/people_picture';
 import { useRevision } from './use_revision';
@@ -135,14 +135,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
       </section>
       <section class="panel" aria-label={words.move}>
         <h3>{words.move}</h3>
-        <MotionField
-          job={job}
-          value={draft.motion}
-          before={before.motion}
-          joints={draft.motionJoints}
-          clip={draft.motionClip}
-          onChange={wish}
-        />
+        <MotionField job={job} value={draft} before={before} onChange={wish} />
         <KeepField value={draft} onChange={wish} />
         {Object.keys(draft.pose).length > 0 && (
           <div class="actions">

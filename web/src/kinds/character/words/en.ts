@@ -1,6 +1,6 @@
 /** English: characters: their studio, what is put right by hand, and what is said of them wherever kinds are named. */
 
-import type { BodyPart, CharacterCorrections, CharacterOptions, MotionName } from '../types';
+import type { BodyPart, CharacterCorrections, CharacterOptions } from '../types';
 
 const english = {
   label: 'Character',
@@ -96,24 +96,6 @@ const english = {
     photoChosen: (name: string) => `Picture: ${name}. Choose another`,
     motion: 'Motion',
     motionHint: 'A built-in motion, or your own motion capture as a BVH, GLB or glTF file.',
-    builtIn: 'Built-in motions',
-    motions: {
-      idle: 'Idle',
-      walk: 'Walk',
-      run: 'Run',
-      jump: 'Jump',
-      sit: 'Sit down',
-      wave: 'Wave',
-      dance: 'Dance',
-      bow: 'Bow',
-    } satisfies Record<MotionName, string>,
-    keptMotions: 'Your saved motions',
-    ownMotion: 'Upload a motion',
-    motionDrop: 'Drop a BVH, GLB or glTF file here',
-    motionBrowse: 'or choose one',
-    motionChosen: (name: string) => `Motion: ${name}. Choose another`,
-    wrongMotion: 'This is not a motion file. Please choose a BVH file, or a GLB file with an animated skeleton.',
-    heldMotion: 'An uploaded motion',
     keep: 'Keep as in the picture',
     parts: {
       head: 'Head',
@@ -150,36 +132,6 @@ const english = {
     usdz: 'USDZ for iPhone, iPad',
     vrm1: 'VRM',
     litPicture: 'Lit preview',
-  },
-
-  motionJoints: {
-    title: 'Joints of the motion',
-    clip: 'Animation',
-    firstClip: 'First animated one',
-    hint: 'Left: the character’s joints. Right: the joints of the motion that drive them. Change the mapping where a limb moves wrongly; joints that nothing drives follow their parent.',
-    looking: 'Reading the motion.',
-    nothing: 'None',
-    wanting: (joints: string) => `These joints are required and not mapped yet: ${joints}.`,
-    changed: (number: number) => `${number} changed`,
-    asFound: 'Reset mapping',
-    hands: 'Fingers',
-    groups: {
-      trunk: 'Trunk and head',
-      leftArm: 'Left arm',
-      rightArm: 'Right arm',
-      leftLeg: 'Left leg',
-      rightLeg: 'Right leg',
-      leftFingers: 'Left hand',
-      rightFingers: 'Right hand',
-    },
-    fingers: {
-      Thumb: 'thumb',
-      Index: 'index finger',
-      Middle: 'middle finger',
-      Ring: 'ring finger',
-      Pinky: 'little finger',
-    } as Record<string, string>,
-    finger: (finger: string, number: string) => `${finger}, ${number}`,
   },
 
   correct: {

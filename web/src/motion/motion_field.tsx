@@ -1,45 +1,41 @@
-/** The motion of a character that is made again: as before, another of ours or one's own, or a file. */
+/** The motion of a job that is made again: as before, another of ours or one's own, or a file. */
 
 import { useId, useState } from 'preact/hooks';
-import { type Job, listOwnMotions } from '../../../api';
+import { type Job, listOwnMotions } from '../api';
 import { canMove } from './motion_details';
-import type { MotionDetails, MotionJoints, MotionName } from '../types';
-import { useLoaded } from '../../../api/loading';
-import { isFileId, isUrl } from '../../../works/inputs';
+import type { GivenInput, MotionDetails, MotionName } from './types';
+import { useLoaded } from '../api/loading';
+import { isFileId, isUrl } from '../works/inputs';
 import { motionName } from './motion_names';
-import { plain } from '../../../language/strings';
-import { type GivenInput, type RevisionDraft, draftOf } from '../corrections/changes';
+import { plain } from '../language/strings';
+import type { MotionDraft } from './draft';
 import { JointMappingPanel } from './joint_mapping_panel';
 import { MotionDropzone } from './motion_dropzone';
 import { detailsIn, motionNames } from './motion_picker';
-import { words as characterWords } from '../words';
+import { words } from './words';
 
-const words = characterWords.character;
 /** What an error may name that is put right in the table of the motion. */
 const wanted = ['motion_joints', 'motion_clip'];
 
 interface Props {
   job: Job;
-  value: RevisionDraft['motion'];
-  /** What the job moved by before. */
-  before: RevisionDraft['motion'];
-  joints: MotionJoints;
-  clip: RevisionDraft['motionClip'];
-  onChange: (draft: Partial<RevisionDraft>) => void;
+  value: MotionDraft;
+  /** What the job was made with. */
+  before: MotionDraft;
+  onChange: (part: Partial<MotionDraft>) => void;
 }
 
-export function MotionField({ job, value, before, joints, clip, onChange }: Props) {
+export function MotionField({ job, value: { motion: value, ...draft }, before, onChange }: Props) {
   const id = useId();
   const [refused, setRefused] = useState(false);
   const kept = (useLoaded(listOwnMotions, 'motions').value ?? []).filter(canMove);
-  const held = before.by === 'held' ? before : null;
-  const made = draftOf(job);
-  const choose = (motion: RevisionDraft['motion'], refused = false): void => {
+  const held = before.motion.by === 'held' ? before.motion : null;
+  const choose = (motion: MotionDraft['motion'], refused = false): void => {
     setRefused(refused);
     onChange({
       motion,
-      motionJoints: motion.by === 'held' ? made.motionJoints : {},
-      motionClip: motion.by === 'held' ? made.motionClip : null,
+      motionJoints: motion.by === 'held' ? before.motionJoints : {},
+      motionClip: motion.by === 'held' ? before.motionClip : null,
     });
   };
   const known = value.by === 'kept' ? detailsIn(kept, value.name) : value.by === 'held' ? listedIn(job) : null;
@@ -65,7 +61,7 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
             </option>
           ))}
           {kept.length > 0 && (
-            <optgroup label={words.keptMotions}>
+            <optgroup label={words.kept}>
               {kept.map(({ name, title }) => (
                 <option key={name} value={`kept ${name}`}>
                   {title || plain(name)}
@@ -79,16 +75,16 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
         file={value.by === 'file' ? value.file : null}
         onFile={(file) => choose({ by: 'file', file })}
         refused={refused}
-        onRefused={() => choose(before, true)}
+        onRefused={() => choose(before.motion, true)}
       />
       {value.by !== 'name' && (
         <JointMappingPanel
           motion={value}
           known={known}
           wanted={value.by === 'held' && wanted.some((name) => job.error?.correctable?.includes(name))}
-          value={joints}
+          value={draft.motionJoints}
           onChange={(motionJoints) => onChange({ motionJoints })}
-          clip={clip}
+          clip={draft.motionClip}
           onClip={(motionClip) => onChange({ motionClip })}
         />
       )}
@@ -97,7 +93,7 @@ export function MotionField({ job, value, before, joints, clip, onChange }: Prop
 }
 
 const nameOf = ({ input }: GivenInput): string =>
-  isUrl(input) || isFileId(input) ? words.heldMotion : plain(input);
+  isUrl(input) || isFileId(input) ? words.held : plain(input);
 
 /** What the error of a job that could not map its motion lists; what was said by hand is among it, so that it tells nothing then. */
 function listedIn(job: Job): MotionDetails | null {

@@ -1,16 +1,15 @@
 /** What is in a motion that somebody chose: a kept one is known already, a file is looked into by a job of its own. */
 
-import { deleteJob, getJob, getMotion, type Job, type KeptMotion, orderMotionCheck, Problem, readArtifact } from '../../../api';
-import { finished } from '../../../api/events';
-import { isFileId, isUrl } from '../../../works/inputs';
-import type { Motion } from '../order';
-import type { MotionDetails } from '../types';
+import { deleteJob, getJob, getMotion, type Job, type KeptMotion, orderMotionCheck, Problem, readArtifact } from '../api';
+import { finished } from '../api/events';
+import { isFileId, isUrl } from '../works/inputs';
+import type { GivenInput, Motion, MotionDetails } from './types';
 
 /** How often the job is asked how far it is. */
 const POLL_MS = 400;
 
-/** A motion that is no clip of ours; `held`: what a job was given, by name, id or address. */
-export type OwnMotion = Exclude<Motion, { by: 'name' }> | { by: 'held'; input: string };
+/** A motion that is no clip of ours; of a job, what it was given, by name, id or address. */
+export type OwnMotion = Exclude<Motion, { by: 'name' }> | GivenInput;
 
 /** Tells one motion from another. */
 export const keyOf = (motion: OwnMotion): string => {

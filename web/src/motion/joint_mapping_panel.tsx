@@ -1,16 +1,16 @@
 /** Which animation of a motion's file, and which of its joints moves which of the character's; folded away. */
 
 import { useEffect, useId, useState } from 'preact/hooks';
-import type { MotionDetails, MotionJoints } from '../types';
-import { ProblemAlert } from '../../../widgets/problem_alert';
-import { useLoaded } from '../../../api/loading';
-import { strings } from '../../../language/strings';
+import type { MotionDetails, MotionJoints } from './types';
+import { ProblemAlert } from '../widgets/problem_alert';
+import { useLoaded } from '../api/loading';
+import { strings } from '../language/strings';
 import { detailsOf, keyOf, type OwnMotion } from './motion_details';
 import { commonPrefix, type Group, groups, jointName, missing, moved, moverOf, required } from './joint_mapping';
-import { words as characterWords } from '../words';
-import '../styles/joint_mapping.css';
+import { words as motionWords } from './words';
+import './styles/joint_mapping.css';
 
-const words = characterWords.motionJoints;
+const words = motionWords.joints;
 const inHands: readonly Group[] = ['leftFingers', 'rightFingers'];
 const names = Object.keys(groups) as Group[];
 

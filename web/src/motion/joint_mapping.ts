@@ -1,8 +1,8 @@
 /** Which joint of a motion's file moves which of a character's: as it was found, and as it is wanted. */
 
-import type { MotionDetails, MotionJoints } from '../types';
-import { words as viewerWords } from '../../../viewer/words';
-import { words as characterWords } from '../words';
+import type { MotionDetails, MotionJoints } from './types';
+import { words as viewerWords } from '../viewer/words';
+import { words } from './words';
 
 const sides = ['Left', 'Right'] as const;
 const fingers = ['Thumb', 'Index', 'Middle', 'Ring', 'Pinky'] as const;
@@ -61,5 +61,5 @@ export function jointName(joint: string): string {
   const { bones } = viewerWords;
   const [, side, finger, number] = /^(Left|Right)Hand(\D+)(\d)$/.exec(joint) ?? [];
   if (!side || !finger) return bones[joint] ?? joint;
-  return characterWords.motionJoints.finger(characterWords.joints[side === 'Left' ? 'left' : 'right'](characterWords.motionJoints.fingers[finger] ?? finger), number ?? '');
+  return words.joints.finger(words[side === 'Left' ? 'left' : 'right'](words.joints.fingers[finger] ?? finger), number ?? '');
 }

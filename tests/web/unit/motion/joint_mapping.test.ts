@@ -1,4 +1,4 @@
-import { commonPrefix, groups, jointName, missing, moved, moverOf, required } from '@web/kinds/character/motion/joint_mapping';
+import { commonPrefix, groups, jointName, missing, moved, moverOf, required } from '@web/motion/joint_mapping';
 import { describe, expect, it } from 'vitest';
 
 const found = { Hips: 'pelvis', LeftArm: 'arm_l', Neck: 'neck' };

@@ -1,10 +1,8 @@
 /** The place for a motion's file. */
 
-import { Dropzone } from '../../../widgets/dropzone';
-import { isMotion, motionTypes } from '../../../studio/media_types';
-import { words as characterWords } from '../words';
-
-const words = characterWords.character;
+import { Dropzone } from '../widgets/dropzone';
+import { isMotion, motionTypes } from '../studio/media_types';
+import { words } from './words';
 
 interface Props {
   file: File | null;
@@ -21,10 +19,10 @@ export function MotionDropzone({ file, onFile, refused, onRefused }: Props) {
       accept={motionTypes}
       accepts={isMotion}
       words={{
-        drop: words.motionDrop,
-        browse: words.motionBrowse,
-        chosen: words.motionChosen,
-        wrong: words.wrongMotion,
+        drop: words.drop,
+        browse: words.browse,
+        chosen: words.chosen,
+        wrong: words.wrong,
       }}
       onFile={onFile}
       refused={refused}

@@ -1,20 +1,17 @@
 /** The motions on offer: ours as drawn figures, or a file at hand. */
 
-import { deleteMotion, type KeptMotion, listOwnMotions, renameMotion } from '../../../api';
+import { deleteMotion, type KeptMotion, listOwnMotions, renameMotion } from '../api';
 import { canMove } from './motion_details';
-import type { MotionDetails, MotionJoints, MotionName } from '../types';
-import { SymbolCard } from '../../portrait/performance_card';
-import { KeptList } from '../../../studio/kept_list';
-import { useLoaded } from '../../../api/loading';
+import { SymbolCard } from '../studio/symbol_card';
+import type { Motion, MotionDetails, MotionJoints, MotionName } from './types';
+import { KeptList } from '../studio/kept_list';
+import { useLoaded } from '../api/loading';
 import { DEFAULT_MOTION, motionName } from './motion_names';
-import type { Motion } from '../order';
-import { plain } from '../../../language/strings';
+import { plain } from '../language/strings';
 import { JointMappingPanel } from './joint_mapping_panel';
 import { MotionDropzone } from './motion_dropzone';
-import { words as characterWords } from '../words';
-import '../styles/motions.css';
-
-const words = characterWords.character;
+import { words } from './words';
+import './styles/motions.css';
 
 /** A head at a place of the square of 48. */
 const head = (x: number, y: number): string => `M${x - 4} ${y}a4 4 0 1 0 8 0a4 4 0 1 0-8 0`;
@@ -78,7 +75,7 @@ export function MotionPicker({ chosen, onChoose, refused, onRefused, joints, onJ
       </fieldset>
       {kept.length > 0 && (
         <fieldset class="performances">
-          <legend>{words.keptMotions}</legend>
+          <legend>{words.kept}</legend>
           <div class="cards figures">
             {kept.map(({ name, title }) => (
               <SymbolCard
@@ -110,7 +107,7 @@ export function MotionPicker({ chosen, onChoose, refused, onRefused, joints, onJ
           own.reload();
         }}
       />
-      <h3>{words.ownMotion}</h3>
+      <h3>{words.own}</h3>
       <MotionDropzone
         file={chosen.by === 'file' ? chosen.file : null}
         onFile={(file) => onChoose({ by: 'file', file })}
