@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterator
+import subprocess
+from collections.abc import Iterator
 
 import psutil
 import pytest
@@ -12,13 +13,12 @@ from running import Running, eventually
 
 from service.redis_server import socket_path
 
-Start = Callable[..., Running]
-
 
 @pytest.fixture(scope="module")
 def shared_service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    """A service that mends what is done to it: all that a test kills is there again."""
-    with Running(tmp_path_factory.mktemp("mending") / "data", lease_seconds=3, sweep_seconds=0.5) as running:
+    """A service that mends what is done to it: all that a test kills is there again. Two jobs run at once."""
+    data = tmp_path_factory.mktemp("mending") / "data"
+    with Running(data, lease_seconds=3, sweep_seconds=0.5, concurrency=2) as running:
         yield running
 
 
@@ -27,8 +27,14 @@ def attempts(running: Running, job_id: str) -> int:
         return events.read().decode().count('{"status": "running"}')
 
 
-def test_a_worker_killed_in_mid_job_finishes_it_later_once(start: Start, picture: bytes) -> None:
-    running = start()
+def job_processes(running: Running) -> list[psutil.Process]:
+    """The processes of the jobs that run: those that the ready ones have forked."""
+    processes = running.processes("worker.job_process.child")
+    ready = {process.pid for process in processes}
+    return [process for process in processes if process.ppid() in ready]
+
+
+def test_a_worker_killed_in_mid_job_finishes_it_later_once(running: Running, picture: bytes) -> None:
     job = running.rest(picture, rest_once=True)
     (worker,) = running.processes("shell.main worker")
     children = running.processes("worker.job_process.child")
@@ -42,12 +48,18 @@ def test_a_worker_killed_in_mid_job_finishes_it_later_once(start: Start, picture
         assert events.read().decode().count('{"status": "succeeded"}') == 1
 
 
-def test_a_jobs_process_killed_in_mid_job_is_replaced_at_once(start: Start, picture: bytes) -> None:
-    running = start(lease_seconds=900)
-    job = running.rest(picture, rest_once=True)
-    running.processes("worker.job_process.child")[0].kill()
-    running.until(job, "succeeded")  # long before its lease ends
-    assert attempts(running, job) == 2
+def test_a_jobs_process_killed_in_mid_job_is_replaced_at_once(running: Running, picture: bytes) -> None:
+    """Of two jobs side by side, one's own process, and of the other the one that it was forked from."""
+    (worker,) = running.processes("shell.main worker")
+    expired = running.output.read_text().count("lease_expired")
+    jobs = [running.rest(picture, rest_once=True) for _ in range(2)]
+    one, other = job_processes(running)
+    one.kill()
+    psutil.Process(other.ppid()).kill()
+    for job in jobs:
+        running.until(job, "succeeded")
+        assert attempts(running, job) == 2
+    assert worker.is_running() and running.output.read_text().count("lease_expired") == expired
 
 
 # The first attempt stores a stage and so is not in vain; those after it do not.
@@ -94,41 +106,27 @@ def test_redis_emptied_loses_nothing(running: Running, picture: bytes) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_the_service_ends_with_all_its_processes_and_takes_up_its_jobs_again(
-    start: Start, picture: bytes, number: signal.Signals
+    running: Running, picture: bytes, number: signal.Signals
 ) -> None:
-    running = start()
-    job = running.rest(picture, rest_once=True)
-    waiting = running.submit(picture)["id"]
+    """Streams that are open do not hold it up."""
+    jobs = [running.rest(picture, rest_once=True) for _ in range(2)]
+    jobs.append(running.submit(picture)["id"])
     processes = psutil.Process(running.process.pid).children(recursive=True)
     assert len(processes) >= 3
-    running.process.send_signal(number)
-    running.process.wait(90)
+    with running.client.stream("GET", f"/v1/jobs/{jobs[0]}/events") as events:
+        assert next(events.iter_lines())
+        running.process.send_signal(number)
+        running.process.wait(90)
     _, alive = psutil.wait_procs(processes, timeout=90)
     assert alive == []
-    again = start(running.data_dir)
-    for one in (job, waiting):
-        again.until(one, "succeeded")
+    running.client.close()
+    running.start()
+    for job in jobs:
+        running.until(job, "succeeded")
 
 
-def test_two_services_do_not_share_a_folder(start: Start, tmp_path_factory: pytest.TempPathFactory) -> None:
-    running = start(worker="false")
-    with pytest.raises(AssertionError, match="Another `galatea serve` uses"):
-        Running(running.data_dir)
-
-
-def test_jobs_run_side_by_side_and_none_longer_than_allowed(start: Start, picture: bytes) -> None:
-    running = start(concurrency=2, job_seconds=15)
-    eventually(lambda: len(running.processes("worker.job_process.child")) == 2, "both processes for jobs are there")
-    jobs = [running.submit(picture, seconds=3000, polls=polls)["id"] for polls in (True, False)]
-    first, second = (running.until(job, "failed", "succeeded") for job in jobs)
-    assert [job["error"]["code"] for job in (first, second)] == ["time_limit"] * 2
-    assert second["started_at"] < first["finished_at"]
-
-
-def test_open_streams_do_not_hold_up_the_end(start: Start, picture: bytes) -> None:
-    running = start(worker="false")
-    job = running.submit(picture)["id"]
-    with running.client.stream("GET", f"/v1/jobs/{job}/events") as events:
-        assert next(events.iter_lines())
-        running.process.send_signal(signal.SIGINT)
-        running.process.wait(90)
+def test_two_services_do_not_share_a_folder(running: Running) -> None:
+    command = [*running.command, "serve", "--port", "0"]
+    done = subprocess.run(command, env=running.environment, cwd=running.cwd, capture_output=True, text=True)
+    assert done.returncode == 2 and "Another `galatea serve` uses" in done.stderr
+    assert running.client.get("/readyz").status_code == 200

@@ -65,13 +65,12 @@ def test_a_worker_that_stops_gives_its_short_job_back_too(start: Callable[..., R
 
 
 def test_without_a_lane_it_waits_for_its_turn(start: Callable[..., Running], picture: bytes) -> None:
-    running = start(kinds=KINDS, short_concurrency=0)
-    long = running.submit(picture, seconds=3)
-    running.until_at_rest(long["id"])
+    """Behind a job that does not end by itself, nor looks whether it shall: until that has had its time."""
+    running = start(kinds=KINDS, short_concurrency=0, job_seconds=6)
+    long = running.submit(picture, seconds=3000, polls=False)
+    running.until(long["id"], "running", "failed")
     short = submit(running, "short", long)
-    ended, began = (
-        running.until(long["id"], "succeeded")["finished_at"],
-        running.until(short, "succeeded")["started_at"],
-    )
-    assert began >= ended
+    ended, began = running.until(long["id"], "failed"), running.until(short, "succeeded")["started_at"]
+    assert ended["error"]["code"] == "time_limit"
+    assert began >= ended["finished_at"]
     assert len(running.processes("worker.job_process.child")) == 1

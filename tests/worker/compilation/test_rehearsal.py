@@ -30,54 +30,38 @@ def said(running: Running, what: str) -> bool:
     return what in running.output.read_text()
 
 
-def test_who_waits_is_told_until_it_is_over(start: Start, picture: bytes, rehearsed_when: Path) -> None:
+def test_who_waits_is_told_until_it_is_over_and_it_is_not_done_again(
+    start: Start, tmp_path: Path, picture: bytes, rehearsed_when: Path
+) -> None:
     running = start(kinds="rehearsing_kind:KIND")
     job_id = running.submit(picture)["id"]
     eventually(lambda: running.job(job_id)["progress"]["stage"] == STAGE, "it is told")
     assert running.job(job_id)["status"] == "queued" and running.job(job_id)["progress"] == SHOWN
-    rehearsed_when.touch()
-    running.until(job_id, "succeeded")
-    with running.client.stream("GET", f"/v1/jobs/{job_id}/events") as events:
-        said = [json.loads(line.removeprefix("data: ")) for line in events.iter_lines() if line.startswith("data: ")]
-    assert said[:4] == [{"status": "queued"}, TOLD, TAKEN_BACK, {"status": "running"}]
-
-
-def test_messages_wait_with_their_jobs(start: Start, picture: bytes, rehearsed_when: Path) -> None:
-    running = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: said(running, "rehearsal_began"), "it rehearses")
-    job = running.submit(picture)
     eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it is at it")
     figures = running.client.get("/metrics").text
     assert re.search(r'galatea_queue_messages\{kind="tiny"\} 1\.0', figures), "as many messages as jobs: none is lost"
     rehearsed_when.touch()
-    running.until(job["id"], "succeeded")
-    assert not said(running, "messages_lost")
+    running.until(job_id, "succeeded")
+    with running.client.stream("GET", f"/v1/jobs/{job_id}/events") as events:
+        told = [json.loads(line.removeprefix("data: ")) for line in events.iter_lines() if line.startswith("data: ")]
+    assert told[:4] == [{"status": "queued"}, TOLD, TAKEN_BACK, {"status": "running"}]
+    assert said(running, "rehearsal_ended") and not said(running, "messages_lost")
+    another = start(data_dir=tmp_path / "another", kinds="rehearsing_kind:KIND")
+    eventually(lambda: another.processes("worker.job_process.child") != [], "it is ready")
+    assert not said(another, "rehearsal_began")
 
 
-def test_it_is_not_done_again_for_another_data_folder(start: Start, tmp_path: Path, rehearsed_when: Path) -> None:
-    rehearsed_when.touch()
-    first = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: first.processes("worker.job_process.child") != [], "it is ready")
-    second = start(data_dir=tmp_path / "another", kinds="rehearsing_kind:KIND")
-    eventually(lambda: second.processes("worker.job_process.child") != [], "it is ready")
-    assert said(first, "rehearsal_ended") and not said(second, "rehearsal_began")
-
-
-def test_what_jobs_wait_for_does_not_give_way(start: Start, rehearsed_when: Path) -> None:
-    """Not to what else the machine has to do, as jobs do."""
-    running = start(kinds="rehearsing_kind:KIND")
-    eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it rehearses")
-    (rehearsal,) = running.processes("worker.compilation.rehearsal")
-    ranked = f"/proc/{rehearsal.pid}/autogroup"
-    assert rehearsal.nice() == rehearsal.parent().nice()
-    assert not Path(ranked).exists() or Path(ranked).read_text().endswith(" nice 0\n")
-
-
-def test_a_worker_that_rehearses_ends_when_it_is_told_to(start: Start, rehearsed_when: Path) -> None:
+def test_what_jobs_wait_for_does_not_give_way_and_ends_when_the_worker_is_told_to(
+    start: Start, rehearsed_when: Path
+) -> None:
+    """It does not give way to what else the machine has to do, as jobs do."""
     running = start(kinds="rehearsing_kind:KIND")
     eventually(lambda: running.processes("worker.compilation.rehearsal") != [], "it rehearses")
     (worker,) = running.processes("shell.main worker")
     (rehearsal,) = running.processes("worker.compilation.rehearsal")
+    ranked = f"/proc/{rehearsal.pid}/autogroup"
+    assert rehearsal.nice() == worker.nice()
+    assert not Path(ranked).exists() or Path(ranked).read_text().endswith(" nice 0\n")
     running.stop()
     assert not worker.is_running() and not rehearsal.is_running()
     assert not said(running, "program_killed")
