@@ -9,13 +9,16 @@ from numpy.typing import NDArray
 
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
-from engine.avatar.landmarks.spatial import FACE_LANDMARKS, SpatialLandmarks
+from engine.avatar.landmarks.spatial import FACE_LANDMARKS, HAND_LANDMARKS, HAND_SIDES, SpatialLandmarks
+from engine.body.fitting.hand_fitting import hand_length
 from engine.geometry.camera import Camera
 
 SIGMA_SHARE = 6 / 720
 """By what share of a frame's shorter side a landmark of the body is off, usually."""
 FACE_SIGMA_SHARE = 0.02
 """By what share of a face's size in the frame one of the face is."""
+HAND_SIGMA_SHARE = 0.08
+"""By what share of a hand's size in the frame one of the hand is."""
 MIN_VIEWS = 3
 """Views that must agree on a landmark."""
 MAX_FACE_TURN = 0.65
@@ -40,7 +43,24 @@ def spatial_landmarks(seen: list[tuple[Camera, FrameLandmarks]]) -> SpatialLandm
         placed = triangulate_robustly(cameras, np.stack([at for _, at, _ in having]), confidence, sigma)
         if placed is not None and placed.agreeing >= MIN_VIEWS:
             body[name] = placed.place
-    return SpatialLandmarks(body, _face(seen))
+    return SpatialLandmarks(body, _face(seen), np.stack([_hand(seen, side) for side in HAND_SIDES]))
+
+
+def _hand(seen: list[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.float64]:
+    """(21, 3) the landmarks of the person's hand on that `side`; NaN where views do not agree."""
+    having = [(camera, *found.hands[side]) for camera, found in seen if side in found.hands]
+    out = np.full((HAND_LANDMARKS, 3), np.nan)
+    if len(having) < MIN_VIEWS:
+        return out
+    cameras = [camera for camera, _, _ in having]
+    hands = np.stack([points for _, points, _ in having])
+    confidence = np.array([value for _, _, value in having])
+    sigma = HAND_SIGMA_SHARE * np.array([hand_length(points) for points in hands])
+    for k in range(HAND_LANDMARKS):
+        placed = triangulate_robustly(cameras, hands[:, k], confidence, sigma)
+        if placed is not None and placed.agreeing >= MIN_VIEWS:
+            out[k] = placed.place
+    return out
 
 
 def _face(seen: list[tuple[Camera, FrameLandmarks]]) -> NDArray[np.float64]:

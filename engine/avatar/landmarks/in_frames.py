@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,22 +34,26 @@ HEAD_REACH = 1.6
 
 @dataclass(frozen=True)
 class FrameLandmarks:
-    """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None."""
+    """What one frame shows: `body`, pixels (2,) and confidence by name; `face` (68, 2) pixels or None; `hands`, by side, (21, 2)
+    pixels and confidence."""
 
     body: Mapping[str, tuple[NDArray[np.float64], float]]
     face: NDArray[np.float64] | None
+    hands: Mapping[str, tuple[NDArray[np.float64], float]] = field(default_factory=dict)
 
 
 def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
     """The landmarks of the person in a frame (H, W, 3) uint8; none of those that cannot be relied on."""
     body = find_body(rgb)
     named = {} if body is None else reliable(body)
+    hands: dict[str, tuple[NDArray[np.float64], float]] = {}
     if body is not None and named:
         for hand in find_hands(rgb, body):
+            hands[hand.side] = hand.points.astype(np.float64), hand.confidence
             for finger in KNUCKLES:
                 at, _ = hand.joint(f"{hand.side}Hand{finger}1")
                 named[f"{hand.side}{finger}"] = at.astype(np.float64), hand.confidence
-    return FrameLandmarks(named, _face(rgb, body if named else None))
+    return FrameLandmarks(named, _face(rgb, body if named else None), hands)
 
 
 def _face(rgb: NDArray[np.uint8], body: Body | None) -> NDArray[np.float64] | None:

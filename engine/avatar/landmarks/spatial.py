@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 
 FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
+HAND_SIDES = ("Left", "Right")
+HAND_LANDMARKS = 21
+"""Points of a hand (`engine.perception.hands.HAND_JOINTS`)."""
 
 
 @dataclass(frozen=True)
@@ -18,10 +21,13 @@ class SpatialLandmarks:
 
     `body`: places (3,) by the names of `engine.body.landmarks.landmark_model`; those not found are left out.
     `face` (68, 3): NaN where a point is not known.
+    `hands` (2, 21, 3): of the person's own left and right hand; NaN where a point is not known.
     """
 
     body: Mapping[str, NDArray[np.float64]]
     face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
+
+    hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(HAND_SIDES), HAND_LANDMARKS, 3), np.nan))
 
     def without(self, names: frozenset[str]) -> SpatialLandmarks:
         """Those of the body whose names are not among `names`, and all of the face."""

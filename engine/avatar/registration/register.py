@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.footwear import in_shoes, wears_shoes
+from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.head_cloud import carried, head_to_body, one_cloud
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.inner_mouth import inner_skin
@@ -62,7 +63,8 @@ def register(models: HumanModels, body: Scan, head: Scan | None = None) -> Fitte
     by_landmarks = fit_to_landmarks(models.body, models.landmarks, body.landmarks)
     believed = body.landmarks.without(by_landmarks.dropped)
     parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
-    coarse = models.body.vertices(parameters)
+    body_fit = with_hands(models, parameters, believed)
+    coarse = body_fit.vertices
     shoes = wears_shoes(models.skin, models.feet, coarse, cloud)
     if shoes:
         coarse = in_shoes(models.skin, models.feet, coarse)
@@ -74,8 +76,8 @@ def register(models: HumanModels, body: Scan, head: Scan | None = None) -> Fitte
     fitted = inner_skin(models.skin, coarse, fitted)
     return _person(
         models,
-        parameters,
-        coarse,
+        replace(body_fit, vertices=coarse),
+        parameters[-models.body.coefficients :],
         fitted,
         placed,
         _notices(by_landmarks, parameters[-models.body.coefficients :], head is not None and placed is None),
@@ -95,19 +97,18 @@ def _with_head(
 
 def _person(
     models: HumanModels,
-    parameters: NDArray[np.float64],
-    coarse: NDArray[np.float64],
+    coarse: CoarseBody,
+    coefficients: NDArray[np.float64],
     fitted: NDArray[np.float64],
     placed: Similarity | None,
     notices: tuple[Notice, ...],
 ) -> FittedTemplate:
     """The fitted skin with eyes, teeth and joints, in its pose and in T-pose, with expressions."""
     template, skin, rig = models.template, models.skin, models.rig
-    vertices = place_parts(template, skin, models.whole(parameters), fitted)
+    vertices = place_parts(template, skin, coarse.whole, fitted)
     vertices[skin.vertices] = lids_on_eyes(template, skin, vertices)
-    posed = models.body.poser(parameters[None])
-    rotations = posed.world_rotations[0]
-    joints = cage_coordinates(posed.joints[0], coarse, skin.triangles) @ vertices[skin.vertices]
+    rotations = coarse.rotations
+    joints = cage_coordinates(coarse.joints, coarse.vertices, skin.triangles) @ vertices[skin.vertices]
     for joint, part in (("LeftEye", "left_eye"), ("RightEye", "right_eye")):
         joints[rig.index(joint)] = vertices[template.vertices_of(part)].mean(0)
     pose = Pose(joints, rotations)
@@ -123,7 +124,7 @@ def _person(
         rotations=rotations,
         expressions=units | viseme_displacements(units, len(rest)),
         head_to_body=placed,
-        coefficients=parameters[-models.body.coefficients :],
+        coefficients=coefficients,
         notices=notices,
     )
 

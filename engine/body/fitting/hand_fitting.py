@@ -13,31 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from engine.body.fitting.articulated_hand import (
+    ANGLES,
+    TURNED_LANDMARKS,
+    WRIST_SIGMA,
+    ArticulatedHand,
+    finger_priors,
+    robust,
+)
 from engine.body.fitting.least_squares import levenberg_marquardt
-from engine.body.fitting.pose_prior import JOINT_LIMIT_SIGMA
-from engine.body.fitting.posing import rotation_matrices
 from engine.body.hands import FINGERS, HandModel, finger_landmarks
 from engine.geometry.camera import Camera
 
-WRIST_SIGMA = (1.0, 0.5, 0.7)
-"""Radians about x, y and z of the T-pose by which hands turn on their arms, usually: the forearm turns with them about x."""
-THUMB_SIGMA = (*(0.4, 0.4, 0.4), *(0.4, 0.5))
-"""Radians by which the thumb turns at its root, and bends at its other joints, usually."""
-FINGER_SIGMA = (0.12, 0.6, 0.7)
-"""Radians by which a finger is spread, and bends at its first and second joint, usually."""
-CURL_RATIO = 0.6
-"""How much the last joint of a finger bends for what the one before it does: one tendon bends both."""
-CURL_SIGMA = 0.3
-"""Radians by which that joint usually does otherwise."""
-MIN_ANGLES = np.array([*(-0.8, -0.8, -0.8), *(-0.4, -0.5), *(4 * (-0.35, -0.6, -0.3, -0.4))])
-"""Radians to which joints turn at least, from the hand at rest, in which fingers are bent a little."""
-MAX_ANGLES = np.array([*(0.8, 0.8, 0.8), *(1.0, 1.3), *(4 * (0.35, 1.6, 1.9, 1.4))])
-"""Radians to which joints turn at most, from the hand at rest."""
-
 LANDMARK_SIGMA = 0.05
 """How far landmarks are off, usually, in lengths of the hand seen."""
-STRONGEST_PULL_SIGMAS = 3.0
-"""Deviations at which the pull of a landmark, or of a bone's direction, is at its strongest (Geman-McClure)."""
 DIRECTION_SIGMA = 0.25
 """How far the directions of bones in space are off, usually (the difference of unit vectors)."""
 SCALE_SIGMA = 0.2
@@ -89,47 +78,17 @@ class HandFit:
     median_error: float
 
 
-class _Hand:
-    """A hand's landmarks for many parameters at once: turn (3), shift (2), logarithm of the scale, the thumb's root (3) and
-    two bends, for each other finger spread and three bends."""
-
-    count = 6 + 5 + 4 * 4
+class _SeenHand:
+    """A hand's landmarks before a camera for many parameters at once: turn (3), shift (2), logarithm of the scale, then the
+    angles of `ArticulatedHand`."""
 
     def __init__(self, model: HandModel, coefficients: NDArray[np.floating], anchor: HandAnchor):
-        self.model, self.anchor = model, anchor
-        rest = model.mean + np.tensordot(np.asarray(coefficients), model.basis[: len(coefficients)], 1)
-        self.rest = (rest - rest[0]).astype(np.float64)
-
-    def rotations(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(N, 16, 3, 3) the hand's turn in the forearm's axes and those of the joints 1 to 3 of each finger."""
-        vectors = np.zeros((len(parameters), 16, 3))
-        thumb, others = parameters[:, 6:11], parameters[:, 11:].reshape(-1, 4, 4)
-        vectors[:, 1] = thumb[:, :3]
-        vectors[:, 2], vectors[:, 3] = (thumb[:, [k]] * self.model.bend[0] for k in (3, 4))
-        spreads = np.zeros((len(parameters), 4, 3))
-        for finger in range(4):
-            spreads[:, finger] = others[:, finger, :1] * self.model.spread
-            for joint in range(3):
-                vectors[:, 4 + 3 * finger + joint] = others[:, finger, [1 + joint]] * self.model.bend[1 + finger]
-        turns = rotation_matrices(vectors)
-        turns[:, 4::3] = rotation_matrices(spreads) @ turns[:, 4::3]
-        turns[:, 0] = rotation_matrices(parameters[:, :3])
-        return turns
+        self.articulated = ArticulatedHand(model, coefficients, anchor.forearm_axes)
+        self.anchor = anchor
 
     def __call__(self, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
         """Landmarks (N, 21, 3) in metres around the wrist, in the world's axes."""
-        turns = self.rotations(parameters)
-        hand = self.anchor.forearm_axes @ turns[:, 0]
-        places = np.zeros((len(parameters), 21, 3))
-        for k, finger in enumerate(FINGERS):
-            axes, before = hand, 0
-            for joint, landmark in enumerate(finger_landmarks(finger)):
-                step = self.rest[landmark] - self.rest[before]
-                places[:, landmark] = places[:, before] + np.einsum("nij,j->ni", axes, step)
-                if joint < 3:
-                    axes = axes @ turns[:, 1 + 3 * k + joint]
-                before = landmark
-        return places
+        return self.articulated.places(parameters[:, :3], parameters[:, 6:])
 
     def pixels(self, parameters: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
         """(N, 21, 2) where they are seen, shift and scale included."""
@@ -144,17 +103,16 @@ def fit_hand(
 
     `seen` (21, 3): pixels x and y of its landmarks, and by how many each is nearer to the viewer than the wrist.
     """
-    hand = _Hand(model, coefficients, anchor)
+    hand = _SeenHand(model, coefficients, anchor)
     length = hand_length(seen)
     of_body = Rotation.from_matrix(anchor.hand_rotation).as_rotvec()
     residuals = partial(_residuals, hand, seen, length)
     tried = [levenberg_marquardt(residuals, _start(hand, seen, turn)) for turn in (_turn(hand, seen), of_body)]
     parameters = min(tried, key=lambda found: float((residuals(found[None]) ** 2).sum()))
     off = np.linalg.norm(hand.pixels(parameters[None], hand(parameters[None]))[0] - seen[:, :2], axis=1)
-    turned = [0, *(landmark for finger in FINGERS for landmark in finger_landmarks(finger)[:3])]
     return HandFit(
-        model.joints[turned],
-        hand.rotations(parameters[None])[0],
+        model.joints[TURNED_LANDMARKS],
+        hand.articulated.rotations(parameters[None, :3], parameters[None, 6:])[0],
         parameters[3:5],
         float(np.exp(parameters[5])),
         float(np.median(off)) / length,
@@ -186,26 +144,26 @@ def hand_length(points: NDArray[np.floating]) -> float:
     return max(float(np.linalg.norm(np.diff(finger, axis=0), axis=1).sum()), 2 * across, 1.0)
 
 
-def _start(hand: _Hand, seen: NDArray[np.floating], turn: NDArray[np.floating]) -> NDArray[np.float64]:
+def _start(hand: _SeenHand, seen: NDArray[np.floating], turn: NDArray[np.floating]) -> NDArray[np.float64]:
     """Parameters with which to begin: a straight hand, its wrist where it is seen, turned (3,)."""
-    parameters = np.zeros(hand.count)
+    parameters = np.zeros(6 + ANGLES)
     parameters[:3] = turn
     placed = hand.pixels(parameters[None], hand(parameters[None]))[0]
     parameters[3:5] = seen[0, :2] - placed[0]
     return parameters
 
 
-def _turn(hand: _Hand, seen: NDArray[np.floating]) -> NDArray[np.float64]:
+def _turn(hand: _SeenHand, seen: NDArray[np.floating]) -> NDArray[np.float64]:
     """The hand's turn by which its palm lies as the one seen in space."""
     palm = [finger_landmarks(finger)[0] for finger in FINGERS[1:]]
     turn, _ = Rotation.align_vectors(
-        (seen[palm] - seen[0]) * PICTURE_TO_WORLD @ hand.anchor.forearm_axes, hand.rest[palm]
+        (seen[palm] - seen[0]) * PICTURE_TO_WORLD @ hand.anchor.forearm_axes, hand.articulated.rest[palm]
     )
     return np.asarray(turn.as_rotvec())
 
 
 def _residuals(
-    hand: _Hand, seen: NDArray[np.floating], length: float, parameters: NDArray[np.float64]
+    hand: _SeenHand, seen: NDArray[np.floating], length: float, parameters: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """(N, R): what is to be small, in standard deviations."""
     places = hand(parameters)
@@ -214,28 +172,18 @@ def _residuals(
     bones = (
         _unit(places[:, ends] - places[:, starts]) - _unit((seen[ends] - seen[starts]) * PICTURE_TO_WORLD)
     ) / DIRECTION_SIGMA
-    angles = parameters[:, 6:]
-    fingers = angles[:, 5:].reshape(-1, 4, 4)
     count = len(parameters)
     return np.concatenate(
         [
-            _robust(off).reshape(count, -1),
-            _robust(bones).reshape(count, -1),
+            robust(off).reshape(count, -1),
+            robust(bones).reshape(count, -1),
             parameters[:, :3] / WRIST_SIGMA,
             parameters[:, 3:5] / (SHIFT_SIGMA * length),
             parameters[:, 5:6] / SCALE_SIGMA,
-            angles[:, :5] / THUMB_SIGMA,
-            (fingers[..., :3] / FINGER_SIGMA).reshape(count, -1),
-            (fingers[..., 3] - CURL_RATIO * fingers[..., 2]) / CURL_SIGMA,
-            (np.maximum(angles - MAX_ANGLES, 0) + np.maximum(MIN_ANGLES - angles, 0)) / JOINT_LIMIT_SIGMA,
+            finger_priors(parameters[:, 6:]),
         ],
         axis=1,
     )
-
-
-def _robust(off: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Deviations (..., D) of which large ones pull less and less."""
-    return np.asarray(off / np.sqrt(1 + (off**2).sum(-1, keepdims=True) / STRONGEST_PULL_SIGMAS**2))
 
 
 def _unit(vectors: NDArray[np.floating]) -> NDArray[np.float64]:

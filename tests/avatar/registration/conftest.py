@@ -7,6 +7,7 @@ import pytest
 from known_person import KnownPerson
 
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.registration.hand_pose import with_hands
 from engine.avatar.registration.models import HumanModels, load_models
 from engine.body.fitting.posing import FITTED_JOINTS
 
@@ -28,7 +29,7 @@ def person(models: HumanModels) -> KnownPerson:
     parameters = np.concatenate([np.zeros(3), turns.ravel(), random.normal(0, 0.8, models.body.coefficients)])
     parameters[1] -= models.body.vertices(parameters)[:, 1].min()
     carried = models.body.poser(parameters[None]).carry(models.landmarks)[0]
-    vertices = models.whole(parameters)
+    vertices = with_hands(models, parameters, SpatialLandmarks({})).whole
     face = vertices[models.skin.vertices][models.skin.face_points]
     named = {name: at + random.normal(0, 0.005, 3) for name, at in zip(models.landmarks.names, carried, strict=True)}
     return KnownPerson(parameters, vertices, SpatialLandmarks(named, face + random.normal(0, 0.001, face.shape)))
