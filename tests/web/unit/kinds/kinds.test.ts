@@ -26,7 +26,7 @@ describe('the list of kinds', () => {
   });
 
   it('has each say which kinds look into files for it, and none of these is a work', () => {
-    expect(kinds.all.map(({ inspections }) => inspections)).toEqual([['moments'], ['motion'], []]);
+    expect(kinds.all.map(({ inspections }) => inspections)).toEqual([['moments'], ['motion'], ['motion']]);
     expect(kinds.offered(kinds.all.flatMap(({ inspections }) => inspections))).toEqual([]);
   });
 

@@ -1,17 +1,28 @@
-/** Avatars: two clips of a person become one that games take. Ordered and shown as the service describes them. */
+/** Avatars: two clips of a person become one that games take. */
 
 import type { Kind } from '../../kind/kind';
+import { motionName } from '../../motion/motion_names';
+import { textOf } from '../../works/inputs';
 import { genericKind } from '../generic';
-import type { GenericOrder } from '../generic/order';
+import { type AvatarOrder, namesOf, request } from './order';
+import { avatarOptions, USUAL_MOTION } from './types';
 import { words } from './words';
 
-export const avatar: Kind<GenericOrder> = {
+const namedMotion: Kind['performance'] = (job) => motionName(avatarOptions(job).motion ?? USUAL_MOTION);
+
+export const avatar: Kind<AvatarOrder> = {
   ...genericKind('avatar'),
   label: words.label,
+  link: '#/avatar',
+  loadStudio: () => import('./studio'),
   stages: words.stages,
   failures: words.failures,
   differences: words.differences,
-  files: words.files,
+  valueOf: (job, name) => (name === 'motion' && !job.inputs.motion ? namedMotion(job) : null),
+  performance: (job) => textOf(job.metadata.performance) ?? (job.inputs.motion || job.inputs.driver ? null : namedMotion(job)),
+  performed: words.show.does,
+  namesOf,
+  request,
   shared: {
     title: words.sharedTitle,
     alt: words.result,
@@ -23,5 +34,7 @@ export const avatar: Kind<GenericOrder> = {
     ],
     opened: /^(avatar\.(glb|usdz)|(turntable|animation)\.mp4|poster\.jpg)$/,
   },
+  inspections: ['motion'],
+  files: words.files,
   endings: { body: 'mp4', head: 'mp4', motion: 'bvh', driver: 'mp4' },
 };

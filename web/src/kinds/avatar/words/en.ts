@@ -1,4 +1,6 @@
-/** English: avatars: their studio, and what is said of them wherever kinds are named. */
+/** English: avatars: their studio, how to film for them, their faces, and what is said of them wherever kinds are named. */
+
+import type { MixtureName, UnitGroup } from '../expressions/units';
 
 const english = {
   label: 'Avatar',
@@ -63,6 +65,193 @@ const english = {
 
   /** Files, by what they are to an order. */
   files: { body: 'the body clip', head: 'the head clip', motion: 'the motion', driver: 'the driver' },
+
+  studio: {
+    title: 'Make an avatar of a person',
+    lead: 'Film somebody with a phone, once around the body and once around the head. They become an avatar for games: rigged, with fingers, eyes, teeth and expressions.',
+    clips: {
+      body: {
+        title: 'Body clip',
+        hint: 'The whole person, who stands still while you walk around them. About 80 seconds.',
+        drop: 'Drop the body clip here',
+        browse: 'or choose a video',
+        chosen: (name: string) => `Body clip: ${name}. Choose another`,
+        drawing: 'The way of the camera: a circle around the upper body, then a lower one around the legs',
+        steps: [
+          'Feet a little apart, arms away from the body, fingers spread. The person looks ahead and does not move.',
+          'Walk one slow circle, two metres away, with head and upper body in the picture.',
+          'Walk a second circle, held lower, with hips, legs and feet in the picture.',
+        ],
+      },
+      head: {
+        title: 'Head clip',
+        hint: 'The same person’s head from close by, as still. About 30 seconds.',
+        without: 'Optional. Without it the face is as coarse as the body clip shows it: fine for a figure in the distance, not for a close-up.',
+        drop: 'Drop the head clip here',
+        browse: 'or choose a video',
+        chosen: (name: string) => `Head clip: ${name}. Choose another`,
+        drawing: 'The way of the camera: a circle around the head, then over the crown, then under the chin',
+        steps: [
+          'Walk one slow circle at arm’s length, at the height of the eyes. The eyes are open, the mouth is closed.',
+          'Raise the phone over the crown.',
+          'Lower it under the chin.',
+        ],
+      },
+    },
+    remove: 'Remove this clip',
+    wrongClip: 'This is not a video. Please choose the clip as the phone made it: MP4, MOV or another video file.',
+    needBody: 'Choose a body clip to begin.',
+    needConsent: 'Confirm that the person agreed to it.',
+    wrongHeight: 'Check the height.',
+    failsTitle: 'What makes others fail',
+    fails: [
+      'Walking quickly: the frames are blurred.',
+      'Half a circle: what was not filmed is guessed.',
+      'A person who turns before a phone that stands still.',
+      'Others who walk about in the background.',
+      'Dark rooms, hard shadows, zoom.',
+      'Bare walls and floors: the cameras are found by patterns.',
+      'Loose hair, hats and wide coats: they become creased skin.',
+    ],
+    helpsTitle: 'What helps',
+    helps: 'Daylight or many lamps, clothes with a pattern, tied hair, the phone upright and at its highest resolution.',
+
+    person: 'The person',
+    height: 'Height',
+    heightUnit: 'cm or m',
+    heightExample: 'for example 175 or 1.75',
+    heightHint: 'Makes the size true. Without it the avatar has the size of an average person.',
+    heightRead: (metres: string) => `${metres} m`,
+    heightWrong: 'People are between 0.8 and 2.4 m tall.',
+    consentTitle: 'Whose body this is',
+    consent:
+      'An avatar is somebody’s body and face. Give clips only of yourself, or of people who agreed to it and to what it will be used for. Deleting the work erases the clips and all that was made of them: frames, measurements, the avatar.',
+    agreed: 'The clips show me, or somebody who agreed to this.',
+
+    animation: 'Animation',
+    animationHint: 'What the avatar does in its video. It can take on any other motion later.',
+    driver: 'Face of the animation',
+    driverHint: 'Optional: a video of anybody’s face. The avatar’s face does what that face does.',
+    driverDrop: 'Drop a video of a face here',
+    driverBrowse: 'or choose one',
+    driverChosen: (name: string) => `Face: ${name}. Choose another`,
+    wrongDriver: 'This is not a video.',
+    removeDriver: 'Remove this video',
+
+    videoSize: 'Size of the videos',
+    videoSizes: {
+      '720x1280': 'Upright, 720 × 1280',
+      '1080x1920': 'Upright, 1080 × 1920',
+      '1280x720': 'Wide, 1280 × 720',
+      '1080x1080': 'Square, 1080 × 1080',
+    } as Record<string, string>,
+    /** Options by their names; others have the service's own. */
+    options: {
+      body_frames: 'Frames of the body clip',
+      head_frames: 'Frames of the head clip',
+      texture_size: 'Texture, pixels',
+      triangles: 'Maximum triangles',
+      levels: 'Levels of detail (LOD)',
+      vrm: 'Also as VRM',
+      vrm_author: 'Author named in the VRM file',
+      fps: 'Frames per second of the videos',
+      seconds: 'Length of the animation, seconds',
+    } as Record<string, string>,
+    start: 'Create avatar',
+  },
+
+  progress: {
+    frames: { body: 'Frames chosen from the body clip', head: 'Frames chosen from the head clip' },
+    cloud: 'What was measured, and where the camera stood',
+  },
+
+  cloud: {
+    stage: 'The measured points in 3D: arrow keys circle around them, plus and minus go nearer and further',
+    loading: 'Loading the points',
+    failed: 'The points could not be loaded.',
+    points: (count: string) => `${count} of the measured points; each pyramid is a frame’s camera.`,
+    cameras: 'Show cameras',
+  },
+
+  show: {
+    label: 'What to look at',
+    names: { model: 'In 3D', animation: 'Animation', turntable: 'From all around', measured: 'Measured', texture: 'Texture' },
+    player: 'The avatar’s video',
+    usdz: 'USDZ for iPhone, iPad',
+    vrm: 'VRM',
+    glb: 'Download avatar (GLB)',
+    texture: 'Texture',
+    turntable: 'Turntable',
+    animation: 'Animation',
+    does: (motion: string) => `Motion: ${motion}`,
+    textureAlt: 'The avatar’s texture, all of its skin laid flat',
+  },
+
+  face: {
+    title: 'Expressions',
+    closeUp: 'Close-up',
+    reset: 'Reset face',
+    mixtures: 'Expressions to try',
+    mixtureNames: {
+      smile: 'Smile',
+      surprise: 'Surprise',
+      sad: 'Sad',
+      angry: 'Angry',
+      blink: 'Blink',
+      wink: 'Wink',
+    } satisfies Record<MixtureName, string>,
+    visemes: 'Visemes',
+    viseme: (name: string) => `Mouth as for “${name}”`,
+    groups: {
+      eyes: 'Eyes',
+      brows: 'Brows',
+      mouth: 'Mouth',
+      jaw: 'Jaw and tongue',
+      cheeks: 'Cheeks and nose',
+    } satisfies Record<UnitGroup, string>,
+    left: (unit: string) => `${unit}, left`,
+    right: (unit: string) => `${unit}, right`,
+    percent: (value: number) => `${Math.round(100 * value)}%`,
+  },
+
+  correct: {
+    person: 'The person',
+    height: 'Height in cm or m',
+    frames: { body: 'Frames of the body clip', head: 'Frames of the head clip' },
+    framesHint: 'Click frames in which the person moved, or that are blurred: nothing is made of them.',
+    frame: (number: number, second: string) => `Frame ${number}, at ${second}`,
+    leftOut: (count: number) => (count === 1 ? 'One frame is left out.' : `${count} frames are left out.`),
+    tooFew: (least: number) => `At least ${least} frames have to be left.`,
+    framesBack: 'Use all frames',
+    joints: 'Joints',
+    jointsHint: 'Were joints found in a wrong place? Show where they are, in two frames or more from different sides.',
+    jointsNeeded: 'Show where these joints are, in two frames or more from different sides.',
+    doubtful: (names: string) => `In doubt: ${names}.`,
+    placeJoints: 'Place joints',
+    placed: (count: number) => (count === 1 ? 'One joint is placed by hand.' : `${count} joints are placed by hand.`),
+    once: (names: string) => `Still to be shown in a second frame: ${names}.`,
+    jointsBack: 'Find all by itself',
+    animation: 'The animation',
+    driver: 'Face of the animation',
+    driverKept: 'The same video as before.',
+    driverBack: 'Without a face video',
+    options: 'The files',
+  },
+
+  place: {
+    title: 'Place the joints',
+    joint: 'Joint',
+    frame: 'Frame',
+    before: 'Frame before',
+    next: 'Next frame',
+    stage: (joint: string) => `The frame: click where the ${joint} is; arrow keys move the point`,
+    help: 'Choose a joint, click where it is in this frame, then go to a frame from another side and click again. Left and right are the person’s own.',
+    count: (joint: string, frames: number) => `${joint} (${frames})`,
+    clear: 'Remove from this frame',
+    unreadable: 'This browser cannot play the clip: a small picture of the frame stands in for it.',
+    cancel: 'Cancel',
+    done: 'Apply',
+  },
 };
 
 export type AvatarWords = typeof english;
