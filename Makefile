@@ -36,8 +36,10 @@ imports:  ## which package may import which
 # the order of their folders the last files are short ones: nobody works alone at the end.
 PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --disable-warnings
 
-# Once for all three, which would compile the same at the same time.
+# Once for all three, which would compile the same at the same time. Python's own, too: where the environment forbids to
+# write it by the way (PYTHONDONTWRITEBYTECODE), each of some hundred services would compile itself anew.
 compiled:
+	@$(BIN)/python -m compileall -q engine galatea galatea_client service shell worker tests
 	@$(BIN)/python -m scripts.compiled
 
 unit: compiled  ## pytest: engine, service, worker, shell
