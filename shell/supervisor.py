@@ -62,6 +62,7 @@ class Supervisor:
         self._looked = self._attentive = time.monotonic()
         self._programs: list[Program] = []
         self._lock = threading.Lock()
+        self._another = threading.Event()
         threading.Thread(target=self._watch, name="supervisor", daemon=True).start()
 
     def keep(
@@ -71,6 +72,7 @@ class Supervisor:
         program = Program(name, command, stop_seconds, lives, wanted=True)
         with self._lock:
             self._programs.append(program)
+        self._another.set()
         if lives is not None:
             threading.Thread(target=self._listen, args=[program, lives], name=f"listen-{name}", daemon=True).start()
 
@@ -100,7 +102,8 @@ class Supervisor:
                 for program in self._programs:
                     if program.wanted:
                         self._tend(program)
-            time.sleep(LOOK_SECONDS)
+            self._another.wait(LOOK_SECONDS)
+            self._another.clear()
 
     def _tend(self, program: Program) -> None:
         moment = time.monotonic()
