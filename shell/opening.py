@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from alembic.script.revision import RevisionError
-from alembic.util import CommandError
 from sqlalchemy.exc import DBAPIError
 
 from service.catalogue.registry import load_kinds, require_known
 from service.context import Context
 from service.database import postgresql
+from service.database.sessions import UnknownVersion
 from service.settings import Settings
 from shell.cli_error import CliError
 
@@ -20,7 +19,7 @@ def open_context(settings: Settings, part: str) -> Context:
         return Context.open(settings, part)
     except DBAPIError as error:
         raise CliError(explain_database_error(settings, error)) from error
-    except (CommandError, RevisionError) as error:
+    except UnknownVersion as error:
         raise CliError(
             f"The database is not of this release ({error}): start the newer one, or go back with its `galatea migrate`."
         ) from error

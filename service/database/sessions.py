@@ -12,10 +12,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import structlog
-from alembic import command
-from alembic.config import Config
-from alembic.runtime.migration import MigrationContext
-from alembic.script import ScriptDirectory
 from sqlalchemy import (
     ColumnClause,
     MetaData,
@@ -23,6 +19,7 @@ from sqlalchemy import (
     TableClause,
     inspect,
     select,
+    text,
     update,
 )
 from sqlalchemy.engine import Connection
@@ -42,6 +39,10 @@ class DatabaseInUse(Exception):
 
 class DowngradeLosesData(Exception):
     """Going down to an older version erases what that has no room for; the message says what."""
+
+
+class UnknownVersion(Exception):
+    """The tables are of a version that this release does not know."""
 
 
 class Database:
@@ -74,10 +75,18 @@ class Database:
         """Bring the tables to the newest version, and secrets under the first key of the vault.
 
         Safe when several processes start at once. An older release that is still running beside it goes on, but for what
-        was renamed since (public links) and what a key has encrypted.
+        was renamed since (public links) and what a key has encrypted. Raises `UnknownVersion`.
         """
         with self._kind.alone(self.url) as connection:
-            _move(connection, "head", False, self._vault)
+            here = _version(connection)
+            connection.rollback()
+            if here != newest_version():
+                from service.database import steps  # slow to import, and mostly there is nothing to do
+
+                try:
+                    steps.move(connection, "head", False, self._vault)
+                except steps.UNKNOWN as error:
+                    raise UnknownVersion(str(error)) from error
         self._seal_anew()
 
     def _seal_anew(self) -> None:
@@ -111,25 +120,29 @@ class Database:
         Going down forgets what the older version cannot hold, and is done only where `forget` says so. Raises
         `DatabaseInUse`, `DowngradeLosesData`, and alembic's `CommandError` where there is no such version.
         """
+        from service.database import steps
+
         self._engine.dispose()  # our own connections, of which none is at work
         with self._kind.alone(self.url) as connection:
-            here = MigrationContext.configure(connection).get_current_revision()
+            here = _version(connection)
             connection.rollback()
-            if here is not None and (aim := _scripts().get_revision(revision)) is not None and aim.revision == here:
+            if here is not None and steps.aim(revision) == here:
                 return
-            down = revision in _below(here)
+            down = revision in steps.below(here)
             if down and not forget:
                 raise DowngradeLosesData("; ".join(self._forgotten(connection, revision)) or "nothing")
             with self._kind.unused(self.url, connection) as free:
                 if not free:
                     raise DatabaseInUse
-                _move(connection, revision, down, self._vault)
+                steps.move(connection, revision, down, self._vault)
 
     def forgets(self, revision: str) -> list[str]:
         """What going to a version would erase, in words: tables, and columns of tables. Empty where it is not older."""
+        from service.database import steps
+
         with self._engine.connect() as connection:
-            here = MigrationContext.configure(connection).get_current_revision()
-            return self._forgotten(connection, revision) if revision in _below(here) else []
+            older = revision in steps.below(_version(connection))
+            return self._forgotten(connection, revision) if older else []
 
     def _forgotten(self, connection: Connection, revision: str) -> list[str]:
         """The tables and columns that are here and not in an older version, which is made to see what it has."""
@@ -151,7 +164,7 @@ class Database:
     def revision(self) -> str | None:
         """The version of the tables; None if there are none yet."""
         with self._engine.connect() as connection:
-            return MigrationContext.configure(connection).get_current_revision()
+            return _version(connection)
 
     def tidy(self) -> None:
         """See to it that what was erased is nowhere on disk, as far as this database can be told to."""
@@ -162,26 +175,22 @@ class Database:
         self._engine.dispose()
 
 
-def _move(connection: Connection, revision: str, down: bool, vault: Vault) -> None:
-    config = alembic_config()
-    config.attributes |= {"connection": connection, "vault": vault}
-    (command.downgrade if down else command.upgrade)(config, revision)
+def _version(connection: Connection) -> str | None:
+    """The version of the tables, as alembic wrote it down; None if there are none yet."""
+    if not inspect(connection).has_table("alembic_version"):
+        return None
+    return connection.scalar(text("SELECT version_num FROM alembic_version"))
+
+
+def newest_version() -> str:
+    """The newest version that there is a migration to: their files begin with it."""
+    return max(path.name.partition("_")[0] for path in package_folder("service.migrations.versions").glob("[0-9]*.py"))
 
 
 def _secrets(tables: MetaData) -> list[tuple[str, str]]:
     """The columns that hold secrets, each with its table, whose rows have an `id`."""
     found = [(table.name, column) for table in tables.sorted_tables for column in table.columns]
     return [(name, column.name) for name, column in found if isinstance(column.type, Sealed)]
-
-
-def _scripts() -> ScriptDirectory:
-    return ScriptDirectory.from_config(alembic_config())
-
-
-def _below(revision: str | None) -> list[str]:
-    """The versions that were passed on the way to one: going there is going down."""
-    passed = [script.revision for script in _scripts().iterate_revisions(revision, "base")] if revision else []
-    return ["base", *passed[1:]] if passed else []
 
 
 def _columns(connection: Connection) -> dict[str, set[str]]:
@@ -210,10 +219,3 @@ def database_unavailable(error: BaseException) -> bool:
 def database_full(error: DBAPIError) -> bool:
     """Whether an error says that there is no room for what was to be written."""
     return "disk is full" in str(error.orig) or postgresql.error_code(error.orig) == postgresql.NO_ROOM
-
-
-def alembic_config() -> Config:
-    """Where the migrations are."""
-    config = Config()
-    config.set_main_option("script_location", str(package_folder("service.migrations")))
-    return config

@@ -14,7 +14,8 @@ from alembic.script import ScriptDirectory
 from sqlalchemy import MetaData, Table, create_engine, insert, select, text
 
 from service.auth.tokens import digest
-from service.database.sessions import Database, DatabaseInUse, DowngradeLosesData, alembic_config, postgresql
+from service.database.sessions import Database, DatabaseInUse, DowngradeLosesData, newest_version, postgresql
+from service.database.steps import alembic_config
 from service.links.repository import page, valid_link
 from service.tables import Base
 
@@ -102,6 +103,11 @@ def test_each_step_up_and_down_keeps_what_was_there(database: Database) -> None:
         metadata = MetaData()
         metadata.reflect(connection)
     assert set(metadata.tables) == {"alembic_version"}
+
+
+def test_the_newest_version_is_the_head() -> None:
+    """It is told by the files' names, without alembic, wherever the tables are up to date already."""
+    assert newest_version() == SCRIPTS.get_current_head()
 
 
 def test_tables_that_somebody_uses_are_left_as_they_are(database: Database) -> None:
