@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
-import asyncio
 import fcntl
 import signal
 import socket
-import sys
 import time
 from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import IO
 
-import click
 import redis
 import structlog
-import uvicorn
-from fastapi import FastAPI
 
-from service.app import make_app
 from service.auth.repository import any_usable
-from service.connections.connection_limit import ConnectionLimit, most_connections, raise_file_limit
-from service.connections.protocol import Config
-from service.connections.stopping import Stopping
 from service.context import Context
-from service.http.page import NOT_BUILT, is_built
 from service.logs import configure
 from service.pulse import BEAT_SECONDS, silent_seconds, worker_name
 from service.redis_server import redis_command, socket_path
@@ -36,18 +26,11 @@ from shell.supervisor import Supervisor
 from worker.programs.interpreter import module_command
 
 START_TIMEOUT_SECONDS = 10.0
-STOP_SECONDS = 3
-"""How long requests may take to end once the service is to end; `Stopping` has told them."""
-
 REDIS_SECONDS = 2.0
 """How long the embedded Redis may take to say that it lives."""
 
 WORKER_SECONDS = 3 * BEAT_SECONDS
 """How old a sign of life of the worker may be that counts as one of now."""
-
-SWITCH_SECONDS = 0.0005
-"""How long one thread may keep Python to itself: a request passes from thread to thread several times, and would wait
-so long each time."""
 
 
 def serve(settings: Settings) -> None:
@@ -70,34 +53,14 @@ def _serve(settings: Settings, supervisor: Supervisor, listening: socket.socket)
     if settings.redis_url is None:
         supervisor.keep("redis", redis_command(settings.data_dir), 5, partial(_redis_lives, _redis(settings)))
         _await_redis(settings)
-    sys.setswitchinterval(SWITCH_SECONDS)
     context = open_context(settings, "api")
     _require_a_key(context)
     if settings.worker:
         command = module_command("shell.main", "worker")
         supervisor.keep("worker", command, 10, partial(_worker_lives, settings.data_dir))
-    app = make_app(context)
-    if not is_built(settings.web_dir):
-        click.echo(NOT_BUILT, err=True)
-    Server(_config(settings, app), app.state.stopping).run(sockets=[listening])
+    from shell.web_server import answer_requests  # beside the worker, which starts meanwhile
 
-
-def _config(settings: Settings, app: FastAPI) -> Config:
-    return Config(
-        app,
-        ConnectionLimit(most_connections(settings.connections, raise_file_limit())),
-        settings.head_seconds,
-        settings.send_seconds,
-        timeout_keep_alive=settings.idle_seconds,
-        loop="uvloop",
-        ws="none",
-        log_config=None,
-        access_log=settings.log_level == "DEBUG",
-        proxy_headers=False,
-        server_header=False,
-        timeout_graceful_shutdown=STOP_SECONDS,
-        lifespan="off",
-    )
+    answer_requests(context, listening)
 
 
 def _require_a_key(context: Context) -> None:
@@ -107,27 +70,6 @@ def _require_a_key(context: Context) -> None:
                 "Nobody could use the service: it asks for a key, and there is none. Make one first, with the same "
                 "settings: galatea keys create NAME"
             )
-
-
-class Server(uvicorn.Server):
-    """Says where it is once it answers, and tells all requests when it is to end."""
-
-    def __init__(self, config: Config, stopping: Stopping):
-        super().__init__(config)
-        self._stopping = stopping
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets)
-        for listening in sockets or []:
-            host, port = listening.getsockname()[:2]
-            shown = f"[{host}]" if ":" in host else host
-            print(f"Galatea serves at http://{shown}:{port}/", flush=True)
-
-    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        self._stopping.begin()
-        await super().shutdown(sockets)
-        if self.server_state.tasks:  # those that were cut short still say so
-            await asyncio.wait(self.server_state.tasks, timeout=1)
 
 
 def _listen(settings: Settings) -> socket.socket:
