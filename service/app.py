@@ -6,7 +6,7 @@ from fastapi import APIRouter, FastAPI
 from fastapi.middleware.cors import CORSMiddleware
 
 import engine
-from service import openapi, problems
+from service import openapi, problem_answers
 from service.artifacts.endpoints import router as artifacts
 from service.connections.body_timeout import BodyTimeout
 from service.connections.stopping import Stopping
@@ -46,7 +46,7 @@ def make_app(context: Context) -> FastAPI:
     app.state.uploads = ActiveUploads()
     app.state.stopping = Stopping()
     app.state.watch = Watch(context, app.state.stopping)
-    problems.install(app)
+    problem_answers.install(app)
     openapi.describe(app, context.settings.keys_required)
     v1 = APIRouter(prefix="/v1")
     for router in (files, uploads, jobs, events, artifacts, kinds, drivers, motions, keys, links, webhooks):

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
-
-from fastapi import Depends, Request
 
 from engine.kind import Kind
 from service.catalogue.registry import load_kinds, require_known
@@ -52,11 +49,3 @@ class Context:
 def open_storage(settings: Settings) -> Storage:
     """The bucket of the settings, or a folder in the data folder."""
     return Bucket(settings) if settings.storage_url is not None else Storage(settings.data_dir / "storage")
-
-
-async def _context(request: Request) -> Context:  # `async`: what waits for nothing needs no thread
-    context: Context = request.app.state.context
-    return context
-
-
-InContext = Annotated[Context, Depends(_context)]

@@ -16,8 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.imaging.resample import resized
-
 MATTING_SETTING = "GALATEA_MATTING_MODEL"
 """The file; the same with _SHA256 and _LICENCE (both needed), and _SIZE ("512"), _MEAN and _STD ("0.5" or
 three numbers with commas, of colours in [0, 1]) where the model needs them."""
@@ -52,6 +50,8 @@ class MattingModel:
 
     def __call__(self, rgb: NDArray[np.uint8]) -> NDArray[np.float32]:
         """Alpha (h, w) in [0, 1] of the people in `rgb` (H, W, 3) uint8, at the model's own size."""
+        from engine.imaging.resample import resized  # not for those who only ask for the setting
+
         small = resized(np.ascontiguousarray(rgb), self.size).astype(np.float32) / np.float32(255)
         normal = (small - np.array(self.mean, np.float32)) / np.array(self.std, np.float32)
         tensor = np.ascontiguousarray(normal.transpose(2, 0, 1)[None], np.float32)

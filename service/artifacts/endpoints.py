@@ -13,13 +13,13 @@ from service.artifacts.archive import zipped
 from service.artifacts.naming import download_name
 from service.auth.caller import Reader, identify
 from service.auth.repository import get as get_key
-from service.context import InContext
 from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.job_records import artifacts as repository
 from service.job_records import jobs
 from service.job_records.owned import own_job
 from service.job_records.signed_links import is_valid
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.jobs import Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])

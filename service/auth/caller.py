@@ -18,10 +18,11 @@ from service.auth.rate import take_one
 from service.auth.sessions import COOKIE, key_of_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
-from service.context import Context, InContext
+from service.context import Context
 from service.database.sessions import database_full
 from service.disk import make_room
 from service.problems import Problem
+from service.request_context import InContext
 from service.tables.keys import LOCAL_KEY_ID, Key
 
 Scope = Literal["read", "submit", "admin"]

@@ -6,11 +6,11 @@ from fastapi import Request
 from starlette.responses import Response
 
 from service.auth.caller import Reader
-from service.context import InContext
 from service.drivers import service
 from service.drivers.schemas import DriverList, DriverOut
 from service.http.delivery import DELIVERED_IN_PARTS, DELIVERY_RESPONSES, deliver, stored_file
 from service.keeping.endpoints import Endpoints, library_router
+from service.request_context import InContext
 
 router = library_router(
     service.PRESENTED,

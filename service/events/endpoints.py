@@ -9,12 +9,12 @@ from sse_starlette import EventSourceResponse
 from starlette.responses import Response
 
 from service.auth.caller import Reader
-from service.context import InContext
 from service.events import repository
 from service.events.stream import follow
 from service.events.watch import InWatch
 from service.job_records.owned import own_job
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.jobs import Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])

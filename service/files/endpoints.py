@@ -9,12 +9,13 @@ from fastapi import APIRouter, Request
 from starlette.responses import Response
 
 from service.auth.caller import Caller, Reader, Submitter
-from service.context import Context, InContext
+from service.context import Context
 from service.files import repository, service
 from service.files.intake import Form
 from service.files.schemas import FileOut
 from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.files import File
 
 router = APIRouter(prefix="/files", tags=["files"])

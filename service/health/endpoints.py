@@ -9,10 +9,11 @@ from sqlalchemy import text
 from sqlalchemy.exc import SQLAlchemyError
 
 from service.auth.caller import Admin
-from service.context import Context, InContext
+from service.context import Context
 from service.disk import free_mb
 from service.health.metrics import ServiceCollector
 from service.pulse import least_silent_seconds
+from service.request_context import InContext
 
 router = APIRouter(tags=["health"])
 

@@ -14,9 +14,9 @@ from starlette.responses import Response
 from service.auth.caller import Reader, Submitter
 from service.clock import Moment
 from service.connections.stopping import InStopping, Stopping
-from service.context import Context, InContext
+from service.context import Context
 from service.disk import require_space
-from service.http.request_models import RequestModelRoute
+from service.http.json_bodies import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id
 from service.job_records import jobs as repository
 from service.job_records import owned
@@ -26,6 +26,7 @@ from service.jobs import service
 from service.jobs.request import JSON_PARTS, revise_body, submit_body
 from service.jobs.schemas import JobChange
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.jobs import TITLE_CHARACTERS, TITLE_PATTERN, Job, Status
 
 router = APIRouter(prefix="/jobs", tags=["jobs"], route_class=RequestModelRoute)

@@ -14,7 +14,7 @@ from service.context import Context
 from service.files import service as files
 from service.files.intake import Form
 from service.http.documents import parse_json
-from service.http.request_models import JSON_TYPES, read_json
+from service.http.json_bodies import JSON_TYPES, read_json
 from service.jobs.schemas import JobIn, RevisionIn
 from service.jobs.service import revise, submit
 from service.problems import Problem, invalid

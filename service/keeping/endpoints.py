@@ -11,13 +11,13 @@ from pydantic import BaseModel
 from starlette.responses import Response
 
 from service.auth.caller import Reader, Submitter
-from service.context import InContext
 from service.disk import require_space
-from service.http.request_models import RequestModelRoute
+from service.http.json_bodies import RequestModelRoute
 from service.keeping import service
 from service.keeping.presentation import Presentation, get_item, list_items
 from service.keeping.request import KeptChange, body, keep_body
 from service.problems import responses
+from service.request_context import InContext
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ from service.context import Context
 from service.disk import require_space
 from service.files import service as files
 from service.files.intake import Form
-from service.http.request_models import JSON_TYPES, REQUEST_MODEL, read_json
+from service.http.json_bodies import JSON_TYPES, read_json
+from service.http.request_models import REQUEST_MODEL
 from service.ids import LIKE_AN_ID
 from service.keeping import service
 from service.libraries.library import Library

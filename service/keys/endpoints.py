@@ -10,11 +10,11 @@ from service.auth.caller import Admin, Reader, unknown_key_problem
 from service.auth.sessions import COOKIE, SESSION_SECONDS, new_session
 from service.auth.wrong_keys import count_wrong_key
 from service.clock import now
-from service.context import InContext
-from service.http.request_models import RequestModelRoute
+from service.http.json_bodies import RequestModelRoute
 from service.keys import service
 from service.keys.schemas import KeyIn, KeyList, KeyOut, NewKeyOut, OwnKeyOut, SessionIn
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.keys import Key
 
 router = APIRouter(tags=["keys"], route_class=RequestModelRoute)

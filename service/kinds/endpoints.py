@@ -5,8 +5,8 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from service.auth.caller import Reader
-from service.context import InContext
 from service.kinds.schemas import KindList, KindOut
+from service.request_context import InContext
 
 router = APIRouter(prefix="/kinds", tags=["kinds"])
 

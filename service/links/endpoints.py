@@ -13,15 +13,15 @@ from starlette.responses import Response
 from service.auth.caller import Caller, InCaller, Reader, Scope, Submitter
 from service.auth.tokens import digest
 from service.clock import now
-from service.context import InContext
 from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
-from service.http.request_models import RequestModelRoute
+from service.http.json_bodies import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id, new_id
 from service.job_records import artifacts, jobs
 from service.job_records.owned import own_job
 from service.links import repository
 from service.links.schemas import LinkIn, LinkList, LinkOut, LinkPage, SharedOut, opens_artifact
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.links import PublicLink
 
 router = APIRouter(tags=["links"], route_class=RequestModelRoute)

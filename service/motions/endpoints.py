@@ -6,11 +6,11 @@ from fastapi import Request
 from starlette.responses import Response
 
 from service.auth.caller import Reader
-from service.context import InContext
 from service.http.delivery import DELIVERED_IN_PARTS, deliver, stored_file
 from service.keeping.endpoints import Endpoints, library_router
 from service.motions import service
 from service.motions.schemas import MotionList, MotionOut
+from service.request_context import InContext
 
 router = library_router(
     service.PRESENTED,

@@ -7,10 +7,11 @@ from fastapi import APIRouter, Depends, Request
 from starlette.responses import JSONResponse, Response
 
 from service.auth.caller import Caller, Reader, Submitter
-from service.context import Context, InContext
+from service.context import Context
 from service.disk import require_space
 from service.http.bodies import announced_bytes
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.uploads import Upload
 from service.uploads import protocol, service
 from service.uploads.checksum import Checksum

@@ -17,7 +17,8 @@ from starlette.types import Scope
 
 from service.auth.caller import InCaller
 from service.files.admission import largest_mb
-from service.problems import Problem, invalid_request, phrase
+from service.problem_answers import invalid_request
+from service.problems import Problem, phrase
 from service.settings import MEGABYTE, Settings
 from service.tables.uploads import Upload
 from service.uploads.checksum import ALGORITHMS

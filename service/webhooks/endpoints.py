@@ -10,10 +10,10 @@ from starlette.responses import Response
 
 from service.auth.caller import Reader, Submitter
 from service.clock import now
-from service.context import InContext
-from service.http.request_models import RequestModelRoute
+from service.http.json_bodies import RequestModelRoute
 from service.ids import LIKE_AN_ID, is_id
 from service.problems import Problem, responses
+from service.request_context import InContext
 from service.tables.webhooks import Delivery, DeliveryStatus
 from service.webhooks import repository, service
 from service.webhooks.repository import DeliveryFilter
