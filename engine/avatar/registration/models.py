@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 
 from engine.avatar.registration.body_model import BodyModel
 from engine.avatar.registration.coarse import SHAPE_COEFFICIENTS
@@ -31,6 +32,7 @@ class HumanModels:
     hands: Mapping[str, HandModel]
 
 
+@cache
 def load_models() -> HumanModels:
     """Load them; the first time, everything that is made once is made (some minutes)."""
     template, space, rig = load_template(), load_body_space(), load_rig(HUMAN_RIG)

@@ -8,6 +8,7 @@ Wenninger et al., Realistic Virtual Humans from Smartphone Videos, VRST 2020.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,7 @@ class HeadSpace:
     variance_held: NDArray[np.float32]
 
 
+@cache
 def load_head_space() -> HeadSpace:
     """Load the space; the first time, sample and analyse it (some twenty seconds)."""
     stored = cached_arrays("heads", _convert)
