@@ -21,6 +21,7 @@ from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.stages import (
     ClipScan,
     find_cameras,
+    find_landmarks,
     fit_template,
     measure_cloud,
     placed_frames,
@@ -52,8 +53,8 @@ from engine.run import Run, write_report
 STAGES = {
     "choose_frames": 2.0,
     "find_cameras": 4.0,
+    "find_landmarks": 2.0,
     "measure_cloud": 6.0,
-    "find_landmarks": 1.0,
     "fit_template": 2.0,
     "stitch_texture": 3.0,
     "capture_face": 0.5,
@@ -62,15 +63,15 @@ STAGES = {
     "animate": 1.0,
 }
 """The stages and their usual share of the time."""
-EACH_CLIP = ("choose_frames", "measure_cloud", "find_landmarks")
+EACH_CLIP = ("choose_frames", "find_landmarks", "measure_cloud")
 """Those that come once for each clip."""
 TURN_SECONDS = 6.0
 """Of the turntable."""
 PREVIEW_SPACING = 0.006
 """Metres between the points of `preview.ply`, which pages show: one or two megabytes."""
 
-Clipped = tuple[ChosenFrames, ClipCameras, ClipScan]
-"""A clip: its frames, their cameras, and what they measured."""
+Clipped = tuple[ChosenFrames, ClipScan]
+"""A clip: its frames, and what they measured."""
 
 
 def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, run: Run) -> None:
@@ -108,7 +109,7 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
             clips.append(_scanned(chosen[1], found.head, (), run))
         except InputError as refused:  # the body alone is an avatar, too
             run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
-    fitted = run.stage("fit_template", fit_template, clips[0][2], clips[1][2] if len(clips) > 1 else None)
+    fitted = run.stage("fit_template", fit_template, clips[0][1], clips[1][1] if len(clips) > 1 else None)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
     if not found.height_known:
@@ -135,11 +136,11 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
                 "frames": frames.indices.tolist(),
                 "placed": len(scan.placed),
             }
-            for name, (frames, _, scan) in zip(("body", "head"), clips, strict=False)
+            for name, (frames, scan) in zip(("body", "head"), clips, strict=False)
         },
         quality={
             "height_m": round(height, 4),
-            "points": float(sum(len(scan.dense.cloud) for _, _, scan in clips)),
+            "points": float(sum(len(scan.dense.cloud) for _, scan in clips)),
             "seen_share": round(texture.seen_share, 4),
             "triangles": float(len(avatar.mesh.triangles)),
             "largest_coefficient": round(float(np.abs(fitted.coefficients).max()), 2),
@@ -150,8 +151,9 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
 
 def _scanned(frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], run: Run) -> Clipped:
     """A clip with its cloud and landmarks, some `given` by hand."""
-    dense = run.stage("measure_cloud", measure_cloud, frames, cameras, run.tick)
-    return frames, cameras, run.stage("find_landmarks", scan_clip, frames, cameras, dense, given)
+    seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.tick)
+    dense = run.stage("measure_cloud", measure_cloud, frames, cameras, seen, run.tick)
+    return frames, scan_clip(frames, seen, dense, given)
 
 
 def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, float]:
@@ -161,7 +163,7 @@ def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, flo
     skin = np.zeros(len(part), np.bool_)
     skin[template.vertices_of("body")] = True
     shown = coverage(
-        fitted.vertices, {name: skin & (part == k) for k, name in enumerate(BODY_PARTS)}, clips[0][2].dense.cloud
+        fitted.vertices, {name: skin & (part == k) for k, name in enumerate(BODY_PARTS)}, clips[0][1].dense.cloud
     )
     return {name: round(share, 3) for name, share in shown.items()}
 
@@ -189,7 +191,7 @@ def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None)
     """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the body's clip; their paths."""
     clouds: list[PointCloud] = []
     written = []
-    for name, (frames, _, scan) in zip(("body", "head"), clips, strict=False):
+    for name, (frames, scan) in zip(("body", "head"), clips, strict=False):
         cloud, cameras = scan.dense.cloud, scan.cameras
         if name == "head" and into is not None:
             cloud = replace(

@@ -12,8 +12,10 @@ from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cam
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
-from engine.avatar.landmarks.detection import find_landmarks
+from engine.avatar.capture.limb_masks import limbs_of, with_limbs
+from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
+from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import load_models
@@ -24,7 +26,7 @@ from engine.avatar.texture.views import FrameView
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
-from engine.imaging.resample import enlarged_mask
+from engine.imaging.resample import enlarged_mask, resized
 
 FEATURE_SIDE = 1280
 """Pixels of the longer side of frames in which features are found."""
@@ -38,12 +40,23 @@ Warn = Callable[[str, str], None]
 
 
 @dataclass(frozen=True)
+class ClipLandmarks:
+    """Of those frames of a clip that were placed (`placed`, their numbers): the landmarks that each shows, `seen`, in pixels of
+    the clip's own size, and where the person is, `masks`, (h, w) bool, hands and feet included."""
+
+    placed: NDArray[np.int64]
+    seen: tuple[FrameLandmarks, ...]
+    masks: tuple[NDArray[np.bool_], ...]
+
+
+@dataclass(frozen=True)
 class ClipScan:
     """What one clip gave: the `cameras` of those of its chosen frames that were placed (`placed`, their numbers), of the clip's
-    own size; the person's `dense` cloud and `landmarks`, in the cameras' world, metres."""
+    own size, and the person's `masks` there; the person's `dense` cloud and `landmarks`, in the cameras' world, metres."""
 
     placed: NDArray[np.int64]
     cameras: tuple[Camera, ...]
+    masks: tuple[NDArray[np.bool_], ...]
     dense: DenseCloud
     landmarks: SpatialLandmarks
 
@@ -63,29 +76,44 @@ def find_cameras(
     return solve_cameras(clips[0], clips[1], height_m, warn, tick)
 
 
-def measure_cloud(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> DenseCloud:
+def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> ClipLandmarks:
+    """The landmarks that the frames of a clip show (section 3.3), and masks in which, by these, no hand or foot is missing."""
+    placed = placed_frames(found)
+    cameras = [_camera_of(found, int(k), chosen.size) for k in placed]
+    seen = []
+    for number, k in enumerate(placed):
+        picture = chosen.picture(int(k), LANDMARK_SIDE)
+        seen.append(frame_landmarks(picture).scaled(chosen.size[0] / picture.shape[0]))
+        tick(number / len(placed))
+    limbs = limbs_of(spatial_landmarks(list(zip(cameras, seen, strict=True))))
+    masks = []
+    for k, camera in zip(placed, cameras, strict=True):
+        mask = found.masks[k]
+        small = resized(chosen.picture(int(k)), (mask.shape[1], mask.shape[0]))
+        masks.append(with_limbs(small, mask, _resized(camera, (mask.shape[0], mask.shape[1])), limbs))
+    return ClipLandmarks(placed, tuple(seen), tuple(masks))
+
+
+def measure_cloud(chosen: ChosenFrames, found: ClipCameras, landmarks: ClipLandmarks, tick: Tick) -> DenseCloud:
     """The person's cloud from one clip: section 3.2's second half. Raises what `dense_cloud` raises."""
     views = []
-    for k in placed_frames(found):
+    for k, mask in zip(landmarks.placed, landmarks.masks, strict=True):
         image = chosen.picture(int(k), STEREO_SIDE)
-        figure = enlarged_mask(found.masks[k], (image.shape[1], image.shape[0]))
+        figure = enlarged_mask(mask, (image.shape[1], image.shape[0]))
         views.append(CapturedView(image, figure, _camera_of(found, int(k), (image.shape[0], image.shape[1]))))
     return dense_cloud(views, told=tick)
 
 
 def scan_clip(
-    chosen: ChosenFrames, found: ClipCameras, dense: DenseCloud, given: tuple[GivenLandmark, ...]
+    chosen: ChosenFrames, landmarks: ClipLandmarks, dense: DenseCloud, given: tuple[GivenLandmark, ...]
 ) -> ClipScan:
-    """The landmarks of the person in one clip (section 3.3), with all that is known of it. The person's sway is in the cameras
-    as dense stereo has laid them on the cloud. Those `given` by hand are in pixels of the clip's own size."""
-    placed = placed_frames(found)
+    """The landmarks of the person in space, with all that is known of one clip. The person's sway is in the cameras as dense
+    stereo has laid them on the cloud. Those `given` by hand are in pixels of the clip's own size."""
     cameras = tuple(_resized(camera, chosen.size) for camera in dense.cameras)
-    landmarks = find_landmarks(
-        (_resized(camera, (picture.shape[0], picture.shape[1])), picture)
-        for camera, picture in zip(cameras, (chosen.picture(int(k), LANDMARK_SIDE) for k in placed), strict=True)
-    )
+    found = spatial_landmarks(list(zip(cameras, landmarks.seen, strict=True)))
     by_hand = {one.name: placed_by_hand(one, cameras) for one in given}
-    return ClipScan(placed, cameras, dense, replace(landmarks, body={**landmarks.body, **by_hand}))
+    spatial = replace(found, body={**found.body, **by_hand})
+    return ClipScan(landmarks.placed, cameras, landmarks.masks, dense, spatial)
 
 
 def fit_template(body: ClipScan, head: ClipScan | None) -> FittedTemplate:
@@ -93,14 +121,15 @@ def fit_template(body: ClipScan, head: ClipScan | None) -> FittedTemplate:
     return register(load_models(), body.scan(), None if head is None else head.scan())
 
 
-def stitch_texture(
-    fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipCameras, ClipScan]], size: int
-) -> AvatarTexture:
+def stitch_texture(fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipScan]], size: int) -> AvatarTexture:
     """The texture, `size` texels a side, from the frames of the body's and of the head's clip: section 3.5."""
     views: list[FrameView] = []
-    for (chosen, found, scan), into in zip(clips, (None, fitted.head_to_body), strict=False):
+    for (chosen, scan), into in zip(clips, (None, fitted.head_to_body), strict=False):
         cameras = scan.cameras if into is None else tuple(camera.moved(into) for camera in scan.cameras)
-        views += [_frame_view(chosen, found, int(k), camera) for k, camera in zip(scan.placed, cameras, strict=True)]
+        views += [
+            _frame_view(chosen, int(k), camera, mask)
+            for k, camera, mask in zip(scan.placed, cameras, scan.masks, strict=True)
+        ]
     template, rig = load_template(), load_rig(HUMAN_RIG)
     return avatar_texture(template_surface(template, rig), rig, fitted.vertices, views, size)
 
@@ -110,9 +139,9 @@ def placed_frames(found: ClipCameras) -> NDArray[np.int64]:
     return np.array([k for k, camera in enumerate(found.cameras) if camera is not None], np.int64)
 
 
-def _frame_view(chosen: ChosenFrames, found: ClipCameras, k: int, camera: Camera) -> FrameView:
+def _frame_view(chosen: ChosenFrames, k: int, camera: Camera, mask: NDArray[np.bool_]) -> FrameView:
     height, width = chosen.size
-    return FrameView(camera, lambda: chosen.picture(k), lambda: enlarged_mask(found.masks[k], (width, height)))
+    return FrameView(camera, lambda: chosen.picture(k), lambda: enlarged_mask(mask, (width, height)))
 
 
 def _camera_of(found: ClipCameras, k: int, size: tuple[int, int]) -> Camera:

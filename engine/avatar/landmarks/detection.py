@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
+from engine.avatar.landmarks.in_frames import FrameLandmarks
 from engine.avatar.landmarks.robust_triangulation import triangulate_robustly
 from engine.avatar.landmarks.spatial import FACE_LANDMARKS, HAND_LANDMARKS, HAND_SIDES, SpatialLandmarks
 from engine.body.fitting.hand_fitting import hand_length
@@ -26,13 +26,7 @@ MAX_FACE_TURN = 0.65
 seen from the side have landmarks that are guessed."""
 
 
-def find_landmarks(views: Iterable[tuple[Camera, NDArray[np.uint8]]]) -> SpatialLandmarks:
-    """The landmarks of the person in `views`: cameras and their frames (H, W, 3) uint8, read one by one."""
-    seen = [(camera, frame_landmarks(frame)) for camera, frame in views]
-    return spatial_landmarks(seen)
-
-
-def spatial_landmarks(seen: list[tuple[Camera, FrameLandmarks]]) -> SpatialLandmarks:
+def spatial_landmarks(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> SpatialLandmarks:
     """What several views agree on, metres in the world of the cameras."""
     body = {}
     for name in sorted({name for _, found in seen for name in found.body}):
@@ -46,7 +40,7 @@ def spatial_landmarks(seen: list[tuple[Camera, FrameLandmarks]]) -> SpatialLandm
     return SpatialLandmarks(body, _face(seen), np.stack([_hand(seen, side) for side in HAND_SIDES]))
 
 
-def _hand(seen: list[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.float64]:
+def _hand(seen: Sequence[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.float64]:
     """(21, 3) the landmarks of the person's hand on that `side`; NaN where views do not agree."""
     having = [(camera, *found.hands[side]) for camera, found in seen if side in found.hands]
     out = np.full((HAND_LANDMARKS, 3), np.nan)
@@ -63,7 +57,7 @@ def _hand(seen: list[tuple[Camera, FrameLandmarks]], side: str) -> NDArray[np.fl
     return out
 
 
-def _face(seen: list[tuple[Camera, FrameLandmarks]]) -> NDArray[np.float64]:
+def _face(seen: Sequence[tuple[Camera, FrameLandmarks]]) -> NDArray[np.float64]:
     """(68, 3) the face's landmarks from the views that show it from the front; NaN where they do not agree."""
     having = [(camera, found.face) for camera, found in seen if found.face is not None and _frontal(found.face)]
     out = np.full((FACE_LANDMARKS, 3), np.nan)

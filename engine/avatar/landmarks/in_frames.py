@@ -41,6 +41,18 @@ class FrameLandmarks:
     face: NDArray[np.float64] | None
     hands: Mapping[str, tuple[NDArray[np.float64], float]] = field(default_factory=dict)
 
+    def scaled(self, factor: float) -> FrameLandmarks:
+        """Those of the same frame, larger by `factor`."""
+
+        def at(places: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.asarray((places + 0.5) * factor - 0.5)
+
+        return FrameLandmarks(
+            {name: (at(place), confidence) for name, (place, confidence) in self.body.items()},
+            None if self.face is None else at(self.face),
+            {side: (at(points), confidence) for side, (points, confidence) in self.hands.items()},
+        )
+
 
 def frame_landmarks(rgb: NDArray[np.uint8]) -> FrameLandmarks:
     """The landmarks of the person in a frame (H, W, 3) uint8; none of those that cannot be relied on."""

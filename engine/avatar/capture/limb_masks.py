@@ -1,0 +1,105 @@
+"""Hands and feet in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
+
+Where they are is known in space, by landmarks on which views agree: that marks them in every frame, also in those that show them
+blurred, small or from behind, and colours near by tell how far they reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.body.fitting.hand_fitting import HAND_BONES
+from engine.geometry.camera import Camera
+from engine.imaging.masks.colour_segmentation import grab_cut
+
+SIDES = ("Left", "Right")
+FOOT, PALM = ("Ankle", "Heel", "FootIndex"), ("Wrist", "Index", "Pinky")
+"""The corners of a foot and of a palm, without their side."""
+REACH_SHARE = 0.35
+"""How far a limb may reach beyond its marks, in lengths of what is marked."""
+SURE_SHARE = 0.03
+"""Half the width of what is surely within a limb around its marks, in their lengths."""
+SURROUNDINGS_SHARE = 0.8
+"""How much of what is around a limb tells its colours, in lengths of what is marked."""
+SETTLED_PIXELS = 3
+"""From the outline of the mask, where away from limbs the mask stands."""
+MIN_DEPTH = 0.1
+"""Metres before the camera: nearer, or behind it, a limb is not in its picture."""
+MIN_PIXELS = 6
+"""Along a limb: of a smaller one nothing can be told."""
+
+
+@dataclass(frozen=True)
+class Limb:
+    """Lines (L, 2, 3) within a hand or a foot, in space."""
+
+    lines: NDArray[np.float64]
+
+
+def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
+    """The person's feet and hands, as far as they are known."""
+    limbs = []
+    for k, side in enumerate(SIDES):
+        for corners in (FOOT, PALM):
+            named = [landmarks.body.get(f"{side}{corner}") for corner in corners]
+            if all(place is not None for place in named):
+                a, b, c = (np.asarray(place) for place in named)
+                limbs.append(Limb(np.array([[a, b], [b, c], [c, a]])))
+        hand = landmarks.hands[k]
+        bones = np.array([[hand[a], hand[b]] for a, b in HAND_BONES])
+        known = np.isfinite(bones).all((1, 2))
+        if known.any():
+            limbs.append(Limb(bones[known]))
+    return limbs
+
+
+def with_limbs(
+    rgb: NDArray[np.uint8], mask: NDArray[np.bool_], camera: Camera, limbs: Sequence[Limb]
+) -> NDArray[np.bool_]:
+    """The mask (h, w) of a person in a frame (h, w, 3) of a `camera` of that size, with their hands and feet."""
+    out = mask.copy()
+    for limb in limbs:
+        if camera.depth(limb.lines.reshape(-1, 3)).min() < MIN_DEPTH:
+            continue
+        lines = np.asarray(camera.project(limb.lines.reshape(-1, 3), np.float64)[:, :2]).reshape(-1, 2, 2)
+        length = float(np.linalg.norm(np.ptp(lines.reshape(-1, 2), axis=0)))
+        if length < MIN_PIXELS:
+            continue
+        height, width = mask.shape
+        least = np.maximum(np.floor(lines.min((0, 1)) - SURROUNDINGS_SHARE * length).astype(int), 0)
+        most = np.minimum(np.ceil(lines.max((0, 1)) + SURROUNDINGS_SHARE * length).astype(int) + 1, [width, height])
+        if (most - least < MIN_PIXELS).any():
+            continue
+        part = np.s_[least[1] : most[1], least[0] : most[0]]
+        out[part] = _limb(np.ascontiguousarray(rgb[part]), out[part], lines - least, length)
+    return out
+
+
+def _limb(
+    rgb: NDArray[np.uint8], mask: NDArray[np.bool_], lines: NDArray[np.float64], length: float
+) -> NDArray[np.bool_]:
+    """The mask of what is around a limb, which is free within the limb's reach alone."""
+    near = _around(mask.shape, lines, REACH_SHARE * length)
+    sure = _around(mask.shape, lines, SURE_SHARE * length)
+    kernel = np.ones((2 * SETTLED_PIXELS + 1,) * 2, np.uint8)
+    inner = cv2.erode(mask.astype(np.uint8), kernel) > 0
+    ours = sure | inner
+    others = ~near & ~mask
+    if not (ours.any() and others.any()):
+        return mask | sure
+    found = grab_cut(rgb, ours, others & ~ours, mask | sure, rounds=3)
+    return np.where(near, found | sure, mask)
+
+
+def _around(shape: tuple[int, ...], lines: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:
+    """(h, w): within so many pixels of lines (L, 2, 2)."""
+    drawn = np.ones(shape, np.uint8)
+    for first, second in np.rint(lines).astype(int).tolist():
+        cv2.line(drawn, first, second, (0,), 1)
+    return np.asarray(cv2.distanceTransform(drawn, cv2.DIST_L2, 5) <= max(radius, 0.5))

@@ -1,0 +1,45 @@
+"""Hands and feet that a mask lacks come back; the rest of it stays."""
+
+import cv2
+import numpy as np
+
+from engine.avatar.capture.limb_masks import limbs_of, with_limbs
+from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.geometry.camera import Camera
+
+CAMERA = Camera((0.0, 0.0, 0.0), 400.0, (99.5, 149.5), (300, 200)).aimed((0.0, 0.6, 2.0), (0.0, 0.6, 0.0))
+ANKLE, HEEL, TOE = np.array([0.0, 0.12, 0.0]), np.array([0.0, 0.03, -0.06]), np.array([0.2, 0.02, 0.0])
+FOOT = SpatialLandmarks({"LeftAnkle": ANKLE, "LeftHeel": HEEL, "LeftFootIndex": TOE})
+
+
+def scene() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A trousered leg in a dark shoe on a chequered floor: the picture, the mask as networks have it, and the true one."""
+    random = np.random.default_rng(2)
+    tiles = (np.indices((300, 200)) // 12).sum(0) % 2
+    rgb = np.where(tiles[..., None] == 1, [150, 40, 50], [60, 70, 130]).astype(np.uint8)
+    leg = np.zeros((300, 200), np.uint8)
+    cv2.rectangle(leg, (88, 30), (112, 245), 1, -1)
+    corners = np.rint(CAMERA.project(np.stack([ANKLE, HEEL, TOE]))[:, :2]).astype(np.int32)
+    shoe = np.zeros_like(leg)
+    cv2.fillConvexPoly(shoe, corners, 1)
+    shoe = cv2.dilate(shoe, np.ones((11, 11), np.uint8))
+    rgb[leg > 0], rgb[shoe > 0] = (190, 150, 130), (40, 28, 30)
+    noisy = rgb + random.normal(0, 5, rgb.shape)
+    return noisy.clip(0, 255).astype(np.uint8), (leg > 0) & ~(shoe > 0), (leg | shoe) > 0
+
+
+def test_a_shoe_that_the_networks_lost_is_found_by_where_the_foot_is() -> None:
+    rgb, lacking, true = scene()
+    found = with_limbs(rgb, lacking, CAMERA, limbs_of(FOOT))
+    assert (lacking & true).sum() / true.sum() < 0.85
+    assert (found & true).sum() / (found | true).sum() > 0.96
+    assert np.array_equal(found[:200], lacking[:200]), "far from the foot nothing changes"
+
+
+def test_what_is_not_known_or_not_in_the_picture_changes_nothing() -> None:
+    rgb, lacking, _ = scene()
+    assert limbs_of(SpatialLandmarks({"LeftAnkle": ANKLE, "LeftHeel": HEEL})) == []
+    elsewhere = SpatialLandmarks({name: at + np.array([9.0, 0.0, 0.0]) for name, at in FOOT.body.items()})
+    assert np.array_equal(with_limbs(rgb, lacking, CAMERA, limbs_of(elsewhere)), lacking)
+    behind = SpatialLandmarks({name: at + np.array([0.0, 0.0, 4.0]) for name, at in FOOT.body.items()})
+    assert np.array_equal(with_limbs(rgb, lacking, CAMERA, limbs_of(behind)), lacking)
