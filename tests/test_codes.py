@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -15,12 +16,22 @@ ENDINGS = {"InputError", "FetchFailed", "failed", "fail"}
 
 
 def sources(*folders: str) -> list[ast.Module]:
-    return [ast.parse(path.read_text()) for folder in folders for path in sorted((ROOT / folder).rglob("*.py"))]
+    return [tree for folder in folders for tree in parsed(folder)]
+
+
+@cache
+def parsed(folder: str) -> list[ast.Module]:
+    return [ast.parse(path.read_text()) for path in sorted((ROOT / folder).rglob("*.py"))]
+
+
+@cache
+def nodes(tree: ast.Module) -> list[ast.AST]:
+    return list(ast.walk(tree))
 
 
 def parameters(tree: ast.Module) -> Iterator[tuple[str, list[str]]]:
     """Functions, methods and classes: name, and the names of what they are called with."""
-    for node in ast.walk(tree):
+    for node in nodes(tree):
         for one in getattr(node, "body", []) if isinstance(node, ast.Module | ast.ClassDef) else []:
             if isinstance(one, ast.FunctionDef):
                 name = node.name if one.name == "__init__" and isinstance(node, ast.ClassDef) else one.name
@@ -52,13 +63,13 @@ def codes(trees: list[ast.Module], by: Iterable[str] | None = None) -> set[str]:
     for name, arguments in (found for tree in trees for found in parameters(tree)):
         if "code" in arguments:
             everywhere[name].add(arguments.index("code"))
-    for node in (node for tree in trees for node in ast.walk(tree)):
+    for node in (node for tree in trees for node in nodes(tree)):
         match node:  # a class that is made as the one that it is of
             case ast.ClassDef(name=name, bases=[ast.Name(id=base)]) if base in everywhere and name not in everywhere:
                 everywhere[name] = everywhere[base]
     places = {name: found for name, found in everywhere.items() if by is None or name in by}
     found: set[str] = set()
-    for node in (node for tree in trees for node in ast.walk(tree)):
+    for node in (node for tree in trees for node in nodes(tree)):
         match node:
             case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name), args=given, keywords=named):
                 if name in places or (name := name.removeprefix("_")) in places:

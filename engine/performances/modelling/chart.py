@@ -7,8 +7,11 @@ sticks to the skin as it moves.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
@@ -51,12 +54,30 @@ def slopes(height: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np
     return np.asarray(across, np.float32), np.asarray(-down, np.float32)
 
 
+def box(low: Sequence[float], high: Sequence[float]) -> tuple[slice, slice]:
+    """The rows and columns of the chart's texels between two corners (u, v), metres."""
+    columns = slice(
+        min(max(int((low[0] - LEFT) * TEXELS_PER_METRE), 0), CHART_SHAPE[1]),
+        min(max(int((high[0] - LEFT) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[1]),
+    )
+    rows = slice(
+        min(max(int((TOP - high[1]) * TEXELS_PER_METRE), 0), CHART_SHAPE[0]),
+        min(max(int((TOP - low[1]) * TEXELS_PER_METRE) + 1, 0), CHART_SHAPE[0]),
+    )
+    return rows, columns
+
+
 def blob(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
-    """A Gaussian of height one: `spread` are its standard deviations along its axes, `turn` radians."""
-    u, v = grid()
+    """A Gaussian of height one: `spread` are its standard deviations along its axes, `turn` radians. It is zero where it
+    would be less than what float32 tells from zero beside one."""
+    reach = 7 * max(spread)
+    rows, columns = box((centre[0] - reach, centre[1] - reach), (centre[0] + reach, centre[1] + reach))
+    u, v = (axis[rows, columns] for axis in grid())
     du, dv = u - centre[0], v - centre[1]
     c, s = np.cos(turn), np.sin(turn)
-    return np.exp(-0.5 * (((c * du + s * dv) / spread[0]) ** 2 + ((c * dv - s * du) / spread[1]) ** 2))
+    height = np.zeros(CHART_SHAPE, np.float32)
+    height[rows, columns] = np.exp(-0.5 * (((c * du + s * dv) / spread[0]) ** 2 + ((c * dv - s * du) / spread[1]) ** 2))
+    return height
 
 
 def mirrored_blobs(centre: tuple[float, float], spread: tuple[float, float], turn: float = 0.0) -> NDArray[np.float32]:
@@ -82,13 +103,7 @@ def curve_coordinates(
     """
     curve = smooth_curve(points)
     low, high = curve.min(0) - reach, curve.max(0) + reach
-    columns = slice(
-        max(int((low[0] - LEFT) * TEXELS_PER_METRE), 0),
-        min(int((high[0] - LEFT) * TEXELS_PER_METRE) + 1, CHART_SHAPE[1]),
-    )
-    rows = slice(
-        max(int((TOP - high[1]) * TEXELS_PER_METRE), 0), min(int((TOP - low[1]) * TEXELS_PER_METRE) + 1, CHART_SHAPE[0])
-    )
+    rows, columns = box(low, high)
     u, v = grid()
     texels = np.stack([u[rows, columns], v[rows, columns]], -1)
     distance, nearest = cKDTree(curve).query(texels)
@@ -104,13 +119,13 @@ def noise(rng: np.random.Generator, size: float, octaves: int = 1) -> NDArray[np
     further octave halves the size and the strength."""
     frequencies = (
         np.hypot(np.fft.fftfreq(CHART_SHAPE[0])[:, None], np.fft.rfftfreq(CHART_SHAPE[1])[None]) * TEXELS_PER_METRE
-    )
+    ).astype(np.float32)
     total = np.zeros(CHART_SHAPE, np.float32)
     for octave in range(octaves):
         scale = size / 2**octave
         band = np.exp(-0.5 * ((frequencies * scale - 0.7) / 0.35) ** 2)
-        spectrum = np.fft.rfft2(rng.standard_normal(CHART_SHAPE, np.float32)) * band
-        layer = np.fft.irfft2(spectrum, CHART_SHAPE).astype(np.float32)
+        spectrum = fft.rfft2(rng.standard_normal(CHART_SHAPE, np.float32)) * band
+        layer = fft.irfft2(spectrum, CHART_SHAPE, overwrite_x=True)
         total += layer / (layer.std() * 2**octave)
     return total / total.std()
 
