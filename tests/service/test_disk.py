@@ -2,40 +2,39 @@
 
 from __future__ import annotations
 
-import os
 import resource
 import shutil
 import sqlite3
-import subprocess
-import sys
 from collections.abc import Callable
 from contextlib import closing, suppress
 from pathlib import Path
 
-import pytest
-from running import ROOT, Running
+from galatea_command import galatea
+from running import Running
 
 from service.disk import keep_ballast
 from service.settings import Settings
 
 
-@pytest.mark.parametrize("reserve", [0, 20])
 def test_a_job_that_fills_the_disk_fails_and_the_service_lives(
-    small_disk: Path, start: Callable[..., Running], picture: bytes, reserve: int
+    small_disk: Path, start: Callable[..., Running], picture: bytes
 ) -> None:
-    running = start(small_disk / "data", disk_reserve_mb=reserve)
+    fill_by_a_job(start(small_disk / "data", disk_reserve_mb=0), picture)
+
+
+def fill_by_a_job(running: Running, picture: bytes) -> None:
     job = running.until(running.submit(picture, crash="disk")["id"], "failed")
     assert job["error"]["code"] == "disk_full"
     assert list(job["artifacts"]) == ["preview.jpg"]
     assert not (running.data_dir / "jobs" / job["id"] / "attempt-1").exists(), "what it wrote is gone"
     running.until(running.submit(picture)["id"], "succeeded")
-    running.stop()
 
 
 def test_below_the_reserve_nothing_new_is_accepted_and_what_is_there_is_kept(
     small_disk: Path, start: Callable[..., Running], picture: bytes, video: bytes
 ) -> None:
     running = start(small_disk / "data", disk_reserve_mb=20)
+    fill_by_a_job(running, picture)
     job = running.until(running.submit(picture)["id"], "succeeded")
     file = job["inputs"]["image"]
     ballast = small_disk / "ballast"
@@ -53,19 +52,16 @@ def test_below_the_reserve_nothing_new_is_accepted_and_what_is_there_is_kept(
     running.stop()
 
 
-@pytest.mark.parametrize("keyed", [False, True])
-def test_on_a_full_disk_a_job_can_be_erased(
-    small_disk: Path, start: Callable[..., Running], picture: bytes, keyed: bool
-) -> None:
-    headers = {"Authorization": f"Bearer {a_key(small_disk / 'data')}"} if keyed else {}
+def test_on_a_full_disk_a_job_can_be_erased(small_disk: Path, start: Callable[..., Running], picture: bytes) -> None:
+    token = galatea(small_disk / "data", "keys", "create", "root").stdout.strip()
     running = start(small_disk / "data", disk_reserve_mb=1)
-    running.client.headers.update(headers)
+    running.client.headers["Authorization"] = f"Bearer {token}"
     spare = running.data_dir / "ballast"
     job = running.until(running.submit(picture)["id"], "succeeded")
     assert spare.stat().st_size == 8_000_000
-    if keyed:  # so that the next request has to note that the key was used
-        with closing(sqlite3.connect(running.data_dir / "galatea.db")) as database, database:
-            database.execute("UPDATE keys SET last_used_at = NULL")
+    # So that the next request has to note that the key was used.
+    with closing(sqlite3.connect(running.data_dir / "galatea.db")) as database, database:
+        database.execute("UPDATE keys SET last_used_at = NULL")
     with (small_disk / "filled").open("wb", buffering=0) as filled, suppress(OSError):
         while filled.write(bytes(4096)):
             pass
@@ -91,11 +87,3 @@ def test_a_spare_file_that_found_no_room_is_made_again(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
     keep_ballast(settings)
     assert (tmp_path / "ballast").stat().st_size == 8_000_000
-
-
-def a_key(data_dir: Path) -> str:
-    """The token of a fresh key of the service that keeps its data there."""
-    environment = os.environ | {"GALATEA_DATA_DIR": str(data_dir)}
-    command = [sys.executable, "-m", "shell.main", "keys", "create", "root"]
-    made = subprocess.run(command, env=environment, cwd=ROOT, capture_output=True, text=True, check=True)
-    return made.stdout.strip()
