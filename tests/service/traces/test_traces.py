@@ -205,8 +205,9 @@ def test_a_client_that_keeps_no_trace_gets_none(service: Running, collector: Col
 
 @pytest.mark.parametrize("listens", [False, True], ids=["nobody", "one that never answers"])
 def test_a_collector_that_is_away_holds_nothing_up(
-    start: Callable[..., Running], picture: bytes, listens: bool
+    start: Callable[..., Running], picture: bytes, monkeypatch: pytest.MonkeyPatch, listens: bool
 ) -> None:
+    monkeypatch.setenv("OTEL_BSP_SCHEDULE_DELAY", "200")
     with socket.socket() as listening:
         listening.bind(("127.0.0.1", 0))
         if listens:
