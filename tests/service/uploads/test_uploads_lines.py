@@ -54,9 +54,9 @@ class Memory:
             self.most = max(self.most, self._held())
 
 
-def test_300_megabytes_interrupted_ten_times_arrive_as_they_were_sent(start: Start) -> None:
+def test_100_megabytes_interrupted_ten_times_arrive_as_they_were_sent(start: Start) -> None:
     """Half of the lines break in a way that the service notices, the others just fall silent."""
-    media = Media(300 * MEGABYTE, seed=3)
+    media = Media(100 * MEGABYTE, seed=3)
     running = start(worker="false")
     add(running, create(running, 2 * MEGABYTE), 0, Media(2 * MEGABYTE).bytes())  # what is loaded once is loaded
     address = create(running, media.size)
