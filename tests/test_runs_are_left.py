@@ -23,7 +23,9 @@ def left_open(tree: ast.Module) -> Iterator[int]:
 
 def test_each_run_is_made_by_a_with_statement() -> None:
     paths = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py")) if path != ABOUT_RUNS]
-    found = [f"{path.relative_to(ROOT)}:{line}" for path in paths for line in left_open(ast.parse(path.read_text()))]
+    texts = {path: text for path in paths if "Run(" in (text := path.read_text())}  # no other makes one
+    found = [f"{path.relative_to(ROOT)}:{line}" for path, text in texts.items() for line in left_open(ast.parse(text))]
+    assert len(texts) > 10
     assert found == []
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -22,6 +23,7 @@ from scripts.import_graph import (
 ROOT = Path(__file__).parents[2]
 
 
+@cache
 def files_of(package: str) -> list[File]:
     return page_files(ROOT / PAGE_FOLDER) if package == "page" else python_files(ROOT, package)
 
@@ -39,12 +41,12 @@ def test_no_arrow_points_up(package: str) -> None:
 
 
 def test_no_files_of_the_page_form_a_circle_by_what_comes_with_them() -> None:
-    assert circles(loads(page_files(ROOT / PAGE_FOLDER))) == []
+    assert circles(loads(files_of("page"))) == []
 
 
 def test_one_file_alone_of_each_kind_is_known_outside_and_to_the_application_alone() -> None:
     """The list of kinds is handed down by the application: whoever imported it would be a circle through every kind."""
-    outside = [file for file in page_files(ROOT / PAGE_FOLDER) if file.room != "kinds"]
+    outside = [file for file in files_of("page") if file.room != "kinds"]
     known = {(file.name, aim) for file in outside for aim in file.imports if aim.startswith("kinds/")}
     assert known == {("app", "kinds/index"), ("main", "kinds/index")}
 

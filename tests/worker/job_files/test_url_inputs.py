@@ -7,7 +7,7 @@ import ssl
 import subprocess
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
@@ -58,10 +58,23 @@ def host(picture: bytes) -> Iterator[Host]:
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    """A service that may fetch from this machine."""
-    settings: dict[str, Any] = {"allowed_networks": "127.0.0.0/8", "lease_seconds": 3, "sweep_seconds": 0.5}
-    started = Running(tmp_path_factory.mktemp("urls") / "data", **settings, fetch_seconds=20)
+def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a certificate for `localhost`, and its key."""
+    folder = tmp_path_factory.mktemp("certificate")
+    command = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost"]
+    command += ["-addext", "subjectAltName=DNS:localhost", "-keyout", "key.pem", "-out", "certificate.pem"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory, certificate: Path) -> Iterator[Running]:
+    """A service that may fetch from this machine, and trusts the certificate."""
+    settings: dict[str, Any] = {"lease_seconds": 3, "sweep_seconds": 0.5, "fetch_seconds": 10}
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("SSL_CERT_FILE", str(certificate / "certificate.pem"))
+        data = tmp_path_factory.mktemp("urls") / "data"
+        started = Running(data, allowed_networks="127.0.0.0/8,::1/128", **settings)
     yield started
     started.stop()
 
@@ -159,24 +172,20 @@ def test_what_an_earlier_attempt_fetched_is_not_fetched_again(service: Running, 
         "https://example.com/" + "x" * 3000,
     ],
 )
-def test_addresses_that_lead_nowhere_are_refused_at_once(running: Running, url: str) -> None:
-    response = running.client.post("/v1/jobs", json={"kind": "tiny", "inputs": {"image": url}})
+def test_addresses_that_lead_nowhere_are_refused_at_once(service: Running, url: str) -> None:
+    response = service.client.post("/v1/jobs", json={"kind": "tiny", "inputs": {"image": url}})
     assert (response.status_code, response.json()["code"]) == (422, "input_url_refused")
     assert response.json()["errors"][0]["pointer"] == "/inputs/image"
 
 
-def test_by_tls(start: Callable[..., Running], picture: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    command = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost"]
-    command += ["-addext", "subjectAltName=DNS:localhost", "-keyout", "key.pem", "-out", "certificate.pem"]
-    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
-    monkeypatch.setenv("SSL_CERT_FILE", str(tmp_path / "certificate.pem"))
-    running, host = start(allowed_networks="127.0.0.0/8,::1/128"), Host(picture)
+def test_by_tls(service: Running, picture: bytes, certificate: Path) -> None:
+    host = Host(picture)
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-    context.load_cert_chain(tmp_path / "certificate.pem", tmp_path / "key.pem")
+    context.load_cert_chain(certificate / "certificate.pem", certificate / "key.pem")
     host.socket = context.wrap_socket(host.socket, server_side=True)
     host.scheme = "https"
-    running.until(submit(running, host.url("/a.png", "localhost"))["id"], "succeeded")
-    failed = running.until(submit(running, host.url("/a.png", "127.0.0.1"))["id"], "failed")
+    service.until(submit(service, host.url("/a.png", "localhost"))["id"], "succeeded")
+    failed = service.until(submit(service, host.url("/a.png", "127.0.0.1"))["id"], "failed")
     assert failed["error"]["code"] == "input_url_unreachable", "the certificate is for another name"
     host.shutdown()
     host.server_close()
