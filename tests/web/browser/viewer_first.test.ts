@@ -10,6 +10,8 @@ import { open } from './page';
 import { aViewer, drawings, mode, ready } from './viewer_kit';
 
 const { job, countDrawings } = aViewer();
+/** Graphics without a card cost by the pixel. */
+const few = { deviceScaleFactor: 0.5 };
 let flat: Browser;
 let deep: Browser;
 beforeAll(async () => {
@@ -28,7 +30,7 @@ const film = (page: Page) => page.getByRole('region', { name: 'Result' });
 
 describe('the page of a character', () => {
   it('opens on the wall, where it plays by itself; the video is one click away', async () => {
-    const page = await open(deep, `#/jobs/${job()}`);
+    const page = await open(deep, `#/jobs/${job()}`, few);
     await page.getByRole('button', { name: 'Pause' }).waitFor();
     await lacks(film(page), pressed(page, 'On the wall'));
     const others = page.getByRole('group', { name: 'What to do' }).getByRole('button');
@@ -43,8 +45,31 @@ describe('the page of a character', () => {
     await page.locator('canvas').waitFor();
   });
 
+  it('comes whole: what stands below the result is not pushed away by what comes later', async () => {
+    const revision = { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"corrections": {}, "options": {"motion": "bow"}}' };
+    const made = await fetch(`${address}/v1/jobs/${job()}/revisions`, revision);
+    await fetch(`${address}/v1/jobs/${((await made.json()) as { id: string }).id}/cancel`, { method: 'POST' });
+    const page = await open(deep, '', { reducedMotion: 'reduce', ...few });
+    let release: () => void = () => undefined;
+    const held = new Promise<void>((done) => (release = done));
+    await page.route('**/character.glb*', (route) => held.then(() => route.continue()));
+    for (const slow of ['**/revisions', '**/report.json*']) {
+      await page.route(slow, (route) => new Promise((wake) => setTimeout(wake, 300)).then(() => route.continue()));
+    }
+    await page.evaluate((id) => (location.hash = `#/jobs/${id}`), job());
+    const first = await page.waitForFunction(() => {
+      const below = document.querySelector('details.revise');
+      return below && { top: below.getBoundingClientRect().top + scrollY, versions: document.querySelectorAll('nav.versions a').length };
+    });
+    const { top, versions } = (await first.jsonValue())!;
+    expect(versions).toBe(2);
+    release();
+    await page.getByRole('button', { name: 'Play' }).waitFor();
+    await expect.poll(() => page.locator('details.revise').evaluate((below) => below.getBoundingClientRect().top + scrollY)).toBe(top);
+  });
+
   it('stands still for who wants it so, until it is played', async () => {
-    const page = await open(deep, `#/jobs/${job()}`, { reducedMotion: 'reduce' }, countDrawings);
+    const page = await open(deep, `#/jobs/${job()}`, { reducedMotion: 'reduce', ...few }, countDrawings);
     await ready(page);
     await pressed(page, 'On the wall').waitFor();
     const before = await drawings(page);
@@ -64,7 +89,7 @@ describe('the page of a character', () => {
     const link = new URL(await page.getByLabel('Link', { exact: true }).inputValue());
     await page.close();
 
-    const phone = await open(deep, link.hash, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+    const phone = await open(deep, link.hash, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, ...few });
     await phone.getByRole('heading', { name: 'Out for a walk' }).waitFor();
     await phone.getByRole('button', { name: 'Pause' }).waitFor();
     await lacks(mode(phone, 'Change the pose'), pressed(phone, 'On the wall'));

@@ -1,7 +1,7 @@
 /** What the page knows of a kind of job. Whatever differs from kind to kind is said in the kind's own folder. */
 
 import type { ComponentType, VNode } from 'preact';
-import type { Job, JobRequest, Problem, Shared } from '../api';
+import type { Job, JobRequest, Problem, Report, Shared } from '../api';
 
 /** What is wanted. Sent again after a broken line, or by a later page, it neither uploads nor orders anything twice. */
 export interface Order {
@@ -30,11 +30,14 @@ export interface StudioProps {
 
 export interface ResultProps {
   job: Job;
+  /** What the run says of itself; null where it left none. */
+  report: Report | null;
   onPropose: (proposal: Proposal) => void;
 }
 
 export interface CorrectionsProps {
   job: Job;
+  report: Report | null;
   proposal: Proposal | null;
   onProposalTaken: () => void;
   onProblem: (problem: Problem | null) => void;

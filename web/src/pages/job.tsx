@@ -6,12 +6,13 @@ import { Heading } from '../widgets/heading';
 import { part } from '../widgets/lazy';
 import { Picture } from '../widgets/picture';
 import { useKind, useKinds } from '../kind/kinds';
-import type { Proposal } from '../kind/kind';
+import type { Proposal, ResultProps } from '../kind/kind';
+import { useJobDetails } from '../result/job_details';
 import { Revise, Versions } from '../result/revise';
 import { Rename } from '../widgets/rename';
 import { Stages } from '../result/stages';
 import { ConfirmButton } from '../widgets/confirm';
-import { ProblemAlert } from '../widgets/problem_alert';
+import { LoadingProblem, ProblemAlert } from '../widgets/problem_alert';
 import { finished, useJob } from '../api/events';
 import { asProblem } from '../api/loading';
 import { wantsPicture } from '../result/next_step';
@@ -23,8 +24,9 @@ import { useTitle } from '../works/titles';
 const words = strings.job;
 
 export function JobPage({ id }: { id: string }) {
-  const { job, problem, stages, interrupted } = useJob(id);
+  const { job: newest, problem, stages, interrupted } = useJob(id);
   const kinds = useKinds();
+  const details = useJobDetails(newest, kinds.of);
   const [failure, setFailure] = useState<Problem | null>(null);
   const [proposal, setProposal] = useState<Proposal | null>(null);
 
@@ -40,8 +42,9 @@ export function JobPage({ id }: { id: string }) {
     );
   }
   if (problem) return <ProblemAlert code={problem.code} detail={problem.detail} />;
-  if (!job) return interrupted ? <ProblemAlert code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
+  if (!details) return interrupted ? <ProblemAlert code="unreachable" detail="" /> : <div class="job" aria-busy="true" />;
 
+  const { job, versions, report } = details;
   const kind = kinds.of(job.kind);
   const remove = async (): Promise<void> => {
     try {
@@ -60,7 +63,7 @@ export function JobPage({ id }: { id: string }) {
         <span class={`chip ${job.status}`}>{strings.status[job.status]}</span>
         {performance && <span>{kind.performed(performance)}</span>}
       </p>
-      <Versions key={job.id} job={job} />
+      <Versions job={job} all={versions} />
       <p class="visually-hidden" role="status">
         {finished(job) ? strings.status[job.status] : ''}
       </p>
@@ -69,12 +72,14 @@ export function JobPage({ id }: { id: string }) {
           {words.interrupted}
         </p>
       )}
-      <Body job={job} stages={stages} onProblem={setFailure} onPropose={setProposal} />
+      <Body job={job} report={report} stages={stages} onProblem={setFailure} onPropose={setProposal} />
+      <LoadingProblem of={details} />
       {finished(job) && kind.loadCorrections && (
         <Revise
           key={job.id}
           load={kind.loadCorrections}
           job={job}
+          report={report}
           proposal={proposal}
           onProposalTaken={() => setProposal(null)}
           onProblem={setFailure}
@@ -114,12 +119,12 @@ interface BodyProps {
   onProblem: (problem: Problem) => void;
 }
 
-function Body({ job, stages, onProblem, onPropose }: BodyProps & { onPropose: (proposal: Proposal) => void }) {
+function Body({ job, report, stages, onProblem, onPropose }: BodyProps & Pick<ResultProps, 'report' | 'onPropose'>) {
   const kind = useKind(job.kind);
   switch (job.status) {
     case 'succeeded': {
       const Result = part(kind.loadResult);
-      return <Result job={job} onPropose={onPropose} />;
+      return <Result job={job} report={report} onPropose={onPropose} />;
     }
     case 'failed':
       return (

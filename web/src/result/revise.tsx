@@ -1,9 +1,8 @@
 /** A job that has ended, again with something changed: only what depends on the change is worked out anew. */
 
 import { useEffect, useState } from 'preact/hooks';
-import { type Job, listRevisions } from '../api';
+import type { Job } from '../api';
 import type { CorrectionsProps, Load } from '../kind/kind';
-import { useLoaded } from '../api/loading';
 import { wantsPicture } from './next_step';
 import { jobLink } from '../route';
 import { strings } from '../language/strings';
@@ -35,13 +34,12 @@ export function Revise({ load, ...given }: Props) {
 }
 
 /** The job and its revisions, to go from one to the other; nothing where there is one alone. */
-export function Versions({ job }: { job: Job }) {
-  const tree = useLoaded((signal) => listRevisions(job.id, signal), job.id);
-  if (!tree.value || tree.value.length < 2) return null;
+export function Versions({ job, all }: { job: Job; all: readonly Job[] }) {
+  if (all.length < 2) return null;
   return (
     <nav class="versions" aria-label={words.versions}>
       <span>{words.versions}</span>
-      {tree.value.map((one, place) => (
+      {all.map((one, place) => (
         <a key={one.id} href={jobLink(one.id)} aria-current={one.id === job.id ? 'page' : undefined}>
           {place + 1}
         </a>

@@ -14,6 +14,7 @@ import { PosingView } from './posing/posing_view';
 import type { Stage } from './scene/stage';
 import { type StagedCharacter, useCast, useStage } from './scene/staging';
 import { Tool } from '../picture_editor/tools';
+import { PlayButton } from '../result/transport';
 import { mayHaveView, type PictureView, viewOf } from './artifacts/picture_view';
 import { WallView } from './wall/wall_view';
 import { type PersonChoice, PersonSelect } from './person_select';
@@ -118,6 +119,7 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
       </div>
       {mode === 'film' && film}
       {flat && <p class="viewer-help">{words.noWebGL}</p>}
+      {!shown && !trouble && mode !== 'film' && <ControlsPlace help={mode === 'wall' ? words.wallHelp : words.help} />}
       {shown && mode !== 'film' && cast.length > 0 && (
         <Modes
           stage={shown.stage}
@@ -142,6 +144,21 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
     </section>
   );
 }
+
+/** As high as the controls that come once somebody stands on the stage: what lies below is not pushed away then. */
+const ControlsPlace = ({ help }: { help: string }) => (
+  <>
+    <div class="controls viewer-awaited" aria-hidden="true">
+      <PlayButton playing={false} onPlay={() => undefined} />
+    </div>
+    <div class="viewer-tools viewer-awaited" aria-hidden="true">
+      <Tool label="" onUse={() => undefined} icon="" />
+    </div>
+    <p class="viewer-help viewer-awaited" aria-hidden="true">
+      {help}
+    </p>
+  </>
+);
 
 interface ModesProps {
   stage: Stage;

@@ -1,22 +1,20 @@
 /** A finished character: the video, the character itself to take along, and what the run has to say. */
 
-import { type Artifact, getJob, getReport, type Job } from '../../api';
-import { type CharacterReport, characterOptions } from './types';
+import { type Artifact, getJob, type Job } from '../../api';
+import { characterOptions } from './types';
 import { getSkeleton } from '../../viewer/artifacts/skeleton';
 import { size } from '../../language/format';
 import { useLoaded } from '../../api/loading';
 import { peopleOf } from '../../viewer/artifacts/people';
-import { later } from '../../widgets/lazy';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
 import type { ResultProps } from '../../kind/kind';
+import { Viewer } from './viewer_part';
 import { words as characterWords } from './words';
 
-const Viewer = later(() => import('../../viewer/panel'));
 const words = characterWords.character;
 
-export default function CharacterResult({ job, onPropose }: ResultProps) {
-  const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id);
+export default function CharacterResult({ job, report, onPropose }: ResultProps) {
   const { artifacts } = job;
   const several = peopleOf(job, null).length > 1;
   const skeleton = useLoaded(async (signal) => (several ? getSkeleton(job, signal) : null), job.id).value;
@@ -45,7 +43,7 @@ export default function CharacterResult({ job, onPropose }: ResultProps) {
         <Download job={job} name="lit.png" label={words.litPicture} />
         {film && <Download job={job} name={film[0]} label={words.video} />}
       </ResultActions>
-      <Warnings report={report.value} />
+      <Warnings report={report} />
       <ElapsedTime job={job} />
     </div>
   );

@@ -1,16 +1,13 @@
 /** What a finished job of any kind has left. */
 
-import { getReport, type Report } from '../../api';
 import { size } from '../../language/format';
-import { useLoaded } from '../../api/loading';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { useKind } from '../../kind/kinds';
 import type { ResultProps } from '../../kind/kind';
 import { ShownArtifacts, shownIn } from './artifacts';
 
-export default function GenericResult({ job }: ResultProps) {
+export default function GenericResult({ job, report }: ResultProps) {
   const kind = useKind(job.kind);
-  const report = useLoaded((signal) => getReport<Report>(job, signal), job.id);
   const [main] = shownIn(job.artifacts);
   const file = main === undefined ? undefined : job.artifacts[main];
   return (
@@ -23,7 +20,7 @@ export default function GenericResult({ job }: ResultProps) {
           </a>
         )}
       </ResultActions>
-      <Warnings report={report.value} />
+      <Warnings report={report} />
       <ElapsedTime job={job} />
     </div>
   );

@@ -1,9 +1,8 @@
 /** A finished job: its video beside the performance, downloads, and what the run has to say. */
 
-import { type Artifact, getReport, type Job } from '../../api';
+import type { Artifact, Job } from '../../api';
 import { type PortraitReport, portraitOptions } from './types';
 import { size } from '../../language/format';
-import { useLoaded } from '../../api/loading';
 import type { ResultProps } from '../../kind/kind';
 import { performanceUrl } from './drivers';
 import { words as portraitWords } from './words';
@@ -23,8 +22,8 @@ function animation(job: Job): [string, Artifact] | null {
   return Object.entries(job.artifacts).find(shown) ?? null;
 }
 
-export default function PortraitResult({ job }: ResultProps) {
-  const report = useLoaded((signal) => getReport<PortraitReport>(job, signal), job.id);
+export default function PortraitResult({ job, report }: ResultProps) {
+  const driver = (report as PortraitReport | null)?.inputs.driver_chosen ?? null;
   const found = animation(job);
   const profile = job.artifacts['profile.json'];
   const bundle = job.artifacts['profile.zip'];
@@ -35,7 +34,7 @@ export default function PortraitResult({ job }: ResultProps) {
       {profile ? (
         <ReactivePlayer profile={profile.url} poster={job.artifacts['poster.jpg']?.url} />
       ) : found ? (
-        <Animation job={job} artifact={found[1]} chosen={report.value?.inputs.driver_chosen ?? null} />
+        <Animation job={job} artifact={found[1]} chosen={driver} />
       ) : (
         <p>{words.otherKind}</p>
       )}
@@ -47,7 +46,7 @@ export default function PortraitResult({ job }: ResultProps) {
         )}
       </ResultActions>
       {!profile && <OtherMoods job={job} />}
-      <Warnings report={report.value} />
+      <Warnings report={report} />
       <ElapsedTime job={job} />
     </div>
   );

@@ -1,7 +1,6 @@
 /** Everything about a character that can be put right by hand, and the order to make it again. */
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
-import { getReport } from '../../../api';
 import { type CharacterReport, foundPeople } from '../types';
 import type { Pose } from '../../../viewer/posing/pose';
 import { getSkeleton } from '../../../viewer/artifacts/skeleton';
@@ -12,6 +11,7 @@ import { SubmitRow } from '../../../studio/submit_row';
 import { usePicture } from '../../../result/use_picture';
 import { randomKey } from '../../../api/idempotency';
 import { useLoaded } from '../../../api/loading';
+import { LoadingProblem } from '../../../widgets/problem_alert';
 import { mayRepeat } from '../../../result/next_step';
 import { strings } from '../../../language/strings';
 import { forPerson, isChanged, isEverybody, type RevisionDraft, draftOf } from './changes';
@@ -29,13 +29,14 @@ const JointEditor = later(() => import('../joints/joint_editor'));
 const BoxEditor = later(() => import('../people/box_editor'));
 const words = characterWords.correct;
 
-export default function CharacterPanel({ job, proposal, onProposalTaken, onProblem }: CorrectionsProps) {
+export default function CharacterPanel({ job, report: told, proposal, onProposalTaken, onProblem }: CorrectionsProps) {
   const before = useMemo(() => draftOf(job), [job.id]);
   const [draft, setWishes] = useState<RevisionDraft>(before);
   const [editing, setEditing] = useState<'joints' | 'box' | null>(null);
   const key = useRef(randomKey());
-  const report = useLoaded((signal) => getReport<CharacterReport>(job, signal), job.id).value;
-  const skeleton = useLoaded((signal) => getSkeleton(job, signal), job.id).value;
+  const report = told as CharacterReport | null;
+  const read = useLoaded((signal) => getSkeleton(job, signal), job.id);
+  const skeleton = read.value;
   const picture = usePicture(job, skeleton?.size ?? null);
   const people = report?.inputs.people ?? foundPeople(job);
   const mendable = job.error?.correctable ?? [];
@@ -85,6 +86,7 @@ export default function CharacterPanel({ job, proposal, onProposalTaken, onProbl
     >
       <section class="panel" aria-label={words.person}>
         <h3>{words.person}</h3>
+        <LoadingProblem of={read} />
         {picture && (
           <People
             picture={picture}

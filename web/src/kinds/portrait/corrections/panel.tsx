@@ -1,7 +1,7 @@
 /** Everything about a portrait that can be put right by hand, and the order to make it again. */
 
 import { useMemo, useRef, useState } from 'preact/hooks';
-import { getReport, reviseJob } from '../../../api';
+import { reviseJob } from '../../../api';
 import { foundFaces, type PortraitReport, getLandmarks, portraitOptions, type PortraitChanges } from '../types';
 import { Checkbox } from '../../../widgets/checkbox';
 import type { CorrectionsProps } from '../../../kind/kind';
@@ -14,6 +14,7 @@ import { randomKey } from '../../../api/idempotency';
 import type { Points } from '../landmarks/scheme';
 import { faceInBox } from '../landmarks/template';
 import { asProblem, useLoaded } from '../../../api/loading';
+import { LoadingProblem } from '../../../widgets/problem_alert';
 import { isFileId } from '../../../works/inputs';
 import { mayRepeat } from '../../../result/next_step';
 import { AUTO, performanceUrl } from '../drivers';
@@ -31,15 +32,16 @@ const LandmarkEditor = later(() => import('../landmarks/landmark_editor'));
 const words = portraitWords.corrections;
 const crops = ['none', 'bust', 'face'] as const;
 
-export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
+export default function CorrectionPanel({ job, report: told, onProblem }: CorrectionsProps) {
+  const report = told as PortraitReport | null;
   const made = portraitOptions(job);
   const asMade = useMemo(() => draftOf(made), [job.id]);
   const [draft, setWishes] = useState<RevisionDraft>(asMade);
   const [editing, setEditing] = useState(false);
   const [sending, setSending] = useState(false);
   const key = useRef(randomKey());
-  const report = useLoaded((signal) => getReport<PortraitReport>(job, signal), job.id).value;
-  const found = useLoaded((signal) => getLandmarks(job, signal), job.id).value;
+  const read = useLoaded((signal) => getLandmarks(job, signal), job.id);
+  const found = read.value;
   const picture = usePicture(job, found?.size ?? null, (made.crop ?? 'none') !== 'none');
   const faces = report?.inputs.faces ?? foundFaces(job);
   const mayPlace = job.error?.correctable?.includes('landmarks') ?? false;
@@ -94,6 +96,7 @@ export default function CorrectionPanel({ job, onProblem }: CorrectionsProps) {
     >
       <section class="panel" aria-label={words.picture}>
         <h3>{words.picture}</h3>
+        <LoadingProblem of={read} />
         {picture && (
           <FaceChoice
             picture={picture}
