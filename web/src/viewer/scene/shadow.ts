@@ -26,8 +26,9 @@ const PIXELS = 256;
 /** Metres above the ground from which on nothing darkens it. */
 const REACH = 0.7;
 const DARKEST = 0.55;
-/** Standard deviation of the blur, in pixels of the shadow's picture. */
+/** Standard deviation of the blur, in pixels of the shadow's picture, and how far it reaches. */
 const SOFTNESS = 3.5;
+const BLURRED = 9;
 /** Metres; the ground is drawn as a disc that fades towards its edge. */
 const GROUND = 7;
 
@@ -61,6 +62,21 @@ const nearness = () =>
     blendDst: OneFactor,
   });
 
+/**
+ * A Gaussian's weights, each with its place in pixels from the middle. A texture that is read between two pixels is their mean,
+ * so one reading stands for both: half as many are needed, which counts where there is no graphics card.
+ */
+function readings(): [place: number, weight: number][] {
+  const weight = (k: number): number => Math.exp((-0.5 * k * k) / SOFTNESS ** 2);
+  const aside = Array.from({ length: Math.ceil(BLURRED / 2) }, (_, pair): [number, number] => {
+    const near = 2 * pair + 1;
+    const [one, other] = [weight(near), near < BLURRED ? weight(near + 1) : 0];
+    return [near + other / (one + other), one + other];
+  });
+  const all = 1 + 2 * aside.reduce((sum, [, each]) => sum + each, 0);
+  return [[0, 1 / all], ...aside.flatMap(([place, each]): [number, number][] => [[-place, each / all], [place, each / all]])];
+}
+
 const blur = () =>
   new ShaderMaterial({
     uniforms: { picture: { value: null }, step: { value: new Vector2() } },
@@ -70,13 +86,9 @@ const blur = () =>
       uniform vec2 step;
       varying vec2 at;
       void main() {
-        float sum = 0.0, all = 0.0;
-        for (float k = -9.0; k <= 9.0; k++) {
-          float weight = exp(-0.5 * k * k / ${(SOFTNESS * SOFTNESS).toFixed(2)});
-          sum += weight * texture2D(picture, at + k * step).r;
-          all += weight;
-        }
-        gl_FragColor = vec4(sum / all, 0.0, 0.0, 1.0);
+        float sum = 0.0;
+        ${readings().map(([place, weight]) => `sum += ${weight.toFixed(8)} * texture2D(picture, at + ${place.toFixed(8)} * step).r;`).join('\n        ')}
+        gl_FragColor = vec4(sum, 0.0, 0.0, 1.0);
       }`,
     depthTest: false,
   });
