@@ -6,7 +6,7 @@ import { LONG } from './jobs';
 import { lacks } from './lacks';
 import { faceless } from './media';
 import { address, finished } from './own_service';
-import { ask, open, openRunning, order } from './page';
+import { ask, open, openRunning, openWaiting, order } from './page';
 
 let browser: Browser;
 const done = finished.portrait;
@@ -21,7 +21,8 @@ afterEach(async () => {
 
 describe('a job that succeeds', () => {
   it('shows its stages and a first impression on the way, then the result beside the performance', async () => {
-    const page = await openRunning(browser);
+    const { page, begin } = await openWaiting(browser, 'idle');
+    await begin();
     await page.getByRole('list', { name: 'Stages' }).getByText('Animating').waitFor({ timeout: LONG });
     await page.getByRole('img', { name: 'A first frame of the result' }).waitFor();
     await expect.poll(() => page.getByRole('progressbar').getAttribute('value')).toMatch(/^0?\.\d+|1$/);
@@ -192,12 +193,12 @@ describe('a job on its way', () => {
 
 describe('a broken line', () => {
   it('is told, and mends itself', async () => {
-    const page = await openRunning(browser);
-    await page.getByRole('button', { name: 'Cancel' }).waitFor();
+    const { page, begin } = await openWaiting(browser, 'wink');
     await page.context().setOffline(true);
     await page.evaluate(() => dispatchEvent(new Event('offline')));
     await page.getByText('Connection lost').waitFor();
     await page.context().setOffline(false);
+    await begin();
     await page.getByRole('region', { name: 'Result and performance' }).waitFor({ timeout: LONG });
     expectComplaint(unanswered);
   });

@@ -79,7 +79,22 @@ export const order = (image: string, driver: string | File | null, options: obje
 export const orderCharacter = (photo: string, options: object = {}): Promise<string> =>
   character(address, photo, options);
 
-let driver: File | undefined;
+let lengthy: File | undefined;
+
+/**
+ * The page of a job that waits for one before it, and what lets it begin: whatever it shows on its way is seen by a page that
+ * is there, however fast the machine is and however short the job.
+ */
+export async function openWaiting(browser: Browser, driver: string): Promise<{ page: Page; begin: () => Promise<void> }> {
+  const before = await order(portrait, (lengthy ??= lengthyPerformance()));
+  const job = await order(portrait, driver);
+  const page = await open(browser, `#/jobs/${job}`);
+  await page.getByText(/^(Next|Place \d) in the queue$/).waitFor();
+  const begin = async (): Promise<void> => {
+    expect((await fetch(`${address}/v1/jobs/${before}/cancel`, { method: 'POST' })).ok).toBe(true);
+  };
+  return { page, begin };
+}
 
 /**
  * The page of a job that takes a while, opened while the job waits or has just begun: what it shows on the way can be
@@ -88,9 +103,9 @@ let driver: File | undefined;
 export async function openRunning(browser: Browser, ahead = 0): Promise<Page> {
   const page = await open(browser);
   await page.getByRole('radio').first().waitFor({ state: 'attached' });
-  driver ??= lengthyPerformance();
-  for (let one = 0; one < ahead; one++) await order(portrait, driver);
-  const job = await order(portrait, driver);
+  lengthy ??= lengthyPerformance();
+  for (let one = 0; one < ahead; one++) await order(portrait, lengthy);
+  const job = await order(portrait, lengthy);
   await page.evaluate((id) => (location.hash = `#/jobs/${id}`), job);
   return page;
 }
