@@ -6,11 +6,10 @@ Source: T. Ju, S. Schaefer, J. Warren, Mean value coordinates for closed triangu
 from __future__ import annotations
 
 import numpy as np
-from numba import prange
 from numpy.typing import NDArray
 
-from engine.compiled import njit
-
+NEXT, LAST = [1, 2, 0], [2, 0, 1]
+"""For each corner of a triangle the other two."""
 COINCIDENT = 1e-9
 """Radians, and shares of a length, below which a point lies on the surface, or in a triangle's plane."""
 
@@ -23,60 +22,36 @@ def cage_coordinates(
     Each row sums to one and times the vertices gives its point. Outside of the surface, and where it is far from convex,
     some weights are negative.
     """
-    return np.asarray(
-        _coordinates(
-            np.ascontiguousarray(points, np.float64),
-            np.ascontiguousarray(vertices, np.float64),
-            np.ascontiguousarray(triangles, np.int64),
-        )
-    )
+    corners = np.asarray(triangles)
+    placed = np.asarray(vertices, np.float64)
+    found = [_weights(placed - point, corners) for point in np.asarray(points, np.float64)]
+    return np.array(found).reshape(len(points), len(placed))
 
 
-@njit(parallel=True, nogil=True, error_model="numpy")
-def _coordinates(points, vertices, triangles):  # type: ignore[no-untyped-def]
-    out = np.zeros((len(points), len(vertices)))
-    for n in prange(len(points)):
-        away = vertices - points[n]
-        length = np.sqrt((away**2).sum(1))
-        at = np.argmin(length)
-        if length[at] < COINCIDENT:
-            out[n, at] = 1
-            continue
-        unit = away / length.reshape(-1, 1)
-        weights = np.zeros(len(vertices))
-        for t in range(len(triangles)):
-            if _add_triangle(triangles[t], unit, length, weights):  # the point lies in this triangle
-                break
-        out[n] = weights / weights.sum()
-    return out
-
-
-@njit(nogil=True, error_model="numpy")
-def _add_triangle(corners, unit, length, weights):  # type: ignore[no-untyped-def]
-    """Add the weights of a triangle's corners; where the point lies in it, they are all there is, and True is returned."""
-    angle, sine = np.empty(3), np.empty(3)
-    for k in range(3):
-        chord = unit[corners[(k + 1) % 3]] - unit[corners[(k + 2) % 3]]
-        angle[k] = 2 * np.arcsin(min(np.sqrt((chord**2).sum()) / 2, 1.0))
-    half = angle.sum() / 2
-    if np.pi - half < COINCIDENT:
-        weights[:] = 0
-        for k in range(3):
-            one, other = corners[(k + 1) % 3], corners[(k + 2) % 3]
-            weights[corners[k]] = np.sin(angle[k]) * length[one] * length[other]
-        return True
-    a, b, c = unit[corners[0]], unit[corners[1]], unit[corners[2]]
-    volume = (a * np.cross(b, c)).sum()
-    sign = 1.0 if volume > 0 else -1.0
-    cosine = np.empty(3)
-    for k in range(3):
-        one, other = angle[(k + 1) % 3], angle[(k + 2) % 3]
-        cosine[k] = 2 * np.sin(half) * np.sin(half - angle[k]) / (np.sin(one) * np.sin(other)) - 1
-        sine[k] = sign * np.sqrt(max(1 - cosine[k] ** 2, 0.0))
-        if abs(sine[k]) < COINCIDENT or not np.isfinite(sine[k]):
-            return False  # the point lies in the plane, outside of the triangle
-    for k in range(3):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        spread = length[corners[k]] * np.sin(angle[i]) * sine[j]
-        weights[corners[k]] += (angle[k] - cosine[i] * angle[j] - cosine[j] * angle[i]) / spread
-    return False
+def _weights(away: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(V,): the weights of vertices that lie `away` (V, 3) from the point."""
+    length = np.linalg.norm(away, axis=1)
+    at = int(np.argmin(length))
+    weights = np.zeros(len(away))
+    if length[at] < COINCIDENT:
+        weights[at] = 1
+        return weights
+    units = (away / length[:, None])[triangles]
+    chord = np.linalg.norm(units[:, NEXT] - units[:, LAST], axis=2)
+    angle = 2 * np.arcsin(np.minimum(chord / 2, 1))
+    half = angle.sum(1) / 2
+    around = np.flatnonzero(np.pi - half < COINCIDENT)
+    if len(around):  # the point lies in this triangle
+        corners = triangles[around[0]]
+        weights[corners] = np.sin(angle[around[0]]) * length[corners[NEXT]] * length[corners[LAST]]
+        return weights / weights.sum()
+    volume = np.einsum("tc,tc->t", units[:, 0], np.cross(units[:, 1], units[:, 2]))
+    sine = np.sin(angle)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cosine = 2 * (np.sin(half)[:, None] * np.sin(half[:, None] - angle)) / (sine[:, NEXT] * sine[:, LAST]) - 1
+        steep = np.where(volume > 0, 1, -1)[:, None] * np.sqrt(np.maximum(1 - cosine**2, 0))
+        added = angle - cosine[:, NEXT] * angle[:, LAST] - cosine[:, LAST] * angle[:, NEXT]
+        added = added / (length[triangles] * sine[:, NEXT] * steep[:, LAST])
+    counted = (np.abs(steep) >= COINCIDENT).all(1)  # of others the point lies in the plane, outside of the triangle
+    weights = np.bincount(triangles[counted].ravel(), added[counted].ravel(), len(away))
+    return np.asarray(weights / weights.sum())
