@@ -7,7 +7,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-import pytest
 from made_clip import face, unpacked, write_frames
 from numpy.typing import NDArray
 
@@ -39,13 +38,12 @@ def face_mask(frame: NDArray[np.uint8]) -> NDArray[np.bool_]:
     return mask > 0
 
 
-@pytest.mark.parametrize("name", ["woman_talk_aoc.mp4", "man_mouth_open_d18.mp4"])
-def test_a_driver_that_holds_still_gives_a_still_face(animation, clip, woman_white, tmp_path: Path, name: str) -> None:
-    """One real frame 60 times, with fresh sensor noise each: the face's brightness deviates by half a level at most."""
-    frame = clip(name, 1.0, 1.1)[0].astype(float)
+def test_a_driver_that_holds_still_gives_a_still_face(animation, clip, woman_white, tmp_path: Path) -> None:
+    """One real frame 40 times, with fresh sensor noise each: the face's brightness deviates by half a level at most."""
+    frame = clip("woman_talk_aoc.mp4", 1.0, 1.1)[0].astype(float)
     rng = np.random.default_rng(0)
     noisy = [
-        np.clip(frame + rng.normal(0, NOISE_GREY_LEVELS, frame.shape) + 0.5, 0, 255).astype(np.uint8) for _ in range(60)
+        np.clip(frame + rng.normal(0, NOISE_GREY_LEVELS, frame.shape) + 0.5, 0, 255).astype(np.uint8) for _ in range(40)
     ]
     driver = write_frames(tmp_path / "still.mp4", noisy, 30, crf=1)
     frames = np.array(unpacked(animation(woman_white, driver, format="png").out / "animation.zip"), np.float32)
@@ -102,7 +100,7 @@ def test_straight_lines_behind_a_moving_head_stay_straight(clip, small, tmp_path
     alpha = person_mask(rgb)[..., None]
     drawn = np.clip(alpha * rgb + (1 - alpha) * wall(rgb.shape[:2])[..., None] + 0.5, 0, 255).astype(np.uint8)
     write_image(tmp_path / "wall.png", drawn)
-    driver = write_frames(tmp_path / "tilts.mp4", clip("man_talk_tps.mp4", 0.6, 1.8))
+    driver = write_frames(tmp_path / "tilts.mp4", clip("man_talk_tps.mp4", 0.6, 1.8)[::2])
     options = PortraitOptions()
     target = find_target_face(tmp_path / "wall.png", options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
