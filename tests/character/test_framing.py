@@ -65,13 +65,11 @@ def inside(found: np.ndarray, seen: Camera, margin: float = 0.0) -> bool:
     return bool((found[:, 0] >= margin).all() and (found[:, 1] <= [width - 1 - margin, height - 1 - margin]).all())
 
 
-def played(character: Character, seen: Camera, name: str, motion: SourceMotion | None = None, fps: float = 10.0):  # type: ignore[no-untyped-def]
+def played(character: Character, seen: Camera, name: str, motion: SourceMotion | None = None, fps: float = 5.0):  # type: ignore[no-untyped-def]
     return choose_motion(character, lambda second: seen, character.pictured, MotionChoice(name, motion, (), 4.0, fps))
 
 
-@pytest.mark.parametrize(
-    ("above", "below"), [(0.15, 0.1), (0.04, 0.04), (0.01, 0.01)], ids=["room", "tight", "tighter"]
-)
+@pytest.mark.parametrize(("above", "below"), [(0.15, 0.1), (0.01, 0.01)], ids=["room", "tight"])
 @pytest.mark.parametrize("name", MOTIONS)
 def test_head_to_soles_are_in_every_frame_and_all_in_the_last(
     character: Character, name: str, above: float, below: float
@@ -90,7 +88,7 @@ def test_nothing_at_all_leaves_a_picture_with_room_for_it(character: Character) 
 
 def test_the_walk_uses_the_room_that_there_is(character: Character) -> None:
     seen = camera(character, 0.35, 0.35)
-    film = played(character, seen, "walk").film
+    film = played(character, seen, "walk", fps=10.0).film
     assert film.root[-1, 2] - film.root[0, 2] > 0.7, "it comes nearer"
     assert len(film.root) == 40, "for as long as it was asked for"
     assert boxes(character, seen, film, arms=True)[:, 1, 1].max() > 850, "until the picture is filled"
@@ -100,7 +98,7 @@ def test_the_walk_uses_the_room_that_there_is(character: Character) -> None:
 def test_whoever_comes_nearer_stays_in_sight_of_a_camera_that_moves(character: Character, move: Move) -> None:
     """Nearer than what the camera goes around, they are off to the side when it swings."""
     seen = camera(character, 0.3, 0.3, beside=0.3)
-    choice = MotionChoice("walk", None, (), 8.0, 10.0)
+    choice = MotionChoice("walk", None, (), 8.0, 5.0)
     film = choose_motion(character, moving_camera(character, seen, move), character.pictured, choice).film
     for frame in range(len(film.root)):
         moved = camera_at(move, seen, character.pictured.root[0], frame / film.fps)
@@ -162,14 +160,14 @@ def test_whoever_runs_away_by_a_file_of_their_own_stays_too(character: Character
     motion = replace(straight, rotations=rotations, translations=translations)
     seen = camera(character, 0.1, 0.08)
     film = choose_motion(
-        character, lambda second: seen, character.pictured, MotionChoice("", motion, (), 8.0, 15.0)
+        character, lambda second: seen, character.pictured, MotionChoice("", motion, (), 8.0, 8.0)
     ).film
-    assert len(film.root) > 100
+    assert len(film.root) > 50
     assert inside(boxes(character, seen, film, arms=False), seen)
     assert np.ptp(sole_places(skeleton, film)[..., 1].min(2), axis=0).min() > 0.05, "and runs on"
 
 
-@pytest.mark.parametrize("seconds", [1.0, 4.0, 6.5])
+@pytest.mark.parametrize("seconds", [1.0, 6.5])
 @pytest.mark.parametrize("name", MOTIONS)
 def test_a_film_is_as_long_as_it_was_asked_for(character: Character, name: str, seconds: float) -> None:
     """A bow that is done once is over before: its last pose is held."""
