@@ -61,11 +61,10 @@ def leg_of(template: PosedTemplate, leg: int) -> np.ndarray:
     return template.triangles[(part == leg).all(1)]
 
 
-@pytest.mark.parametrize("worn", [0, 4], ids=["bare", "in trousers"])
 @pytest.mark.parametrize(
-    ("turns", "before", "behind"),
-    [(AT_THE_KNEES, LEFT, RIGHT), (AT_THE_SHINS, RIGHT, LEFT), (FROM_THE_SIDE, RIGHT, LEFT)],
-    ids=["knees", "shins", "side"],
+    ("turns", "before", "behind", "worn"),
+    [(AT_THE_KNEES, LEFT, RIGHT, 0), (AT_THE_SHINS, RIGHT, LEFT, 4), (FROM_THE_SIDE, RIGHT, LEFT, 4)],
+    ids=["knees, bare", "shins, in trousers", "side, in trousers"],
 )
 def test_the_leg_behind_goes_on_where_it_is_hidden(
     turns: dict[str, tuple[int, int, int]], before: int, behind: int, worn: int

@@ -31,7 +31,7 @@ def figure(turn: float, folder: Path) -> Figure:
     return find_figure(folder / "photo.png", Choice(), False, Limits(), lambda code, message: None)
 
 
-@pytest.mark.parametrize(("turn", "profile"), [(0, False), (50, False), (90, True), (-90, True)])
+@pytest.mark.parametrize(("turn", "profile"), [(50, False), (-90, True)])
 def test_a_head_is_in_profile_where_one_ear_hides_the_other(turn: float, profile: bool, tmp_path: Path) -> None:
     assert in_profile(figure(turn, tmp_path)) == profile
 

@@ -70,12 +70,11 @@ def test_an_arm_behind_the_trunk_is_made_apart_from_it(
     assert 0.55 < long < 0.75
 
 
-@pytest.mark.parametrize("forth", [0, 60])
-def test_nothing_of_it_is_seen(labels: Labels, template: PosedTemplate, forth: int) -> None:
-    """Nor where the fit has it before the trunk, pixels of depth too near."""
+def test_nothing_of_it_is_seen(labels: Labels, template: PosedTemplate) -> None:
+    """Not even where the fit has it before the trunk, 60 pixels of depth too near."""
     mask, rig = clothed(template), load_human().rig
     arm = vertex_parts(rig) == LEFT
-    wrong = replace(template, vertices=template.vertices + np.outer(arm, [0, 0, forth]))
+    wrong = replace(template, vertices=template.vertices + np.outer(arm, [0, 0, 60]))
     layers = build_layers(labels, wrong, rig)
     shown = close(layers, mask.astype(np.float32)).seen_layer(SIZE)
     number = next(k for k, layer in enumerate(layers) if layer.limb == LEFT)
@@ -122,9 +121,7 @@ def test_an_arm_that_the_picture_cuts_off_is_not_made_up(cut: float) -> None:
     assert unseen_limbs(given, template, rig) == []
 
 
-@pytest.mark.parametrize(
-    "turns", [{"LeftForeArm": (0, -40, 0)}, {"LeftForeArm": (0, -75, 0)}, {"LeftArm": (0, -25, -60)}]
-)
+@pytest.mark.parametrize("turns", [{"LeftForeArm": (0, -75, 0)}, {"LeftArm": (0, -25, -60)}])
 def test_a_pose_that_would_show_the_arm_gives_way_to_one_that_hides_it(turns: dict[str, tuple[int, int, int]]) -> None:
     human, right = load_human(), standing({"Hips": (0, 90, 0)})
     mask = clothed(right)
