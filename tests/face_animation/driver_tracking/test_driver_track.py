@@ -207,7 +207,7 @@ def test_rate_and_part_are_the_asked_ones(whole: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "start", "end"),
-    [("man_talk_tps.mp4", 3.6, 5.0), ("man_mouth_open_d18.mp4", 4.0, 5.4), ("man_selfie_talk_d13.mp4", 2.9, 4.3)],
+    [("man_talk_tps.mp4", 3.6, 5.0), ("man_selfie_talk_d13.mp4", 2.9, 4.3)],
 )
 def test_lips_open_most_on_the_same_frame(clip, tmp_path: Path, name: str, start: float, end: float) -> None:
     """Against the unfiltered landmarks, to the frame; somewhere within the clip."""
@@ -289,8 +289,7 @@ def covers(frame: NDArray[np.uint8], mesh: NDArray[np.floating], colour: tuple[i
     return np.where(inside[..., None], drawn, frame).astype(np.uint8)
 
 
-@pytest.mark.parametrize("shaded", [False, True])
-@pytest.mark.parametrize("colour", [(150, 120, 105), (215, 175, 155), (205, 160, 140)])
+@pytest.mark.parametrize(("colour", "shaded"), [((150, 120, 105), True), ((215, 175, 155), False)])
 def test_what_covers_a_face_is_none_whatever_its_colour(
     frames, track: FaceTrack, tmp_path: Path, colour: tuple[int, int, int], shaded: bool
 ) -> None:
@@ -305,7 +304,7 @@ def test_what_covers_a_face_is_none_whatever_its_colour(
     assert seen.found[: hidden.start].all() and seen.found[hidden.stop + 2 :].all()
 
 
-@pytest.mark.parametrize("name", ["man_smile_d9.mp4", "woman_talk_aoc.mp4", "woman_funny_faces_d6.mp4"])
+@pytest.mark.parametrize("name", ["man_smile_d9.mp4", "woman_funny_faces_d6.mp4"])
 def test_no_turn_nor_grimace_is_taken_for_a_cover(media, name: str) -> None:
     assert track_driver(Excerpt(media(f"driving/{name}"), 12.0)).found.all()
 

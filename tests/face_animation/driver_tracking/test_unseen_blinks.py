@@ -97,12 +97,13 @@ def test_a_blink_that_the_tracker_misses(media) -> None:
     np.testing.assert_allclose(seen[:15, middles], tracked[:15, middles], atol=0.02)
 
 
-@pytest.mark.parametrize("neutral", [0, 119])
-def test_eyes_that_the_tracker_follows_stay_as_tracked(media, neutral: int) -> None:
+def test_eyes_that_the_tracker_follows_stay_as_tracked(media) -> None:
     """Open, narrowed and shut, on a face that moves its brows and its head, beginning with shut ones."""
     track = track_driver(Excerpt(media("driving/woman_frown_surprise_d3.mp4"), trim=(6.0, 10.0)))
-    tracked, seen = (lid_ratio(m, track.meshes[neutral]) for m in (track.meshes, register_track(track, neutral).meshes))
-    np.testing.assert_allclose(seen, tracked, atol=0.05)
+    for neutral in (0, 119):
+        rest = track.meshes[neutral]
+        tracked, seen = (lid_ratio(m, rest) for m in (track.meshes, register_track(track, neutral).meshes))
+        np.testing.assert_allclose(seen, tracked, atol=0.05)
 
 
 def test_eyes_stay_open_behind_glasses_on_a_head_that_moves_fast(media) -> None:
