@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.registration.rigid import Similarity
+
 
 @dataclass(frozen=True)
 class PointCloud:
@@ -33,6 +35,11 @@ class PointCloud:
     def __getitem__(self, chosen: NDArray[np.integer] | NDArray[np.bool_] | slice) -> PointCloud:
         """The points that an index array, a mask (N,) or a slice chooses."""
         return PointCloud(self.points[chosen], self.normals[chosen], self.colours[chosen])
+
+    def moved(self, change: Similarity) -> PointCloud:
+        """The same points in another world."""
+        normals = self.normals @ change.rotation.T
+        return PointCloud(change(self.points).astype(np.float32), normals.astype(np.float32), self.colours)
 
 
 def joined(clouds: Sequence[PointCloud]) -> PointCloud:
