@@ -269,6 +269,8 @@ class Run:
             return {k: self._part(v) for k, v in vars(argument).items()}
         if isinstance(argument, tuple | list):
             return [self._part(item) for item in argument]
+        if isinstance(argument, Mapping):
+            return {name: self._part(argument[name]) for name in sorted(argument)}
         if argument is None or isinstance(argument, str | int | float | bool):
             return argument
         raise TypeError(f"a stage cannot be keyed by {type(argument).__name__}")

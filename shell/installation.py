@@ -22,6 +22,7 @@ def data_files() -> dict[str, tuple[str, ...]]:
     """All files that are no modules, by the package that they belong to; the web page's, which have no fixed names, apart."""
     performances = [f"videos/{one.name}.{ending}" for one in scored() for ending in ("mp4", "jpg")]
     return {
+        "engine.avatar.sample": ("body.mp4", "head.mp4"),
         "engine.perception": ("canonical_face.npz",),
         "engine.performances": ("videos/appearances.json", *performances),
         "engine.portrait.reactive": ("page.html", "player/reactive-portrait.js"),

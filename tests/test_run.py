@@ -209,6 +209,8 @@ def test_callables_do_not_count_towards_the_key_and_other_things_are_refused() -
         ((np.zeros(3),), (np.zeros(3, np.float32),)),
         ((np.zeros((2, 3)),), (np.zeros((3, 2)),)),
         (((1, 2),), ((2, 1),)),
+        (({"a": 1},), ({"a": 2},)),
+        (({"a": 1},), ({"b": 1},)),
         ((Options(strength=1),), (Options(strength=2),)),
         ((Points(np.zeros(2)),), (Points(np.ones(2)),)),
         ((1, 2), ((1, 2),)),
@@ -219,6 +221,10 @@ def test_different_arguments_have_different_keys(a: tuple, b: tuple) -> None:
     assert run.key("stage", *a) != run.key("stage", *b)
     assert run.key("stage", *a) == Run().key("stage", *a)
     assert run.key("stage", *a) != run.key("other", *a)
+
+
+def test_a_mapping_has_the_key_of_its_items_in_whatever_order() -> None:
+    assert Run().key("s", {"a": np.ones(2), "b": 1}) == Run().key("s", {"b": 1, "a": np.ones(2)})
 
 
 def test_a_strided_array_has_the_key_of_its_values() -> None:

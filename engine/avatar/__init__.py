@@ -25,11 +25,24 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
 def _prepare() -> None:
     from engine.avatar import pipeline  # noqa: F401 - importing it is half of the preparation
+    from engine.avatar.face_performance import load_face_units
     from engine.avatar.registration.models import load_models
-    from engine.body.face.head_space import load_head_space
 
     load_models()  # a job may not read the user's cache, in which they lie: what is loaded here is kept
-    load_head_space()
+    load_face_units()
+
+
+def _rehearse(folder: Path) -> None:
+    from engine.avatar.sample import SAMPLE_FRAMES, sample_clip
+    from engine.performances import video
+
+    (folder / "out").mkdir()
+    frames = {f"{name}_frames": count for name, count in SAMPLE_FRAMES.items()}
+    small = {"texture_size": 1024, "size": (96, 160), "fps": 5, "vrm": True}
+    options = AvatarOptions.model_validate({**frames, **small})
+    clips = {"body": sample_clip("body"), "head": sample_clip("head"), "driver": video("idle")}
+    with Run() as run:
+        _work(clips, options, folder / "out", run)
 
 
 KIND = Kind(
@@ -73,6 +86,7 @@ KIND = Kind(
         *("motion", "motion_joints", "motion_clip"),
     ),
     prepare=_prepare,
+    rehearse=_rehearse,
     needs=Needs(seconds=2400, memory_mb=6000, cores=2),  # 20 minutes, or twice that where the machine has more to do
 )
 

@@ -67,7 +67,7 @@ def capture_performance(
         ) from None
     reference = canonical_face() * np.float32(REFERENCE_EYE_DISTANCE)
     rest = track.meshes[choose_neutral_frame(track, reference, None).frame]
-    weights = capture_face_units(_model(), track.meshes, rest)
+    weights = capture_face_units(load_face_units(), track.meshes, rest)
     head = rotation.from_matrix(head_rotations(track.meshes, rest))
     return FacePerformance(track.fps, MorphTrack(CAPTURED_UNITS, weights.astype(np.float32)), head)
 
@@ -89,5 +89,6 @@ def acting_clip(skeleton: Skeleton, performance: FacePerformance, body: Clip) ->
 
 
 @cache
-def _model() -> FaceUnitModel:
+def load_face_units() -> FaceUnitModel:
+    """What the face units do to the landmarks of a face, once."""
     return face_unit_model(load_template(), load_body_space())

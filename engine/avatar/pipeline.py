@@ -18,11 +18,14 @@ from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
+from engine.avatar.registration.models import load_models
 from engine.avatar.stages import (
     ClipScan,
     find_cameras,
     find_landmarks,
     fit_template,
+    in_body_s_world,
+    in_metres,
     measure_cloud,
     placed_frames,
     scan_clip,
@@ -31,8 +34,6 @@ from engine.avatar.stages import (
 from engine.avatar.turntable import turntable
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.parts import BODY_PARTS, vertex_parts
-from engine.body.rig import HUMAN_RIG
-from engine.body.template import load_rig, load_template
 from engine.errors import InputError
 from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
@@ -70,8 +71,11 @@ TURN_SECONDS = 6.0
 PREVIEW_SPACING = 0.006
 """Metres between the points of `preview.ply`, which pages show: one or two megabytes."""
 
+HEAD_UNMEASURED = frozenset({"person_not_measured"})
+"""What makes a clip of the head, whose cameras were found, one that is not used: the body alone is an avatar, too."""
+
 Clipped = tuple[ChosenFrames, ClipScan]
-"""A clip: its frames, and what they measured."""
+"""A clip: its frames, and what they measured, metres."""
 
 
 def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, run: Run) -> None:
@@ -97,35 +101,38 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     ]
     for early in write_first_impression(out, chosen[0].picture(0, 1280), None, run.mark_synthetic):
         run.publish(early)
-    found = run.stage(
-        "find_cameras", find_cameras, chosen[0], chosen[1] if head else None, options.height_m, run.warn, run.tick
-    )
+    found = run.stage("find_cameras", find_cameras, chosen[0], chosen[1] if head else None, run.warn, run.tick)
     given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
-    clips = [_scanned(chosen[0], found.body, given, run)]
-    for early in _write_capture(out, clips, None)[1:]:  # written again once the head's have joined them
+    grown = in_metres(options.height_m)
+    clips = [_scanned(chosen[0], found.body, given, grown, run)]
+    for early in _write_capture(out, chosen[:1], [clips[0][1]])[1:]:  # written again once the head's have joined them
         run.publish(early)
     if head and found.head is not None:
         try:
-            clips.append(_scanned(chosen[1], found.head, (), run))
-        except InputError as refused:  # the body alone is an avatar, too
+            clips.append(_scanned(chosen[1], found.head, (), grown, run))
+        except InputError as refused:
+            if refused.code not in HEAD_UNMEASURED:
+                raise
             run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
-    fitted = run.stage("fit_template", fit_template, clips[0][1], clips[1][1] if len(clips) > 1 else None)
+    near = clips[1][1] if len(clips) > 1 else None
+    fitted = run.stage("fit_template", fit_template, clips[0][1], near, found.head_sized, run.check)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
-    if not found.height_known:
+    if options.height_m is None:
         run.warn(
             "height_guessed", "How tall the person is was not said: the avatar's size is that of an average person."
         )
-    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, options.texture_size)
+    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, options.texture_size, run.check)
+    scans = in_body_s_world([scan for _, scan in clips], fitted)
 
-    template, rig = load_template(), load_rig(HUMAN_RIG)
-    avatar = assemble(template, rig, fitted, texture.texture, options.triangles)
+    human = load_models()
+    avatar = assemble(human.template, human.rig, fitted, texture.texture, options.triangles)
     scene = _scene(avatar, motion, driver, options, run)
     with run.timed("write_avatar"):
         write_avatar(out, avatar, scene, options, run)
-        _write_capture(out, clips, fitted.head_to_body)
+        _write_capture(out, [frames for frames, _ in clips], scans)
     _write_films(out, avatar, scene, options, run)
-    height = float(np.ptp(fitted.rest[template.vertices_of("body"), 1]))
+    height = float(np.ptp(fitted.rest[human.template.vertices_of("body"), 1]))
     write_report(
         out / "report.json",
         "avatar",
@@ -140,31 +147,31 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         },
         quality={
             "height_m": round(height, 4),
-            "points": float(sum(len(scan.dense.cloud) for _, scan in clips)),
+            "points": float(sum(len(scan.dense.cloud) for scan in scans)),
             "seen_share": round(texture.seen_share, 4),
             "triangles": float(len(avatar.mesh.triangles)),
             "largest_coefficient": round(float(np.abs(fitted.coefficients).max()), 2),
         },
-        more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, clips)},
+        more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, scans[0].dense.cloud)},
     )
 
 
-def _scanned(frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], run: Run) -> Clipped:
-    """A clip with its cloud and landmarks, some `given` by hand."""
+def _scanned(
+    frames: ChosenFrames, cameras: ClipCameras, given: tuple[GivenLandmark, ...], grown: Similarity, run: Run
+) -> Clipped:
+    """A clip with its cloud and landmarks, some `given` by hand, as large as the person is (`grown`)."""
     seen = run.stage("find_landmarks", find_landmarks, frames, cameras, run.tick)
     dense = run.stage("measure_cloud", measure_cloud, frames, cameras, seen, run.tick)
-    return frames, scan_clip(frames, seen, dense, given)
+    return frames, scan_clip(frames, seen, dense, given).moved(grown)
 
 
-def _coverage(fitted: FittedTemplate, clips: Sequence[Clipped]) -> dict[str, float]:
-    """Which share of each part of the body the body's cloud shows."""
-    template = load_template()
-    part = vertex_parts(load_rig(HUMAN_RIG))
+def _coverage(fitted: FittedTemplate, cloud: PointCloud) -> dict[str, float]:
+    """Which share of each part of the body a cloud shows."""
+    human = load_models()
+    part = vertex_parts(human.rig)
     skin = np.zeros(len(part), np.bool_)
-    skin[template.vertices_of("body")] = True
-    shown = coverage(
-        fitted.vertices, {name: skin & (part == k) for k, name in enumerate(BODY_PARTS)}, clips[0][1].dense.cloud
-    )
+    skin[human.skin.vertices] = True
+    shown = coverage(fitted.vertices, {name: skin & (part == k) for k, name in enumerate(BODY_PARTS)}, cloud)
     return {name: round(share, 3) for name, share in shown.items()}
 
 
@@ -187,25 +194,14 @@ def _scene(avatar: Avatar, motion: Path | None, driver: Path | None, options: Av
     return Scene(acting_clip(skeleton, performance, in_place(clip)), performance.units)
 
 
-def _write_capture(out: Path, clips: Sequence[Clipped], into: Similarity | None) -> tuple[Path, Path, Path]:
-    """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the body's clip; their paths."""
-    clouds: list[PointCloud] = []
+def _write_capture(out: Path, clips: Sequence[ChosenFrames], scans: Sequence[ClipScan]) -> tuple[Path, Path, Path]:
+    """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the fitted template; their paths."""
     written = []
-    for name, (frames, scan) in zip(("body", "head"), clips, strict=False):
-        cloud, cameras = scan.dense.cloud, scan.cameras
-        if name == "head" and into is not None:
-            cloud = replace(
-                cloud,
-                points=into(cloud.points).astype(np.float32),
-                normals=(cloud.normals @ into.rotation.T).astype(np.float32),
-            )
-            cameras = tuple(camera.moved(into) for camera in cameras)
-        clouds.append(cloud)
-        written.append(
-            WrittenCameras(name, frames.indices[scan.placed].tolist(), frames.seconds[scan.placed].tolist(), cameras)
-        )
+    for name, frames, scan in zip(("body", "head"), clips, scans, strict=False):
+        indices, seconds = frames.indices[scan.placed].tolist(), frames.seconds[scan.placed].tolist()
+        written.append(WrittenCameras(name, indices, seconds, scan.cameras))
     points, preview, cameras_path = (out / name for name in ("points.ply", "preview.ply", "cameras.json"))
-    cloud = joined(clouds)
+    cloud = joined([scan.dense.cloud for scan in scans])
     write_ply(points, cloud)
     write_ply(preview, thinned(cloud, PREVIEW_SPACING))
     write_cameras(cameras_path, written)

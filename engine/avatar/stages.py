@@ -13,6 +13,7 @@ from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
 from engine.avatar.capture.limb_masks import limbs_of, with_limbs
+from engine.avatar.capture.person_frame import USUAL_HEIGHT
 from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
@@ -23,9 +24,8 @@ from engine.avatar.registration.register import Scan, register
 from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.views import FrameView
-from engine.body.rig import HUMAN_RIG
-from engine.body.template import load_rig, load_template
 from engine.geometry.camera import Camera
+from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized
 
 FEATURE_SIDE = 1280
@@ -60,20 +60,26 @@ class ClipScan:
     dense: DenseCloud
     landmarks: SpatialLandmarks
 
-    def scan(self) -> Scan:
-        """What registration takes of it."""
-        return Scan(self.dense.cloud, self.landmarks)
+    def scan(self, sized: bool = False) -> Scan:
+        """What registration takes of it; of a head's clip, whether it is `sized` as the body's is."""
+        return Scan(self.dense.cloud, self.landmarks, sized)
+
+    def moved(self, change: Similarity) -> ClipScan:
+        """All of it in another world."""
+        cameras = tuple(camera.moved(change) for camera in self.dense.cameras)
+        dense = replace(self.dense, cloud=self.dense.cloud.moved(change), cameras=cameras)
+        own = tuple(camera.moved(change) for camera in self.cameras)
+        return ClipScan(self.placed, own, self.masks, dense, self.landmarks.moved(change))
 
 
-def find_cameras(
-    body: ChosenFrames, head: ChosenFrames | None, height_m: float | None, warn: Warn, tick: Tick
-) -> CaptureCameras:
-    """Where the cameras of both clips stood: section 3.2's first half. Raises what `solve_cameras` raises."""
+def find_cameras(body: ChosenFrames, head: ChosenFrames | None, warn: Warn, tick: Tick) -> CaptureCameras:
+    """Where the cameras of both clips stood, around somebody of usual height: section 3.2's first half. Raises what
+    `solve_cameras` raises."""
     clips = [
         None if clip is None else [clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in (body, head)
     ]
     assert clips[0] is not None
-    return solve_cameras(clips[0], clips[1], height_m, warn, tick)
+    return solve_cameras(clips[0], clips[1], warn, tick)
 
 
 def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> ClipLandmarks:
@@ -116,22 +122,37 @@ def scan_clip(
     return ClipScan(landmarks.placed, cameras, landmarks.masks, dense, spatial)
 
 
-def fit_template(body: ClipScan, head: ClipScan | None) -> FittedTemplate:
-    """The template fitted to the clouds: section 3.4. Raises what `register` raises."""
-    return register(load_models(), body.scan(), None if head is None else head.scan())
+def in_metres(height_m: float | None) -> Similarity:
+    """From somebody of usual height, as the clips measure everybody, to one of `height_m`."""
+    return Similarity((height_m or USUAL_HEIGHT) / USUAL_HEIGHT * np.eye(3), np.zeros(3))
 
 
-def stitch_texture(fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipScan]], size: int) -> AvatarTexture:
-    """The texture, `size` texels a side, from the frames of the body's and of the head's clip: section 3.5."""
+def fit_template(body: ClipScan, head: ClipScan | None, sized: bool, check: Callable[[], None]) -> FittedTemplate:
+    """The template fitted to the clouds, of which the head's may be `sized` as the body's is: section 3.4. Raises what `register`
+    raises."""
+    check()
+    return register(load_models(), body.scan(), None if head is None else head.scan(sized), check)
+
+
+def stitch_texture(
+    fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipScan]], size: int, check: Callable[[], None]
+) -> AvatarTexture:
+    """The texture, `size` texels a side, from the frames of the body's clip and, where registration has placed the head's, of
+    the head's: section 3.5."""
     views: list[FrameView] = []
-    for (chosen, scan), into in zip(clips, (None, fitted.head_to_body), strict=False):
-        cameras = scan.cameras if into is None else tuple(camera.moved(into) for camera in scan.cameras)
+    scans = in_body_s_world([scan for _, scan in clips], fitted)
+    for (chosen, _), scan in zip(clips, scans, strict=False):
         views += [
-            _frame_view(chosen, int(k), camera, mask)
-            for k, camera, mask in zip(scan.placed, cameras, scan.masks, strict=True)
+            _frame_view(chosen, int(k), camera, mask, check)
+            for k, camera, mask in zip(scan.placed, scan.cameras, scan.masks, strict=True)
         ]
-    template, rig = load_template(), load_rig(HUMAN_RIG)
-    return avatar_texture(template_surface(template, rig), rig, fitted.vertices, views, size)
+    human = load_models()
+    return avatar_texture(template_surface(human.template, human.rig), human.rig, fitted.vertices, views, size)
+
+
+def in_body_s_world(scans: Sequence[ClipScan], fitted: FittedTemplate) -> list[ClipScan]:
+    """What the body's clip gave and, where registration has placed it, the head's, in the world of the body's."""
+    return [*scans[:1], *(scan.moved(fitted.head_to_body) for scan in scans[1:] if fitted.head_to_body is not None)]
 
 
 def placed_frames(found: ClipCameras) -> NDArray[np.int64]:
@@ -139,9 +160,16 @@ def placed_frames(found: ClipCameras) -> NDArray[np.int64]:
     return np.array([k for k, camera in enumerate(found.cameras) if camera is not None], np.int64)
 
 
-def _frame_view(chosen: ChosenFrames, k: int, camera: Camera, mask: NDArray[np.bool_]) -> FrameView:
+def _frame_view(
+    chosen: ChosenFrames, k: int, camera: Camera, mask: NDArray[np.bool_], check: Callable[[], None]
+) -> FrameView:
     height, width = chosen.size
-    return FrameView(camera, lambda: chosen.picture(k), lambda: enlarged_mask(mask, (width, height)))
+
+    def picture() -> NDArray[np.uint8]:
+        check()
+        return chosen.picture(k)
+
+    return FrameView(camera, picture, lambda: enlarged_mask(mask, (width, height)))
 
 
 def _camera_of(found: ClipCameras, k: int, size: tuple[int, int]) -> Camera:

@@ -1,4 +1,4 @@
-"""From the frames of a person's films to cameras, in metres, in the axes of the person (the paper's section 3.2)."""
+"""From the frames of a person's films to cameras, in the axes of the person (the paper's section 3.2)."""
 
 from __future__ import annotations
 
@@ -9,24 +9,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.capture.joined_clips import join_clips
+from engine.avatar.capture.people_shown import look_for_people, refuse_wrong_clips
 from engine.avatar.capture.person_frame import person_frame
 from engine.avatar.capture.person_lock import PersonLock, lock_to_person, person_tracks
 from engine.avatar.capture.person_masks import believed_masks, settled_masks
 from engine.avatar.capture.scene_cameras import ClipScene, solve_scene
+from engine.avatar.capture.seen_sides import unseen_side
+from engine.avatar.capture.standing import refuse_walking
+from engine.errors import InputError
 from engine.geometry.camera import Camera
 from engine.geometry.multiview.structure_from_motion.mapping import Lens
 from engine.geometry.registration.rigid import Similarity
-from engine.imaging.resample import enlarged_mask, resized, size_within
-from engine.perception.body import Body, find_body
+from engine.imaging.resample import enlarged_mask
 
-FRONT_FRAMES = 12
-"""Frames of the film in which a body's pose is looked for, to see where the front is."""
-POSE_SIDE = 640
-"""Pixels of the longer side at which it is looked for."""
-UNSEEN_GAP = np.radians(100)
-"""Between neighbouring cameras around the person: from there on a side is not seen well."""
-SIDES = ("front", "left side", "back", "right side")
-"""Of the person, by quarter turns from +z to +x, the person's left."""
+HEAD_UNPLACED = frozenset({"camera_stands_still", "cameras_not_found"})
+"""What makes a clip of the head one that is not used: the body alone is an avatar, too."""
 
 Tick = Callable[[float], None]
 Warn = Callable[[str, str], None]
@@ -34,7 +31,8 @@ Warn = Callable[[str, str], None]
 
 @dataclass(frozen=True)
 class ClipCameras:
-    """The cameras of one film's C frames, in the person's frame: metres, y up, facing +z; None where none was found.
+    """The cameras of one film's C frames, in the person's frame: y up, facing +z, the person `USUAL_HEIGHT` tall; None where
+    none was found.
 
     cameras : locked to the person, who stands still in them; where `locked` (C,) is False, the room's.
     room : as the room has them.
@@ -51,12 +49,12 @@ class ClipCameras:
 
 @dataclass(frozen=True)
 class CaptureCameras:
-    """Of the `body` film and, where it could be joined, of the `head` film; `height` in metres is what was said, or what
-    was taken to be so (`height_known`)."""
+    """Of the `body` film and, where it could be joined, of the `head` film, in one frame; `head_sized`: whether the person in
+    both tells it, so that they are as large in one as in the other."""
 
     body: ClipCameras
     head: ClipCameras | None
-    height_known: bool
+    head_sized: bool
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,6 @@ class _Clip:
 def solve_cameras(
     body: Sequence[NDArray[np.uint8]],
     head: Sequence[NDArray[np.uint8]] | None,
-    height_m: float | None,
     warn: Warn,
     tick: Tick = lambda fraction: None,
     lenses: tuple[Lens | None, Lens | None] = (None, None),
@@ -79,31 +76,41 @@ def solve_cameras(
     Parameters
     ----------
     body, head : frames (H, W, 3) uint8 sRGB, in the films' order; each film's of one size.
-    height_m : of the person, metres.
     warn : is told a code and a sentence: `side_unseen`, `head_not_joined`, `floor_unseen`, `sway_unseen`.
     lenses : of both films' frames, where they are known.
 
-    Raises `InputError`: `camera_stands_still`, `cameras_not_found`.
+    Raises `InputError`: `camera_stands_still`, `cameras_not_found` of the body's film, `clips_swapped`, `no_person`,
+    `two_people`, `person_walks`.
     """
+    shown = look_for_people(body)
+    refuse_wrong_clips(shown, None if head is None else look_for_people(head))
     share = 1.0 if head is None else 0.6
     whole = _solve_clip(body, True, lenses[0], lambda fraction: tick(share * fraction))
-    frame = person_frame(whole.scene, whole.lock, whole.masks, _bodies(body), height_m)
+    refuse_walking(whole.scene, whole.masks)
+    frame = person_frame(whole.scene, whole.lock, whole.masks, shown.bodies(len(body)))
     if not frame.on_floor:
         warn("floor_unseen", "The floor around the feet has no pattern: the feet's height is a guess.")
     found = _placed(whole, frame.change)
-    _warn_of_unseen_sides(found, warn)
+    if side := unseen_side(np.array([camera.eye for camera in found.cameras if camera is not None])):
+        warn("side_unseen", f"The clip does not show the person's {side}: it is filled in by guessing.")
     if not found.locked.all():
         count = int((~found.locked).sum())
         warn("sway_unseen", f"In {count} frames too little is seen of the person to tell how they swayed.")
     if head is None:
-        return CaptureCameras(found, None, height_m is not None)
-    near = _solve_clip(head, False, lenses[1], lambda fraction: tick(share + (1 - share) * fraction))
+        return CaptureCameras(found, None, False)
+    try:
+        near = _solve_clip(head, False, lenses[1], lambda fraction: tick(share + (1 - share) * fraction))
+    except InputError as refused:
+        if refused.code not in HEAD_UNPLACED:
+            raise
+        warn("head_not_joined", f"The head clip is not used. {refused.detail}")
+        return CaptureCameras(found, None, False)
     joint = join_clips(whole.lock, near.lock, (whole.scene, near.scene))
     if joint is None:
         warn("head_not_joined", "The head clip shows too little of what the body clip shows, and is not used.")
-        return CaptureCameras(found, None, height_m is not None)
+        return CaptureCameras(found, None, False)
     change = Similarity(frame.change.linear @ joint.change.linear, frame.change(joint.change.shift))
-    return CaptureCameras(found, _placed(near, change), height_m is not None)
+    return CaptureCameras(found, _placed(near, change), joint.by_person)
 
 
 def _solve_clip(frames: Sequence[NDArray[np.uint8]], whole: bool, lens: Lens | None, tick: Tick) -> _Clip:
@@ -120,15 +127,6 @@ def _solve_clip(frames: Sequence[NDArray[np.uint8]], whole: bool, lens: Lens | N
     return _Clip(scene, lock, tuple(masks or settled_masks(frames, beliefs, scene, person)))
 
 
-def _bodies(frames: Sequence[NDArray[np.uint8]]) -> list[Body | None]:
-    """The poses of a few frames, spread over the film."""
-    chosen = set(np.linspace(0, len(frames) - 1, FRONT_FRAMES).round().astype(int).tolist())
-    return [
-        find_body(resized(frame, size_within(frame.shape, POSE_SIDE))) if k in chosen else None
-        for k, frame in enumerate(frames)
-    ]
-
-
 def _placed(clip: _Clip, change: Similarity) -> ClipCameras:
     room = clip.scene.reconstruction.bundle.moved(change)
     person = clip.lock.scene.reconstruction.bundle.moved(change)
@@ -142,14 +140,3 @@ def _placed(clip: _Clip, change: Similarity) -> ClipCameras:
         )
     points = person.points[clip.lock.scene.reconstruction.solved]
     return ClipCameras(cameras[0], cameras[1], clip.lock.locked, clip.masks, points)
-
-
-def _warn_of_unseen_sides(clip: ClipCameras, warn: Warn) -> None:
-    eyes = np.array([camera.eye for camera in clip.cameras if camera is not None])
-    around = np.sort(np.arctan2(eyes[:, 0], eyes[:, 2]))
-    gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
-    widest = int(gaps.argmax())
-    if gaps[widest] > UNSEEN_GAP:
-        middle = around[widest] + gaps[widest] / 2
-        side = SIDES[round(middle / (np.pi / 2)) % len(SIDES)]
-        warn("side_unseen", f"The clip does not show the person's {side}: it is filled in by guessing.")

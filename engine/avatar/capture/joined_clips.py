@@ -1,7 +1,8 @@
 """A second film of the same person in the frame of the first: the close-up of the head in that of the body.
 
 Both show the same room, which tells where they are to one another; then the person, who may have moved between the films,
-has the last word.
+has the last word: their size above all, which the room tells badly where the lens's focal length is a little wrong in either
+film. Places tell it about, and pixels exactly.
 """
 
 from __future__ import annotations
@@ -13,9 +14,10 @@ from numpy.typing import NDArray
 
 from engine.avatar.capture.person_lock import PersonLock, focus_of
 from engine.avatar.capture.scene_cameras import ClipScene
+from engine.geometry.multiview.structure_from_motion.joining import join_by_pixels
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.registration.consensus import similarity_by_consensus
-from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly
+from engine.geometry.registration.rigid import Similarity
 from engine.imaging.feature_matching import match_features, verified_matches
 from engine.imaging.features import Features
 
@@ -27,8 +29,9 @@ MIN_SHARED = 20
 """Points in common by which two films are joined."""
 MIN_PERSON_SHARED = 12
 """Points of the person in common by which they have the last word."""
-ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.01
-"""Distances of the first film's cameras by which points in common may be apart: of the room, which is far, and of the person."""
+ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.05
+"""Distances of the first film's cameras by which places in common may be apart before pixels decide: of the room, and of the
+person, who may have moved."""
 
 
 @dataclass(frozen=True)
@@ -57,15 +60,22 @@ def join_clips(first: PersonLock, second: PersonLock, rooms: tuple[ClipScene, Cl
     found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE * distance)
     if found is None or found.agreed.sum() < MIN_SHARED:
         return None
-    change, count = found.transform, int(found.agreed.sum())
+    joined = join_by_pixels(
+        rooms[0].reconstruction, rooms[1].reconstruction, tracks[known], found.transform, rooms[0].length
+    )
+    if joined.agreed.sum() < MIN_SHARED:
+        return None
     own = tracks[first.person[tracks[:, 0]] & second.person[tracks[:, 1]]]
     a = first.scene.reconstruction.bundle.points[own[:, 0]]
-    b = change(second.scene.reconstruction.bundle.points[own[:, 1]])
-    near = np.linalg.norm(a - b, axis=1) < 5 * PERSON_TOLERANCE * distance  # false where a point is not known
-    if near.sum() < MIN_PERSON_SHARED:
-        return Joint(change, count, by_person=False)
-    last = fit_robustly(b[near], a[near], PERSON_TOLERANCE * distance, fit_rigid).transform
-    return Joint(Similarity(last.linear @ change.linear, last(change.shift)), count, by_person=True)
+    b = joined.change(second.scene.reconstruction.bundle.points[own[:, 1]])
+    own = own[np.linalg.norm(a - b, axis=1) < PERSON_TOLERANCE * distance]  # false where a point is not known
+    last = None
+    if len(own) >= MIN_PERSON_SHARED:
+        persons = first.scene.reconstruction, second.scene.reconstruction
+        last = join_by_pixels(*persons, own, joined.change, rooms[0].length)
+    if last is None or last.agreed.sum() < MIN_PERSON_SHARED:
+        return Joint(joined.change, int(joined.agreed.sum()), by_person=False)
+    return Joint(last.change, int(last.agreed.sum()), by_person=True)
 
 
 def _shared_tracks(first: ClipScene, second: ClipScene) -> NDArray[np.intp]:

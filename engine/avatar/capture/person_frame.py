@@ -19,7 +19,7 @@ from engine.geometry.registration.rigid import Similarity
 from engine.perception.body import Body
 
 USUAL_HEIGHT = 1.7
-"""Metres, where nobody says how tall the person is."""
+"""Metres that the person is taken to be tall: how tall they are is a matter of scale, which nothing that is measured tells."""
 FLOOR_REACH = 0.6
 """Distances of the cameras around the person within which the floor is looked for."""
 FLOOR_THICKNESS = 0.015
@@ -44,7 +44,6 @@ def person_frame(
     lock: PersonLock,
     masks: Sequence[NDArray[np.bool_]],
     bodies: Sequence[Body | None],
-    height_m: float | None = None,
 ) -> PersonFrame:
     """The frame of the person in a film that shows them from head to foot.
 
@@ -52,7 +51,6 @@ def person_frame(
     ----------
     scene : the cameras as the room has them; lock : as the person has them, in the same frame.
     masks, bodies : of each frame: (h, w) bool, and the body's pose if one was looked for and found.
-    height_m : of the person, metres.
     """
     bundle, solved = lock.scene.reconstruction.bundle, lock.scene.reconstruction.solved
     up = upward(bundle, scene.reconstruction.registered)
@@ -65,7 +63,7 @@ def person_frame(
     front = _front(bundle, scene.reconstruction.registered, bodies, up, middle)
     axes = np.stack([np.cross(up, front), up, front])
     origin = middle + (lowest - middle @ up) * up
-    linear = (height_m or USUAL_HEIGHT) / height * axes
+    linear = USUAL_HEIGHT / height * axes
     return PersonFrame(Similarity(linear, -linear @ origin), height, floor is not None)
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from engine.geometry.registration.rigid import Similarity
+
 FACE_LANDMARKS = 68
 """Points of a face (iBUG)."""
 HAND_SIDES = ("Left", "Right")
@@ -26,9 +28,13 @@ class SpatialLandmarks:
 
     body: Mapping[str, NDArray[np.float64]]
     face: NDArray[np.float64] = field(default_factory=lambda: np.full((FACE_LANDMARKS, 3), np.nan))
-
     hands: NDArray[np.float64] = field(default_factory=lambda: np.full((len(HAND_SIDES), HAND_LANDMARKS, 3), np.nan))
 
     def without(self, names: frozenset[str]) -> SpatialLandmarks:
         """Those of the body whose names are not among `names`, and all of the face."""
         return replace(self, body={name: at for name, at in self.body.items() if name not in names})
+
+    def moved(self, change: Similarity) -> SpatialLandmarks:
+        """The same landmarks in another world."""
+        body = {name: change(at) for name, at in self.body.items()}
+        return SpatialLandmarks(body, change(self.face), change(self.hands))

@@ -9,10 +9,9 @@ from scipy.spatial import cKDTree
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.avatar.registration.fine import FIRST_INNER_FACE_POINT
 from engine.avatar.registration.skin import Skin, grown
-from engine.errors import InputError
 from engine.geometry.point_cloud import PointCloud, joined
 from engine.geometry.registration.iterative_closest_point import rigid_onto_surface
-from engine.geometry.registration.rigid import Similarity, fit_robustly
+from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly, fit_similarity
 
 LANDMARK_SIGMA = 0.006
 """Metres by which face landmarks are off, usually."""
@@ -28,34 +27,24 @@ CLOUD_RINGS = 10
 """Rings of vertices below the head for which the head's cloud counts, too."""
 
 
-def head_to_body(skin: Skin, fitted: NDArray[np.float64], cloud: PointCloud, landmarks: SpatialLandmarks) -> Similarity:
-    """From the world of the head's clip to the body's: by face landmarks, which give its scale, then rigidly by closest points.
-
-    Raises `InputError` with the code `landmarks_needed` where the face was not found in the head's clip.
-    """
+def head_to_body(
+    skin: Skin, fitted: NDArray[np.float64], cloud: PointCloud, landmarks: SpatialLandmarks, sized: bool
+) -> Similarity | None:
+    """From the world of the head's clip to the body's: by face landmarks, which give its scale unless it is `sized` as the
+    body is, then rigidly by closest points. None where the face was not found in the head's clip."""
     known = np.flatnonzero(np.isfinite(landmarks.face).all(1))
     known = known[known >= FIRST_INNER_FACE_POINT]
     if len(known) < MIN_FACE_LANDMARKS:
-        raise InputError(
-            "landmarks_needed",
-            "The face was not found in the head's clip: point at it in some frames (`landmarks`).",
-            ("landmarks",),
-        )
+        return None
     target = fitted[skin.face_points[known]]
-    placed = fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA).transform
+    fit = fit_rigid if sized else fit_similarity
+    placed = fit_robustly(landmarks.face[known], target, LANDMARK_SIGMA, fit).transform
     solid = skin.regions["head"] & ~skin.regions["lips"] & ~skin.regions["lids"]
     surface = skin.triangles[skin.visible & solid[skin.triangles].all(1)]
     points = placed(cloud.points)
     near = cKDTree(fitted[solid]).query(points, distance_upper_bound=ALIGNMENT_REACH)[0] < np.inf
     turn = rigid_onto_surface(points[near], fitted, surface, ALIGNMENT_GATE, ALIGNMENT_ROUNDS)
     return Similarity(turn.linear @ placed.linear, turn(placed.shift))
-
-
-def carried(cloud: PointCloud, transform: Similarity) -> PointCloud:
-    """A cloud in another world."""
-    normals = transform.offsets(cloud.normals)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    return PointCloud(transform(cloud.points).astype(np.float32), normals.astype(np.float32), cloud.colours)
 
 
 def one_cloud(skin: Skin, fitted: NDArray[np.float64], body: PointCloud, head: PointCloud) -> PointCloud:

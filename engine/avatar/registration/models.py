@@ -11,6 +11,7 @@ from engine.avatar.registration.coarse import SHAPE_COEFFICIENTS
 from engine.avatar.registration.footwear import Feet, load_feet
 from engine.avatar.registration.skin import Skin, load_skin
 from engine.body.body_space import BodySpace, load_body_space
+from engine.body.face.head_space import HeadSpace, load_head_space
 from engine.body.hands import HandModel, hand_model
 from engine.body.landmarks import LandmarkModel, landmark_model
 from engine.body.rig import HUMAN_RIG, Rig
@@ -19,12 +20,13 @@ from engine.body.template import Template, load_rig, load_template
 
 @dataclass(frozen=True)
 class HumanModels:
-    """The template with its rig, the space of bodies, its landmarks, its skin, that skin posed, its feet, and its hands by their
-    side."""
+    """The template with its rig, the spaces of bodies and of heads, its landmarks, its skin, that skin posed, its feet, and its
+    hands by their side."""
 
     template: Template
     rig: Rig
     space: BodySpace
+    heads: HeadSpace
     landmarks: LandmarkModel
     skin: Skin
     body: BodyModel
@@ -34,11 +36,12 @@ class HumanModels:
 
 @cache
 def load_models() -> HumanModels:
-    """Load them; the first time, everything that is made once is made (some minutes)."""
+    """Load them, once; the first time of all, everything that is made once is made (some minutes)."""
     template, space, rig = load_template(), load_body_space(), load_rig(HUMAN_RIG)
     skin = load_skin(template, space, rig)
     body = BodyModel(space, skin, SHAPE_COEFFICIENTS)
     feet = load_feet(skin, space.mean[skin.vertices])
     left, right = hand_model(template, space, rig, "Left"), hand_model(template, space, rig, "Right")
     hands = {"Left": left, "Right": right}
-    return HumanModels(template, rig, space, landmark_model(template, space, rig), skin, body, feet, hands)
+    landmarks = landmark_model(template, space, rig)
+    return HumanModels(template, rig, space, load_head_space(), landmarks, skin, body, feet, hands)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,12 +16,11 @@ from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.footwear import in_shoes, wears_shoes
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
-from engine.avatar.registration.head_cloud import carried, head_to_body, one_cloud
+from engine.avatar.registration.head_cloud import head_to_body, one_cloud
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
-from engine.body.face.head_space import load_head_space
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates
@@ -39,17 +39,21 @@ MIN_POINTS = 2000
 
 @dataclass(frozen=True)
 class Scan:
-    """What one clip gave: a cloud in its own world, metres, and the landmarks there."""
+    """What one clip gave: a cloud in its own world, metres, and the landmarks there; of a head's, whether it is `sized` as the
+    body's is, or its scale is to be found."""
 
     cloud: PointCloud
     landmarks: SpatialLandmarks
+    sized: bool = False
 
 
-def register(models: HumanModels, body: Scan, head: Scan | None = None) -> FittedTemplate:
+def register(
+    models: HumanModels, body: Scan, head: Scan | None = None, check: Callable[[], None] = lambda: None
+) -> FittedTemplate:
     """The person of a body's and a head's scan.
 
-    The body's world has y up, the ground at y = 0 about. Without a head's scan, or where it has hardly a point, the face
-    is as good as the body's cloud.
+    The body's world has y up, the ground at y = 0 about. Without a head's scan, or where it has hardly a point or no
+    face, the face is as good as the body's cloud. `check` is called between steps, and may raise.
 
     Raises `InputError`: `landmarks_needed` where landmarks are missing or contradict each other; `cloud_too_thin` where there
     are too few points.
@@ -62,18 +66,24 @@ def register(models: HumanModels, body: Scan, head: Scan | None = None) -> Fitte
     cloud = thinned(body.cloud, BODY_SPACING)
     by_landmarks = fit_to_landmarks(models.body, models.landmarks, body.landmarks)
     believed = body.landmarks.without(by_landmarks.dropped)
+    check()
     parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
+    check()
     body_fit = with_hands(models, parameters, believed)
     coarse = body_fit.vertices
     shoes = wears_shoes(models.skin, models.feet, coarse, cloud)
     if shoes:
         coarse = in_shoes(models.skin, models.feet, coarse)
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
+    check()
     placed: Similarity | None = None
     if head is not None and len(head.cloud) >= MIN_POINTS:
-        placed = head_to_body(models.skin, fitted, head.cloud, head.landmarks)
-        fitted = _with_head(models, fitted, cloud, head, placed)
+        placed = head_to_body(models.skin, fitted, head.cloud, head.landmarks, head.sized)
+        if placed is not None:
+            fitted = _with_head(models, fitted, cloud, head, placed)
+    check()
     fitted = inner_skin(models.skin, coarse, fitted)
+    check()
     return _person(
         models,
         replace(body_fit, vertices=coarse),
@@ -88,10 +98,10 @@ def _with_head(
     models: HumanModels, fitted: NDArray[np.float64], cloud: PointCloud, head: Scan, placed: Similarity
 ) -> NDArray[np.float64]:
     """The skin (S, 3) of the body's fit with the head laid on its own cloud."""
-    near = thinned(carried(head.cloud, placed), HEAD_SPACING)
+    near = thinned(head.cloud.moved(placed), HEAD_SPACING)
     face = placed(head.landmarks.face)
     both = one_cloud(models.skin, fitted, cloud, near)
-    shaped = head_shape(models.skin, load_head_space(), fitted, near, face)
+    shaped = head_shape(models.skin, models.heads, fitted, near, face)
     return fit_head(models.skin, shaped, both, face)
 
 
@@ -135,7 +145,7 @@ def _notices(coarse: CoarseFit, coefficients: NDArray[np.float64], head_lost: bo
         found.append(
             Notice(
                 "head_not_reconstructed",
-                "Too little of the head's clip was reconstructed: the face is the body clip's.",
+                "Too little of the head's clip was reconstructed, or it shows no face: the face is the body clip's.",
             )
         )
     if coarse.dropped:
