@@ -53,5 +53,5 @@ def _weights(away: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArr
         added = angle - cosine[:, NEXT] * angle[:, LAST] - cosine[:, LAST] * angle[:, NEXT]
         added = added / (length[triangles] * sine[:, NEXT] * steep[:, LAST])
     counted = (np.abs(steep) >= COINCIDENT).all(1)  # of others the point lies in the plane, outside of the triangle
-    weights = np.bincount(triangles[counted].ravel(), added[counted].ravel(), len(away))
+    np.add.at(weights, triangles[counted], added[counted])
     return np.asarray(weights / weights.sum())
