@@ -82,6 +82,7 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
             ("person_index", "mask", "labels"),
         )
     run.plan(STAGES)
+    source = motion_in_use(motion, options.motion_clip, options.motion_joints, run.warn)  # a wrong one is told at once
     figures = find_figures(photo, options, run)
     figure = figures[0]
     if len(figures) > 1:
@@ -96,7 +97,6 @@ def wake_up(inputs: Mapping[str, Given], options: CharacterOptions, out: Path, r
         for one, silhouette in zip(figures, silhouettes, strict=True)
     ]
     with run.timed("write_character"):
-        source = motion_in_use(motion, options.motion_clip, options.motion_joints, run.warn)
         for person in people:
             person.act(options, source, people[0].character)
         if source and (lost := lost_warning(source, people[0].played.joints)):
