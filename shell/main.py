@@ -88,10 +88,12 @@ def main() -> None:
 @click.option("--port", type=click.IntRange(0, 65535), help="The port; 0 takes a free one (GALATEA_PORT; 8000).")
 def serve(host: str | None, port: int | None) -> None:
     """API, web page, embedded Redis and workers in one command."""
-    from shell.serve import serve as run
     from shell.settings import read_settings
 
-    run(read_settings(host=host, port=port))
+    settings = read_settings(host=host, port=port)
+    from shell.serve import serve as run  # seconds, in which wrong settings would wait to be told of
+
+    run(settings)
 
 
 @main.command()
