@@ -312,7 +312,7 @@ noise = np.random.default_rng(0).integers(0, 40, (height, width + 100, 3), dtype
 with VideoWriter(VideoTarget(path, (width, height), fps, format)) as writer:
     for k in range(frames):
         writer.write(noise[:, k % 100 : k % 100 + width] + np.uint8(k % 200))
-count = sum(1 for _ in read_video(path)) if format != "png" else frames
+count = sum(1 for _ in read_video(path))
 # Not getrusage, whose peak a child inherits from its parent.
 print(count, re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
 """
@@ -320,10 +320,11 @@ print(count, re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text(
 
 @pytest.mark.parametrize(
     ("format", "fps", "size"),
-    [("mp4", 15, (320, 240)), ("webm", 8, (256, 192)), ("webp", 10, (208, 160)), ("png", 10, (208, 160))],
+    [("mp4", 10, (208, 160)), ("webm", 8, (256, 192)), ("webp", 10, (208, 160))],
 )
 def test_memory_is_flat(tmp_path: Path, format: str, fps: int, size: tuple[int, int]) -> None:
-    """Writing and reading three minutes peaks within 100 MB of five seconds; keeping the frames would take more."""
+    """Writing and reading three minutes peaks within 100 MB of five seconds; keeping the frames would take more.
+    Numbered pictures are only written: see above."""
     assert size[0] * size[1] * 3 * fps * 175 > 170e6
     peaks = {}
     for seconds in (5, 180):

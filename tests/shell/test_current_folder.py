@@ -64,6 +64,11 @@ def test_what_pythonpath_names_is_found(tmp_path: Path) -> None:
     environment |= {"GALATEA_KINDS": "tiny_kind:KIND", "GALATEA_DATA_DIR": str(tmp_path)}
     for named, code in ((str(HERE), 0), (".", 0), (os.pathsep, 1)):  # an empty part is the current folder to Python
         done = subprocess.run(
-            [str(GALATEA), "doctor"], cwd=HERE, env=environment | {"PYTHONPATH": named}, capture_output=True, text=True
+            [str(GALATEA), "tiny", "--help"],
+            cwd=HERE,
+            env=environment | {"PYTHONPATH": named},
+            capture_output=True,
+            text=True,
         )
-        assert ("job kinds: tiny" in done.stdout) == (code == 0), done.stdout
+        assert ("Measures a picture." in done.stdout) == (code == 0), done.stdout
+        assert (done.returncode == 0) == (code == 0), done.stderr
