@@ -1,10 +1,13 @@
-"""Frames of a performance: where it is lit in full, and that what lies between looks as if it were."""
+"""Frames of a performance: where it is lit in full, that what lies between looks as if it were, and that the shipped
+ones are of this studio."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from engine.media.video import read_video
+from engine.performances import video
 from engine.performances.modelling.actor import Actor, build_actor, stage
 from engine.performances.modelling.figure import Pose
 from engine.performances.rendering.filming import MAX_KEY_FRAME_DISTANCE, MAX_POSE_CHANGES, carry, key_frames
@@ -21,14 +24,21 @@ def actor() -> Actor:
 def test_frames_between_key_frames_look_as_if_lit_in_full(actor: Actor) -> None:
     """Three moments of a smile: the middle one carries the light of the others, and is what the studio would make."""
     poses = [SCORES["happy"](t) for t in (0.60, 0.68, 0.76)]
-    between = carry(*(expose(actor, stage(actor, poses[i]), detail=0.3) for i in (0, 2)), 0.5, stage(actor, poses[1]))
+    first, last = (expose(actor, stage(actor, poses[i]), detail=0.3) for i in (0, 2))
+    between = carry(first, last, 0.5, stage(actor, poses[1]))
     assert between is not None
     made = finish(between, actor).astype(float)
     full = photograph(actor, stage(actor, poses[1]), detail=0.3).astype(float)
     away = np.abs(made - full)
     assert away.mean() < 0.8 and np.quantile(away, 0.99) < 12
-    ends = photograph(actor, stage(actor, poses[0]), detail=0.3).astype(float)
-    assert away.mean() < 0.3 * np.abs(ends - full).mean()
+    assert away.mean() < 0.3 * np.abs(finish(first, actor) - full).mean()
+
+
+def test_the_shipped_videos_are_what_the_studio_makes(actor: Actor) -> None:
+    """The first frame, rendered anew: whoever changes the actor has to render the videos again."""
+    shipped = next(iter(read_video(video("surprise")))).rgb
+    fresh = photograph(actor, stage(actor, Pose())).astype(float)
+    assert np.abs(fresh - shipped).mean() < 1.5
 
 
 def test_key_frames_stand_where_much_changes() -> None:
