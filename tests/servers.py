@@ -104,11 +104,11 @@ class PostgresServer:
         self._process.wait(90)
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    def new_database(self) -> str:
-        """The address of a fresh, empty database."""
+    def new_database(self, like: str = "template1") -> str:
+        """The address of a fresh, empty database; or of a copy of another, named, to which nobody is connected."""
         self._databases += 1
         name = f"galatea{self._databases}"
-        self.run(f"CREATE DATABASE {name}")
+        self.run(f"CREATE DATABASE {name} TEMPLATE {like}")
         return f"postgresql://galatea:{PASSWORD.replace(' ', '%20')}@{self.host}:{self.port}/{name}"
 
     def run(self, statement: str, database: str = "postgres") -> list[list[object]]:
