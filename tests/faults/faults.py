@@ -92,7 +92,7 @@ def empty_redis(scene: Scene) -> None:
 def lock_database(scene: Scene) -> None:
     database = sqlite3.connect(scene.running.data_dir / "galatea.db", timeout=30, isolation_level=None)
     database.execute("BEGIN IMMEDIATE")
-    time.sleep(scene.rng.uniform(1, 5))
+    time.sleep(scene.rng.uniform(1, 3))
     database.execute("ROLLBACK")
     database.close()
 
@@ -119,7 +119,7 @@ def send_slowly(scene: Scene) -> None:
                 b"Content-Type: multipart/form-data; boundary=edge\r\n\r\n--edge\r\n"
                 b'Content-Disposition: form-data; name="file"; filename="a.png"\r\n\r\n\x89PNG\r\n\x1a\n'
             )
-            for _ in range(20):
+            for _ in range(10):
                 line.sendall(bytes(100))
                 time.sleep(0.1)
 
@@ -137,7 +137,7 @@ def cut_calls_off(scene: Scene) -> None:
 
 
 def answer_slowly(scene: Scene) -> None:
-    scene.receiver.answer = lambda request: time.sleep(5)
+    scene.receiver.answer = lambda request: time.sleep(3)
 
 
 def redirect(scene: Scene) -> None:
