@@ -51,6 +51,10 @@ export interface SharedProps {
   film: VNode | undefined;
 }
 
+export interface ProgressProps {
+  job: Job;
+}
+
 /** Fetches a part of the page when it is first needed. */
 export type Load<Props> = () => Promise<{ default: ComponentType<Props> }>;
 
@@ -66,6 +70,8 @@ export interface Kind<Wanted extends Order = Order> {
   readonly link: string;
 
   readonly loadStudio: Load<StudioProps>;
+  /** What is shown of a job on its way, beside its preview and its stages; null where that is all. */
+  readonly loadProgress: Load<ProgressProps> | null;
   readonly loadResult: Load<ResultProps>;
   /** What can be put right before a job is made again; null where the page offers nothing. */
   readonly loadCorrections: Load<CorrectionsProps> | null;

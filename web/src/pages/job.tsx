@@ -153,6 +153,7 @@ function Body({ job, report, stages, onProblem, onPropose }: BodyProps & Pick<Re
 
 function Running({ job, stages, onProblem }: BodyProps) {
   const kind = useKind(job.kind);
+  const Progress = kind.loadProgress && part(kind.loadProgress);
   const [canceling, setCanceling] = useState(false);
   const preview = job.artifacts['preview.jpg'];
   const cancel = (): void => {
@@ -163,22 +164,25 @@ function Running({ job, stages, onProblem }: BodyProps) {
     });
   };
   return (
-    <div class="job-running">
-      <figure class="job-preview">
-        {preview ? (
-          <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
-        ) : (
-          <Picture key="portrait" class="placeholder" url={pictureUrl(job, kind)} alt="" />
-        )}
-        <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
-      </figure>
-      <div>
-        <Stages job={job} stages={stages} />
-        <button type="button" class="button" disabled={canceling} onClick={cancel}>
-          {canceling ? words.canceling : words.cancel}
-        </button>
+    <>
+      <div class="job-running">
+        <figure class="job-preview">
+          {preview ? (
+            <Picture key="preview" class="fresh" url={preview.url} alt={words.previewAlt} />
+          ) : (
+            <Picture key="portrait" class="placeholder" url={pictureUrl(job, kind)} alt="" />
+          )}
+          <figcaption>{preview ? words.preview : words.previewSoon}</figcaption>
+        </figure>
+        <div>
+          <Stages job={job} stages={stages} />
+          <button type="button" class="button" disabled={canceling} onClick={cancel}>
+            {canceling ? words.canceling : words.cancel}
+          </button>
+        </div>
       </div>
-    </div>
+      {Progress && job.status === 'running' && <Progress job={job} />}
+    </>
   );
 }
 

@@ -9,6 +9,7 @@ import { words } from './words';
 import { useSkeletonLines, useSurroundings, useWideView } from './scene/surroundings';
 import { OrbitView } from './orbit/orbit_view';
 import { peopleOf, standTogether, type HasArtifacts } from './artifacts/people';
+import type { Character } from './scene/character';
 import { type Pose } from './posing/pose';
 import { PosingView } from './posing/posing_view';
 import type { Stage } from './scene/stage';
@@ -36,9 +37,11 @@ export interface ViewerProps {
   onPose?: ((pose: Record<string, [number, number, number]>) => void) | undefined;
   /** Their video: seen at once where there is no 3D. */
   film?: ComponentChildren;
+  /** What stands beside a character that is looked at. */
+  beside?: ((stage: Stage, character: Character) => ComponentChildren) | undefined;
 }
 
-export default function Viewer({ job, renew, first, pose = {}, onPose, film }: ViewerProps) {
+export default function Viewer({ job, renew, first, pose = {}, onPose, film, beside }: ViewerProps) {
   const section = useRef<HTMLElement>(null);
   const place = useRef<HTMLDivElement>(null);
   const { shown, trouble, retry } = useStage(place, job);
@@ -96,26 +99,30 @@ export default function Viewer({ job, renew, first, pose = {}, onPose, film }: V
           />
         )}
       </header>
-      {/* The keyboard circles around what is shown: see the help below. */}
-      <div
-        ref={place}
-        class="viewer-stage"
-        hidden={mode === 'film'}
-        tabIndex={trouble ? -1 : 0}
-        role="application"
-        aria-label={people.length > 1 ? words.stageOfSeveral : words.stage}
-        aria-busy={!shown && !trouble}
-      >
-        {trouble && !flat && (
-          <ProblemAlert code={trouble} detail={trouble === 'no_webgl' ? words.noWebGL : words.failed}>
-            {trouble !== 'no_webgl' && (
-              <button type="button" class="button" onClick={retry}>
-                {strings.retry}
-              </button>
-            )}
-          </ProblemAlert>
+      <div class={beside ? 'viewer-scene with-side' : 'viewer-scene'} hidden={mode === 'film'}>
+        {/* The keyboard circles around what is shown: see the help below. */}
+        <div
+          ref={place}
+          class="viewer-stage"
+          tabIndex={trouble ? -1 : 0}
+          role="application"
+          aria-label={people.length > 1 ? words.stageOfSeveral : words.stage}
+          aria-busy={!shown && !trouble}
+        >
+          {trouble && !flat && (
+            <ProblemAlert code={trouble} detail={trouble === 'no_webgl' ? words.noWebGL : words.failed}>
+              {trouble !== 'no_webgl' && (
+                <button type="button" class="button" onClick={retry}>
+                  {strings.retry}
+                </button>
+              )}
+            </ProblemAlert>
+          )}
+          {!shown && !trouble && <p class="viewer-loading">{words.loading}</p>}
+        </div>
+        {beside && shown && mode === 'look' && cast[0] && (
+          <div class="viewer-side">{beside(shown.stage, cast[0].character)}</div>
         )}
-        {!shown && !trouble && <p class="viewer-loading">{words.loading}</p>}
       </div>
       {mode === 'film' && film}
       {flat && <p class="viewer-help">{words.noWebGL}</p>}

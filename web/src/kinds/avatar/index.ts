@@ -3,6 +3,7 @@
 import type { Kind } from '../../kind/kind';
 import { motionName } from '../../motion/motion_names';
 import { textOf } from '../../works/inputs';
+import { withViewer } from '../../viewer/part';
 import { genericKind } from '../generic';
 import { type AvatarOrder, namesOf, request } from './order';
 import { avatarOptions, USUAL_MOTION } from './types';
@@ -15,6 +16,9 @@ export const avatar: Kind<AvatarOrder> = {
   label: words.label,
   link: '#/avatar',
   loadStudio: () => import('./studio'),
+  loadProgress: () => import('./measured'),
+  loadResult: () => withViewer(import('./result')),
+  loadShared: () => import('./shared'),
   stages: words.stages,
   failures: words.failures,
   differences: words.differences,

@@ -6,7 +6,7 @@ import { strings } from '../../language/strings';
 import type { Kind } from '../../kind/kind';
 import { DEFAULT_MOTION, motionName } from '../../motion/motion_names';
 import { type CharacterOrder, namesOf, request } from './order';
-import { withViewer } from './viewer_part';
+import { withViewer } from '../../viewer/part';
 import { words } from './words';
 
 const namedMotion: Kind['performance'] = (job) => motionName(characterOptions(job).motion ?? DEFAULT_MOTION);
@@ -16,6 +16,7 @@ export const character: Kind<CharacterOrder> = {
   label: words.label,
   link: '#/character',
   loadStudio: () => import('./studio'),
+  loadProgress: null,
   loadResult: () => withViewer(import('./result')),
   loadCorrections: () => import('./corrections/panel'),
   loadShared: () => import('./shared'),

@@ -9,7 +9,7 @@ import { peopleOf } from '../../viewer/artifacts/people';
 import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
 import { Player } from '../../result/player';
 import type { ResultProps } from '../../kind/kind';
-import { Viewer } from './viewer_part';
+import { Viewer } from '../../viewer/part';
 import { words as characterWords } from './words';
 
 const words = characterWords.character;

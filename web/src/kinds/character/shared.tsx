@@ -1,7 +1,7 @@
 /** What a public link shows of characters: them in 3D, their video at hand. */
 
 import type { SharedProps } from '../../kind/kind';
-import { Viewer } from './viewer_part';
+import { Viewer } from '../../viewer/part';
 
 export default function SharedCharacter({ shared, renew, film }: SharedProps) {
   if (!shared.artifacts['character.glb']) return film ?? null;

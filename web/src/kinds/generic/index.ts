@@ -16,6 +16,7 @@ export const genericKind = (name: string): Kind<GenericOrder> => ({
   label: plain(name),
   link: `#/make/${encodeURIComponent(name)}`,
   loadStudio,
+  loadProgress: null,
   loadResult,
   loadCorrections: null,
   loadShared,

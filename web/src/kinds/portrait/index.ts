@@ -17,6 +17,7 @@ export const portrait: Kind<PortraitOrder> = {
   label: words.label,
   link: '#/',
   loadStudio: () => import('./studio'),
+  loadProgress: null,
   loadResult: () => import('./result'),
   loadCorrections: () => import('./corrections/panel'),
   loadShared: null,

@@ -19,11 +19,11 @@ export interface CharacterFiles {
   place: [x: number, y: number, z: number] | null;
 }
 
-/** The first is character.glb, the second character-2.glb, and so on. */
+/** The first is character.glb, the second character-2.glb, and so on; or there is one alone, avatar.glb. */
 export function peopleOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null): CharacterFiles[] {
   const people: CharacterFiles[] = [];
   for (let index = 0; ; index++) {
-    const name = nameOf(index);
+    const name = nameOf(index, 'avatar.glb' in artifacts ? 'avatar' : 'character');
     const glb = artifacts[`${name}.glb`];
     if (!glb) return people;
     const told = skeleton?.woken?.[index];
@@ -32,7 +32,7 @@ export function peopleOf({ artifacts }: HasArtifacts, skeleton: Skeleton | null)
   }
 }
 
-const nameOf = (index: number): string => (index === 0 ? 'character' : `character-${index + 1}`);
+const nameOf = (index: number, first: string): string => (index === 0 ? first : `${first}-${index + 1}`);
 
 /** Whether all can be shown together, where they stood. */
 export const standTogether = (people: readonly CharacterFiles[]): boolean =>

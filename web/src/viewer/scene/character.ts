@@ -1,4 +1,4 @@
-/** A character from its GLB: the mesh, its joints by name, and its clips. */
+/** A character from its GLB: the mesh, its joints by name, its face, and its clips. */
 
 import {
   type AnimationClip,
@@ -15,6 +15,7 @@ import {
 } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { CROWN } from '../posing/handles';
+import { Face } from './face';
 
 /** Of metres, and of the numbers of quaternions: what differs by less is the same. */
 const SAME = 2e-3;
@@ -26,10 +27,13 @@ export const IN_PLACE = '_in_place';
 
 export class Character {
   readonly root: Group;
+  /** The one with the most vertices, where there are several: the body. */
   readonly mesh: SkinnedMesh;
+  readonly face: Face;
   readonly joints = new Map<string, Object3D>();
   /** Where the origin of their clips is, in the world. */
   readonly home = new Vector3();
+  private readonly meshes: readonly SkinnedMesh[];
   private readonly mixer: AnimationMixer;
   private readonly rest = new Map<Object3D, { position: Vector3; quaternion: Quaternion }>();
   private shown: readonly AnimationClip[] = [];
@@ -39,10 +43,12 @@ export class Character {
     readonly clips: readonly AnimationClip[],
   ) {
     this.root = scene;
-    const mesh = scene.getObjectsByProperty('isSkinnedMesh', true)[0];
+    this.meshes = scene.getObjectsByProperty('isSkinnedMesh', true) as SkinnedMesh[];
+    const [mesh] = [...this.meshes].sort((one, other) => vertices(other) - vertices(one));
     if (!mesh) throw new Error('the file shows nobody');
-    this.mesh = mesh as SkinnedMesh;
-    this.mesh.frustumCulled = false; // its bounds are those of the T-pose
+    this.mesh = mesh;
+    this.face = new Face(this.meshes, clips);
+    for (const each of this.meshes) each.frustumCulled = false; // its bounds are those of the T-pose
     for (const bone of this.mesh.skeleton.bones) {
       this.joints.set(bone.name, bone);
       this.rest.set(bone, { position: bone.position.clone(), quaternion: bone.quaternion.clone() });
@@ -55,9 +61,10 @@ export class Character {
     return this.clips.find((clip) => clip.name === name);
   }
 
-  /** The motion's clip that stays where it is; else what there is first. */
+  /** The motion's clip that stays where it is; else, of who comes out of no picture, the first, which is their own. */
   get calm(): AnimationClip | undefined {
-    return this.clips.find(({ name }) => name.endsWith(IN_PLACE)) ?? this.clip('idle') ?? this.clips[0];
+    const inPlace = this.clips.find(({ name }) => name.endsWith(IN_PLACE));
+    return inPlace ?? (this.clip(PICTURED) && this.clip('idle')) ?? this.clips[0];
   }
 
   /** With the origin at home; or so that a clip begins where they stand in the picture, wherever its own beginning is. */
@@ -86,6 +93,8 @@ export class Character {
       action.time = Math.min(second, clip.duration);
     }
     this.mixer.update(0);
+    const [main] = [...parts].sort((one, other) => other.weight - one.weight);
+    this.face.act(main?.clip ?? null, main?.second);
     this.root.updateMatrixWorld(true);
   }
 
@@ -93,6 +102,7 @@ export class Character {
   unbend(): void {
     this.mixer.stopAllAction();
     this.shown = [];
+    this.face.act(null);
     for (const [bone, { position, quaternion }] of this.rest) {
       bone.position.copy(position);
       bone.quaternion.copy(quaternion);
@@ -102,11 +112,14 @@ export class Character {
   dispose(): void {
     this.mixer.stopAllAction();
     this.mixer.uncacheRoot(this.root);
-    this.mesh.geometry.dispose();
-    this.mesh.skeleton.dispose();
-    const material = this.mesh.material as Material & { map?: Texture | null };
-    material.map?.dispose();
-    material.dispose();
+    for (const { geometry, skeleton, material } of this.meshes) {
+      geometry.dispose();
+      skeleton.dispose();
+      for (const one of [material].flat() as (Material & { map?: Texture | null })[]) {
+        one.map?.dispose();
+        one.dispose();
+      }
+    }
   }
 
   private addCrown(): void {
@@ -121,6 +134,8 @@ export class Character {
     this.joints.set(CROWN, crown);
   }
 }
+
+const vertices = ({ geometry }: SkinnedMesh): number => geometry.attributes.position?.count ?? 0;
 
 /** Fetch a character; rejects where that fails or the file is none, and when it is called off. */
 export async function loadCharacter(url: string, signal: AbortSignal): Promise<Character> {

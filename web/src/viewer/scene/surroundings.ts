@@ -2,7 +2,7 @@
 
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import { LineBasicMaterial, SkeletonHelper } from 'three';
+import { DirectionalLight, HemisphereLight, LineBasicMaterial, SkeletonHelper } from 'three';
 import { ContactShadow, Ground } from './shadow';
 import type { Stage } from './stage';
 import type { StagedCharacter } from './staging';
@@ -11,6 +11,8 @@ import type { StagedCharacter } from './staging';
 const backgrounds = { light: '#efeae1', dark: '#191714' };
 const grounds = { light: '#fffdf9', dark: '#35302a' };
 const BONES = 0xe2502f;
+/** From above and below, and from before: textures that were photographed have light of their own. */
+const [SKY, FLOOR, SOFT, LAMP] = [0xffffff, 0xcfc6b8, 2.4, 0.9] as const;
 
 /** Whether the page is dark, and whether the background is: as the page until it is changed by hand. */
 function useDark(): [boolean, () => void] {
@@ -34,14 +36,17 @@ export function useSurroundings(stage: Stage, cast: readonly StagedCharacter[], 
     const middle = (values: number[]): number => (Math.min(...values) + Math.max(...values)) / 2;
     const ground = new Ground(middle(places.map(({ x }) => x)), middle(places.map(({ z }) => z)));
     const shadows = cast.map(({ character }) => new ContactShadow(character));
-    const objects = [ground.object, ...shadows.map(({ object }) => object)];
+    const lamp = new DirectionalLight(0xffffff, LAMP);
+    lamp.position.set(0.6, 1.2, 1.5);
+    const lights = [new HemisphereLight(SKY, FLOOR, SOFT), lamp]; // of those who are drawn unlit nothing changes
+    const objects = [ground.object, ...shadows.map(({ object }) => object), ...lights];
     stage.scene.add(...objects);
     ground.paint(dark ? grounds.dark : grounds.light);
     stage.paint(dark ? backgrounds.dark : backgrounds.light);
     const leave = shadows.map((shadow) => stage.add(shadow));
     return () => {
       stage.scene.remove(...objects);
-      for (const one of [ground, ...shadows]) one.dispose();
+      for (const one of [ground, ...shadows, ...lights]) one.dispose();
       for (const go of leave) go();
     };
   }, [stage, cast, elsewhere, dark]);

@@ -19,6 +19,7 @@ const english = {
   clips: {
     pictured: 'Pose from the picture',
     step_out: 'Out of the picture',
+    filmed: 'Pose of the capture',
     idle: 'Idle',
     walk: 'Walk',
     run: 'Run',
@@ -70,6 +71,14 @@ const english = {
   degrees: (angle: number) => `${angle} degrees`,
   asPictured: 'Pose from the picture',
   makeIt: 'Apply pose',
+
+  cloud: {
+    label: 'Measured',
+    stage: 'The measured points in 3D: arrow keys circle around them, plus and minus go nearer and further',
+    loading: 'Loading the points',
+    points: (count: string) => `${count} of the measured points.`,
+    cameras: 'Show where the camera stood',
+  },
 
   space: 'View in your space',
   spaceAlt: 'The character, to be turned and seen from all sides',

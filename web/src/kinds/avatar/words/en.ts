@@ -41,6 +41,7 @@ const english = {
     landmark_unknown: 'A landmark has a name that is none',
     frame_not_used: 'A landmark is placed in a frame that is not used',
     person_unseen: 'No frame shows the person',
+    cloud_unreadable: 'The points cannot be shown',
   },
 
   /** Inputs, options and corrections, as they are named where versions of a work are told apart. */
@@ -167,14 +168,6 @@ const english = {
   progress: {
     frames: { body: 'Frames chosen from the body clip', head: 'Frames chosen from the head clip' },
     cloud: 'What was measured, and where the camera stood',
-  },
-
-  cloud: {
-    stage: 'The measured points in 3D: arrow keys circle around them, plus and minus go nearer and further',
-    loading: 'Loading the points',
-    failed: 'The points could not be loaded.',
-    points: (count: string) => `${count} of the measured points; each pyramid is a frame’s camera.`,
-    cameras: 'Show cameras',
   },
 
   show: {

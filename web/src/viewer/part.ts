@@ -1,8 +1,8 @@
 /** The viewer, fetched when somebody is first shown. */
 
-import { later, preload } from '../../widgets/lazy';
+import { later, preload } from '../widgets/lazy';
 
-const load = () => import('../../viewer/panel');
+const load = () => import('./panel');
 
 export const Viewer = later(load);
 

@@ -1,0 +1,104 @@
+/** A finished avatar: it in 3D with its expressions, its films, what was measured, and its files. */
+
+import { useState } from 'preact/hooks';
+import { getJob, getReport, type Job } from '../../api';
+import { useLoaded } from '../../api/loading';
+import type { ResultProps } from '../../kind/kind';
+import { size } from '../../language/format';
+import { ElapsedTime, ResultActions, Warnings } from '../../result/actions';
+import { Player } from '../../result/player';
+import type { Character } from '../../viewer/scene/character';
+import type { Stage } from '../../viewer/scene/stage';
+import { Viewer } from '../../viewer/part';
+import { later } from '../../widgets/lazy';
+import { fileUrl, isFileId } from '../../works/inputs';
+import type { AvatarReport } from './types';
+import { words as avatarWords } from './words';
+import './styles/expressions.css';
+
+const Measured = later(() => import('./measured'));
+const Expressions = later(() => import('./expressions/panel'));
+const words = avatarWords.show;
+
+/** What can be looked at, and the file without which there is none. */
+const views = {
+  model: 'avatar.glb',
+  animation: 'animation.mp4',
+  turntable: 'turntable.mp4',
+  measured: 'preview.ply',
+  texture: 'texture.png',
+} as const;
+type View = keyof typeof views;
+
+const expressions = (stage: Stage, character: Character) => <Expressions stage={stage} character={character} />;
+
+export default function AvatarResult({ job }: ResultProps) {
+  const report = useLoaded((signal) => getReport<AvatarReport>(job, signal), job.id);
+  const shown = (Object.keys(views) as View[]).filter((view) => views[view] in job.artifacts);
+  const [view, setView] = useState<View | undefined>(shown[0]);
+  return (
+    <div class="result">
+      <div class="avatar-shown">
+        {shown.length > 1 && (
+          <div class="actions" role="group" aria-label={words.label}>
+            {shown.map((one) => (
+              <button key={one} type="button" class="toggle" aria-pressed={one === view} onClick={() => setView(one)}>
+                {words.names[one]}
+              </button>
+            ))}
+          </div>
+        )}
+        {shown.includes('model') && (
+          <div hidden={view !== 'model'}>
+            <Viewer job={job} renew={(signal) => getJob(job.id, signal)} first="look" beside={expressions} />
+          </div>
+        )}
+        {(view === 'animation' || view === 'turntable') && <Film key={view} job={job} view={view} />}
+        {view === 'measured' && <Measured job={job} />}
+        {view === 'texture' && (
+          <figure class="panel avatar-texture">
+            <img src={job.artifacts[views.texture]?.url} alt={words.textureAlt} />
+          </figure>
+        )}
+      </div>
+      <ResultActions job={job} filesOpen={shown.length === 0}>
+        <Download job={job} name="avatar.glb" label={words.glb} primary />
+        <Download job={job} name="avatar.usdz" label={words.usdz} />
+        <Download job={job} name="avatar.vrm" label={words.vrm} />
+        <Download job={job} name="texture.png" label={words.texture} />
+        <Download job={job} name="turntable.mp4" label={words.turntable} />
+        <Download job={job} name="animation.mp4" label={words.animation} />
+      </ResultActions>
+      <Warnings report={report.value} />
+      <ElapsedTime job={job} />
+    </div>
+  );
+}
+
+/** The animation has the driver beside it, where there is one. */
+function Film({ job, view }: { job: Job; view: 'animation' | 'turntable' }) {
+  const { driver } = job.inputs;
+  return (
+    <Player
+      label={words.player}
+      alt={avatarWords.result}
+      result={job.artifacts[views[view]]?.url ?? ''}
+      poster={view === 'turntable' ? job.artifacts['poster.jpg']?.url : undefined}
+      driver={view === 'animation' && isFileId(driver) ? fileUrl(driver) : null}
+      chosen={null}
+      start={0}
+      hasSound={false}
+    />
+  );
+}
+
+/** Nothing where the job left no file of that name. */
+function Download({ job, name, label, primary }: { job: Job; name: string; label: string; primary?: boolean }) {
+  const file = job.artifacts[name];
+  if (!file) return null;
+  return (
+    <a class={primary ? 'button primary' : 'button'} href={file.url} download={name}>
+      {label} <small>{size(file.size)}</small>
+    </a>
+  );
+}
