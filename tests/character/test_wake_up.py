@@ -35,11 +35,14 @@ ARTIFACTS = {
     *("posed.png", "preview.jpg", "report.json", "skeleton.json", "thumbnail.jpg"),
 }
 
+QUICK: dict[str, Any] = {"fps": 12, "triangles": 15_000}
+"""Films and surfaces as coarse as what is asked of them allows."""
+
 
 @pytest.fixture(scope="module")
 def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("picture") / "photo.png"
-    write_image(path, sample_picture())
+    write_image(path, sample_picture(400))
     return path
 
 
@@ -51,7 +54,9 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def woken(picture: Path, cache: Path) -> Path:
-    return wake_up(picture, picture.parent / "out", seconds=1.5, vrm=True, vrm_author="Ada", cache=cache).folder
+    return wake_up(
+        picture, picture.parent / "out", seconds=1.5, vrm=True, vrm_author="Ada", cache=cache, **QUICK
+    ).folder
 
 
 def test_everything_is_left(woken: Path) -> None:
@@ -64,7 +69,7 @@ def test_its_own_measures_are_good(woken: Path) -> None:
     assert report["quality"]["silhouette_iou"] > 0.99
     assert report["quality"]["landmark_reprojection"] < 0.01
     assert report["quality"]["closed"] == 1
-    assert report["quality"]["triangles"] <= 60_000
+    assert report["quality"]["triangles"] <= QUICK["triangles"]
     assert report["warnings"] == []
 
 
@@ -103,7 +108,7 @@ def test_nobody_is_left_in_the_background(woken: Path, picture: Path) -> None:
 
 def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path, cache: Path, tmp_path: Path) -> None:
     turned = {"LeftArm": (0, 0, 90)}
-    asked: dict[str, Any] = {"motion": "wave", "pose": turned, "keep": ("legs",), "lit": True}
+    asked: dict[str, Any] = {"motion": "wave", "pose": turned, "keep": ("legs",), "lit": True} | QUICK
     out = wake_up(picture, tmp_path / "out", seconds=1, cache=cache, **asked).folder
     raised = np.abs(read_image(out / "posed.png").rgb.astype(int) - read_image(woken / "posed.png").rgb).sum(-1) > 60
     columns = np.nonzero(raised)[1]
@@ -117,7 +122,9 @@ def test_a_pose_by_hand_shows_in_the_reposed_picture(picture: Path, woken: Path,
 
 
 def test_a_motion_of_ones_own(picture: Path, cache: Path, media: Callable[[str], Path], tmp_path: Path) -> None:
-    out = wake_up(picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1, cache=cache).folder
+    out = wake_up(
+        picture, tmp_path / "out", media("mocap/cmu_jumping_jacks.bvh"), seconds=1, cache=cache, **QUICK
+    ).folder
     names = [clip["name"] for clip in Glb(out / "character.glb").json["animations"]]
     assert names[:4] == ["pictured", "step_out", "motion", "motion_in_place"]
     assert names[4:] == ["idle", "walk_in_place", "run_in_place", "jump", "sit", "wave", "dance", "bow"]
@@ -129,8 +136,9 @@ def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
 ) -> None:
     """As far as the picture has room; the character keeps the loop, and out of its file it leads there again."""
     motion = media("mocap/makehuman_walk_cycle.bvh")
+    asked = QUICK | {"fps": 30}  # as files of motion are read
     for folder, clip in (("first", None), ("again", "motion_in_place")):
-        out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip, cache=cache).folder
+        out = wake_up(picture, tmp_path / folder, motion, seconds=4, motion_clip=clip, cache=cache, **asked).folder
         motion = out / "character.glb"
         film = read_gltf_motion(motion, "step_out")
         hips = film.names.index("Hips")
@@ -146,7 +154,7 @@ def test_a_walk_in_place_of_a_few_frames_leads_out_of_the_picture(
 def test_one_animation_of_several_is_played(picture: Path, woken: Path, cache: Path, tmp_path: Path) -> None:
     """A character's own clip, taken from its file, moves it as before: turned joint for turned joint."""
     own = woken / "character.glb"
-    out = wake_up(picture, tmp_path / "out", own, seconds=1, motion_clip="walk", cache=cache).folder
+    out = wake_up(picture, tmp_path / "out", own, seconds=1, motion_clip="walk", cache=cache, **QUICK).folder
     before, after = read_gltf_motion(woken / "character.glb", "walk"), read_gltf_motion(out / "character.glb", "motion")
     arm = before.names.index("LeftArm")  # legs are bent a little anew, so that feet stand
     assert len(after.rotations) == len(before.rotations)
@@ -171,14 +179,11 @@ def test_what_shows_nobody_is_refused(tmp_path: Path) -> None:
     assert "(both shoulders, both elbows, both wrists, " in str(error)
 
 
-def test_who_is_cut_off_is_refused_unless_that_is_wanted(tmp_path: Path, picture: Path) -> None:
+def test_who_is_cut_off_at_the_knees_is_refused(tmp_path: Path, picture: Path) -> None:
     rgb = read_image(picture).rgb
     write_image(tmp_path / "cut.png", np.ascontiguousarray(rgb[: int(0.62 * len(rgb))]))
     error = refused(tmp_path, tmp_path / "cut.png")
     assert error.code == "not_full_body" and "partial" in error.correctable
-    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True).folder
-    codes = [one["code"] for one in json.loads((out / "report.json").read_text())["warnings"]]
-    assert codes == ["not_full_body"]
 
 
 def test_who_is_cut_off_at_the_waist_is_refused_unless_that_is_wanted(
@@ -191,7 +196,7 @@ def test_who_is_cut_off_at_the_waist_is_refused_unless_that_is_wanted(
     assert (error.code, error.correctable) == ("not_full_body", ("partial", "joints"))
     assert "both hips" in error.detail and "“partial”" in error.detail
     assert "accept a person who is cut off or hidden below the chest" in error.detail, "the option as the page names it"
-    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True).folder
+    out = wake_up(tmp_path / "cut.png", tmp_path / "out", seconds=1, partial=True, **QUICK).folder
     report = json.loads((out / "report.json").read_text())
     assert [one["code"] for one in report["warnings"]] == ["not_full_body"]
     assert report["quality"]["silhouette_iou"] > 0.985
@@ -210,10 +215,10 @@ def test_half_a_person_is_refused_even_so(media: Callable[[str], Path], tmp_path
     assert "shoulders" in error.detail
 
 
-def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path) -> None:
+def test_joints_that_are_none_are_refused(tmp_path: Path, picture: Path, cache: Path) -> None:
     assert refused(tmp_path, picture, joints={"Tail": (10, 10)}).code == "unknown_joint"
     assert refused(tmp_path, picture, joints={"LeftKnee": (10_000, 10)}).code == "joint_outside"
-    assert refused(tmp_path, picture, pose={"Tail": (1, 2, 3)}).code == "unknown_joint"
+    assert refused(tmp_path, picture, pose={"Tail": (1, 2, 3)}, cache=cache).code == "unknown_joint"
 
 
 @pytest.mark.parametrize(("content", "code"), [
@@ -229,11 +234,11 @@ def test_motions_that_are_none_are_refused(
     assert (error.code, error.correctable) == (code, ("motion",))
 
 
-@pytest.mark.parametrize("name", ["iper_apose_1.jpg", "man_mug_arm_across.png", "cartoon_basketball.jpg"])
-def test_real_pictures(media: Callable[[str], Path], tmp_path: Path, name: str) -> None:
-    """Read back from the file by other means than it was written by: outline, front, and closed surface."""
-    photo = media(f"fullbody/{name}")
-    out = wake_up(photo, tmp_path / "out", seconds=1).folder
+def test_a_real_picture(media: Callable[[str], Path], tmp_path: Path) -> None:
+    """An arm is held across the trunk. Read back from the file by other means than it was written by: outline, front, and
+    closed surface. (The contact sheets of `benchmarks` show all pictures.)"""
+    photo = media("fullbody/man_mug_arm_across.png")
+    out = wake_up(photo, tmp_path / "out", seconds=1, fps=QUICK["fps"]).folder
     report = json.loads((out / "report.json").read_text())
     assert report["warnings"] == []
     assert report["quality"]["landmark_reprojection"] < 0.02
@@ -264,7 +269,7 @@ def test_a_childs_drawing_wakes_up_by_joints_placed_by_hand(media: Callable[[str
     drawing = media("fullbody/drawing_child_boy.png")
     error = refused(tmp_path, drawing)
     assert (error.code, error.correctable) == ("no_person", ("joints", "person_box"))
-    out = wake_up(drawing, tmp_path / "out", seconds=1, joints=DRAWN).folder
+    out = wake_up(drawing, tmp_path / "out", seconds=1, joints=DRAWN, **QUICK).folder
     report = json.loads((out / "report.json").read_text())
     assert report["quality"]["silhouette_iou"] > 0.98
     assert report["quality"]["closed"] == 1
@@ -272,13 +277,15 @@ def test_a_childs_drawing_wakes_up_by_joints_placed_by_hand(media: Callable[[str
 
 def test_of_several_each_stands_where_they_are_in_the_picture(tmp_path: Path) -> None:
     """By the camera of the first, the second, moved to their place, fills the second's part of the mask."""
-    one = sample_picture()
+    one = sample_picture(400)
     small = cv2.resize(one, None, fx=0.8, fy=0.8, interpolation=cv2.INTER_AREA)
     wall = np.full((one.shape[0], small.shape[1], 3), one[2, 2], np.uint8)
     wall[-small.shape[0] :] = small
     write_image(tmp_path / "photo.png", np.concatenate([one, wall], 1))
     told: list[Progress] = []
-    out = wake_up(tmp_path / "photo.png", tmp_path / "out", progress=told.append, seconds=1, person_index="all").folder
+    out = wake_up(
+        tmp_path / "photo.png", tmp_path / "out", progress=told.append, seconds=1, person_index="all", **QUICK
+    ).folder
     skeleton = json.loads((out / "skeleton.json").read_text())
     first, second = skeleton["woken"]
     assert [(one["name"], one["person"]) for one in (first, second)] == [("character", 0), ("character-2", 1)]
