@@ -48,7 +48,7 @@ def test_the_made_face_comes_nearer_to_the_driver_s_in_a_tracker_s_eyes(small, m
     target = find_target_face(small("photo_woman_white.png", 600), options, Limits(), lambda code, message: None)
     layers = separate_layers(target)
     rig = rig_target(target, layers)
-    track = track_driver(Excerpt(mouth_opens, trim=(OPENS[0], OPENS[0] + 2)))
+    track = track_driver(Excerpt(mouth_opens, trim=(OPENS[0], OPENS[0] + 1.2)))
     track = replace(track, meshes=register_track(track, 0).meshes)
     ratios, observations = keep_ratio_images(track, 0), observe_driver(track, 0)
     residuals = refine_tracking(ObservedDriver(track, 0, observations, ratios), target, rig.details, options.acting())
