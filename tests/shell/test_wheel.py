@@ -112,7 +112,7 @@ def test_a_portrait_and_a_profile(installed: Installed) -> None:
 
 
 def test_a_character(installed: Installed) -> None:
-    write_image(installed.folder / "photo.png", sample_picture())
+    write_image(installed.folder / "photo.png", sample_picture(400))
     out = installed.folder / "character"
     options = ("--motion", "wave", "--seconds", "1", "--size", "128x128", "--triangles", "4000")
     done = installed.galatea("character", installed.folder / "photo.png", *options, "-o", out)
