@@ -9,7 +9,7 @@ const { open, job, picture } = aViewer();
 
 describe('the picture on the wall', () => {
   it('is the picture that was sent, until the person steps out and leaves it empty', async (context) => {
-    const page = await open();
+    const page = await open({ deviceScaleFactor: 1 });
     await ready(page);
     if ((await page.evaluate(() => window.picture())) === null) context.skip('the job does not say where its camera stood');
     await mode(page, 'On the wall').click();
