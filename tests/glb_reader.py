@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 ROOT = Path(__file__).parents[1]
 TYPES = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+RESTING = {"translation": (0, 0, 0), "rotation": (0, 0, 0, 1)}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
@@ -78,7 +79,7 @@ class Glb:
     def posed(self, animation: str, second: float) -> NDArray[np.float64]:
         """(V, 3) the mesh at a moment of an animation that is one of its keys, or between keys by nlerp."""
         own = {
-            node: (np.array(each.get("translation", [0, 0, 0]), float), np.array([0, 0, 0, 1.0]))
+            node: tuple(np.array(each.get(part, still), float) for part, still in RESTING.items())
             for node, each in enumerate(self.nodes)
         }
         moving = self.animation(animation)

@@ -47,6 +47,7 @@ def write_avatar(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions
         levels=coarser(avatar, options.levels),
         morphs=avatar.morphs,
         expressions={} if scene.expressions is None else {scene.clip.name: scene.expressions},
+        mixamo=True,
     )
     written = write_glb(out / "avatar.glb", model, name="avatar", synthetic=marked, most=MAX_GLB_BYTES, check=run.check)
     if written.size > MAX_GLB_BYTES:

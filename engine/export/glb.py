@@ -16,14 +16,15 @@ import numpy as np
 import pygltflib as gl
 from numpy.typing import NDArray
 
-from engine.export.animation_tracks import tracks
+from engine.export.gltf_animations import add_animation, add_expressions
 from engine.export.gltf_buffer import Buffer
+from engine.export.gltf_joints import add_skeleton
 from engine.export.gltf_materials import Material, add_materials
 from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
+from engine.geometry.joint_axes import mixamo_axes
 from engine.geometry.morph_target import MorphTarget, MorphTrack
-from engine.geometry.skeleton import Skeleton
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.welding import seamless_normals
 from engine.motion.clip import Clip
@@ -77,6 +78,9 @@ class CharacterModel:
     """What the mesh is made of."""
     material_of: NDArray[np.integer] | None = None
     """(T,) which of the materials each triangle has, where there are several."""
+    mixamo: bool = False
+    """Built as Mixamo's and Ready Player Me's characters are: joints with their axes (`engine.geometry.joint_axes`), so that
+    motions and poses made for those fit; the meshes within `Armature`, where players of avatars look for them."""
 
 
 def write_glb(
@@ -151,7 +155,8 @@ def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character",
     if synthetic:
         gltf.asset.extras = {"comment": STATEMENT, "digitalSourceType": SOURCE_TYPE}
     buffer = Buffer(gltf)
-    _add_skeleton(gltf, buffer, skeleton)
+    axes = mixamo_axes(skeleton) if model.mixamo else None
+    add_skeleton(gltf, buffer, skeleton, axes)
     add_materials(
         gltf, buffer, texture, model.unlit, model.materials, lambda other: jpeg(other, JPEG_QUALITY, synthetic)
     )
@@ -168,36 +173,19 @@ def build_glb(model: CharacterModel, texture: bytes, *, name: str = "character",
     if unknown := set(model.expressions) - {clip.name for clip in model.clips}:
         raise ValueError(f"expressions of clips that are not there: {', '.join(sorted(unknown))}")
     for clip in model.clips:
-        _add_animation(gltf, buffer, clip, skeleton)
+        add_animation(gltf, buffer, clip, skeleton, axes)
         if clip.name in model.expressions:
-            _add_expressions(
+            add_expressions(
                 gltf, buffer, clip, model.expressions[clip.name].of([m.name for m in model.morphs]), shown[0]
             )
+    root = len(skeleton.names)
     # a skinned mesh is a root: its node's place does not count (3.7.3.3), and some engines warn about parents
-    gltf.scenes = [gl.Scene(name=name, nodes=[len(skeleton.names), shown[0]])]
+    gltf.scenes = [gl.Scene(name=name, nodes=[root] if model.mixamo else [root, shown[0]])]
+    if model.mixamo:
+        gltf.nodes[root].children.append(shown[0])
     gltf.scene = 0
     buffer.finish()
     return gltf
-
-
-def _add_skeleton(gltf: gl.GLTF2, buffer: Buffer, skeleton: Skeleton) -> None:
-    children: list[list[int]] = [[] for _ in skeleton.names]
-    for joint, parent in enumerate(skeleton.parents):
-        if parent >= 0:
-            children[parent].append(joint)
-    for joint, offset in enumerate(skeleton.offsets()):
-        gltf.nodes.append(gl.Node(name=skeleton.names[joint], translation=offset.tolist(), children=children[joint]))
-    gltf.nodes.append(gl.Node(name="Armature", children=np.flatnonzero(skeleton.parents < 0).tolist()))
-    inverse_bind = np.tile(np.eye(4, dtype=np.float32), (len(skeleton.names), 1, 1))
-    inverse_bind[:, :3, 3] = -skeleton.heads
-    gltf.skins = [
-        gl.Skin(
-            name="skeleton",
-            joints=list(range(len(skeleton.names))),
-            skeleton=len(skeleton.names),
-            inverseBindMatrices=buffer.add(inverse_bind),
-        )
-    ]
 
 
 def _parts(mesh: SkinnedMesh, materials: int, material_of: NDArray[np.integer] | None) -> list[NDArray[np.intp]]:
@@ -275,45 +263,3 @@ def _add_levels(gltf: gl.GLTF2, shown: Sequence[int]) -> None:
         "MSFT_screencoverage": [DETAIL_COVERAGE_RATIO ** (k + 1) for k in range(len(shown) - 1)] + [0.0]
     }
     gltf.extensionsUsed = [*(gltf.extensionsUsed or []), "MSFT_lod"]
-
-
-def _add_animation(gltf: gl.GLTF2, buffer: Buffer, clip: Clip, skeleton: Skeleton) -> None:
-    keys = tracks(clip, skeleton)
-    shared = f"animation {clip.name}"
-    animation = gl.Animation(name=clip.name, extras={"loops": True} if clip.loops else None)
-    times = buffer.add(keys.times, bounds=True, shared=f"{shared} times")
-
-    def track(node: int, path: str, clock: int, values: NDArray[np.float32]) -> None:
-        animation.samplers.append(
-            gl.AnimationSampler(
-                input=clock, output=buffer.add(values, shared=f"{shared} {values.shape[1]}"), interpolation="LINEAR"
-            )
-        )
-        target = gl.AnimationChannelTarget(node=node, path=path)
-        animation.channels.append(gl.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))
-
-    track(int(np.flatnonzero(skeleton.parents < 0)[0]), "translation", times, keys.root)
-    held = None
-    for joint in np.flatnonzero(keys.turning):
-        if keys.moving[joint]:
-            track(int(joint), "rotation", times, np.ascontiguousarray(keys.rotations[:, joint]))
-        else:  # turned once and for all: one key says it
-            if held is None:
-                held = buffer.add(keys.times[:1], bounds=True, shared=f"{shared} times")
-            track(int(joint), "rotation", held, np.ascontiguousarray(keys.rotations[:1, joint]))
-    gltf.animations.append(animation)
-
-
-def _add_expressions(gltf: gl.GLTF2, buffer: Buffer, clip: Clip, weights: NDArray[np.float32], node: int) -> None:
-    """Weights (F, M) of all morph targets of a mesh's node, in the animation that was added last, which is that of the clip."""
-    if len(weights) != len(clip.rotations):
-        raise ValueError(f"the clip {clip.name!r} has {len(clip.rotations)} frames, its expressions {len(weights)}")
-    animation = gltf.animations[-1]
-    if clip.loops or len(weights) == 1:
-        weights = np.concatenate([weights, weights[:1]])  # as `tracks` closes a loop, and holds a single frame
-    clock = animation.samplers[0].input
-    animation.samplers.append(
-        gl.AnimationSampler(input=clock, output=buffer.add(weights.ravel()), interpolation="LINEAR")
-    )
-    target = gl.AnimationChannelTarget(node=node, path="weights")
-    animation.channels.append(gl.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))

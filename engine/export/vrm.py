@@ -52,6 +52,9 @@ REQUIRED_BONES = (
 )
 """Bones without which there is no VRM humanoid."""
 
+EYE_REACH = {"HorizontalInner": 30.0, "HorizontalOuter": 30.0, "VerticalDown": 25.0, "VerticalUp": 25.0}
+"""Degrees that eyes turn before the head does."""
+
 
 @dataclass(frozen=True)
 class VrmMeta:
@@ -169,7 +172,8 @@ def _meta(meta: VrmMeta) -> dict[str, Any]:
 
 def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, Any]:
     """Where a first-person camera sits, between the eyes if the skeleton has them, else in the middle of the head; and how
-    far the eyes go when they look aside: by 10 degrees, or as far as the expressions go."""
+    far the eyes go when they look aside: joints all the way to what they look at, up to `EYE_REACH`, or as far as the
+    expressions go."""
     skeleton = mesh.skeleton
     head = skeleton.heads[skeleton.index("Head")]
     if "LeftEye" in skeleton.names and "RightEye" in skeleton.names:
@@ -177,12 +181,11 @@ def _look_at(mesh: SkinnedMesh, by: Literal["bone", "expression"]) -> dict[str, 
         offset = eyes - head
     else:
         offset = (mesh.vertices[:, 1].max() - head[1]) * np.array([0, 0.5, 0])
-    reach = (
-        {"inputMaxValue": 90.0, "outputScale": 10.0} if by == "bone" else {"inputMaxValue": 30.0, "outputScale": 1.0}
-    )
-    ranges = ("HorizontalInner", "HorizontalOuter", "VerticalDown", "VerticalUp")
     return {
         "type": by,
         "offsetFromHeadBone": [float(value) for value in offset],
-        **{f"rangeMap{name}": dict(reach) for name in ranges},
+        **{
+            f"rangeMap{name}": {"inputMaxValue": reach, "outputScale": reach if by == "bone" else 1.0}
+            for name, reach in EYE_REACH.items()
+        },
     }

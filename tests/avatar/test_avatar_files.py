@@ -8,16 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from glb_reader import Glb, validate
+from template_avatar import fitted_template, template_avatar
 
 from engine.avatar.acting import Scene
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.combined_targets import COMBINED_TARGETS
 from engine.avatar.mesh import surface_of
 from engine.avatar.options import TEMPLATE_TRIANGLES, AvatarOptions
-from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
-from engine.body.face.visemes import VISEMES, viseme_displacements
-from engine.body.rest_pose import t_pose
+from engine.body.face.visemes import VISEMES
 from engine.body.rig import HUMAN_RIG
 from engine.body.template import FACE_UNITS, load_rig, load_template
 from engine.geometry.camera import Camera
@@ -29,28 +28,8 @@ NAMES = [*FACE_UNITS, *VISEMES, *COMBINED_TARGETS]
 
 
 @pytest.fixture(scope="module")
-def fitted() -> FittedTemplate:
-    """The template itself, as if it had been fitted to somebody who stood in T-pose."""
-    template, rig = load_template(), load_rig(HUMAN_RIG)
-    skeleton, _, rest = t_pose(rig, template.vertices, template.vertices_of("body"))
-    units = {unit: template.face_units.displacement({unit: 1.0}) for unit in FACE_UNITS}
-    return FittedTemplate(
-        vertices=rest.astype(np.float64),
-        rest=rest,
-        skeleton=skeleton,
-        joints=skeleton.heads.astype(np.float64),
-        rotations=np.tile(np.eye(3), (len(rig.names), 1, 1)),
-        expressions=units | viseme_displacements(units, len(rest)),
-        head_to_body=None,
-        coefficients=np.zeros(3),
-        notices=(),
-    )
-
-
-@pytest.fixture(scope="module")
-def avatar(fitted: FittedTemplate) -> Avatar:
-    texture = np.full((64, 64, 3), 140, np.uint8)
-    return assemble(load_template(), load_rig(HUMAN_RIG), fitted, texture, TEMPLATE_TRIANGLES)
+def avatar() -> Avatar:
+    return template_avatar(64)
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +68,8 @@ def test_the_face_acts_in_the_clip_that_was_asked_for(folder: Path) -> None:
     assert np.delete(weights, NAMES.index("jawOpen"), axis=1).max() == 0
 
 
-def test_fewer_triangles_keep_the_expressions_of_the_vertices_that_stay(fitted: FittedTemplate, avatar: Avatar) -> None:
+def test_fewer_triangles_keep_the_expressions_of_the_vertices_that_stay(avatar: Avatar) -> None:
+    fitted = fitted_template()
     few = assemble(load_template(), load_rig(HUMAN_RIG), fitted, avatar.mesh.texture, 9000)
     assert 8000 < len(few.mesh.triangles) <= 9000
     surface = surface_of(load_template())

@@ -12,6 +12,7 @@ from PIL import Image
 from template_character import still, template_character, walk
 
 from engine.export.glb import JPEG_QUALITY, TEXTURE_REDUCTIONS, CharacterModel, WrittenGlb, jpeg, write_glb
+from engine.geometry.joint_axes import mixamo_axes
 from engine.geometry.skinned_mesh import SkinnedMesh
 from engine.geometry.skinning import skin
 from engine.motion.edit import loop_travel
@@ -61,6 +62,13 @@ def test_geometry_comes_back_to_the_bit(path: Path, mesh: SkinnedMesh) -> None:
     np.testing.assert_allclose(glb.attribute("WEIGHTS_0").sum(1), 1, atol=1e-12)
 
 
+@pytest.fixture(scope="module")
+def mixamo(mesh: SkinnedMesh, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("mixamo") / "character.glb"
+    write_glb(path, CharacterModel(mesh, [walk(mesh.skeleton), still(mesh.skeleton)], mixamo=True))
+    return path
+
+
 @pytest.mark.parametrize("name", ["walk", "walk_in_place", "pictured"])
 def test_a_reader_of_the_file_poses_it_as_we_do(path: Path, mesh: SkinnedMesh, name: str) -> None:
     clips = {
@@ -72,6 +80,28 @@ def test_a_reader_of_the_file_poses_it_as_we_do(path: Path, mesh: SkinnedMesh, n
         expected = skin(mesh.vertices, mesh.bones, mesh.weights, transforms)
         found = glb.posed(name, float(np.float32(frame / clip.fps)))
         assert np.abs(found - expected).max() < 1e-4
+
+
+@pytest.mark.parametrize("name", ["walk", "pictured"])
+def test_so_does_one_whose_joints_have_axes_of_their_own(mixamo: Path, mesh: SkinnedMesh, name: str) -> None:
+    clip, glb = {"walk": walk, "pictured": still}[name](mesh.skeleton), Glb(mixamo)
+    frame = len(clip.rotations) // 3
+    transforms = pose_transforms(mesh.skeleton, clip.rotations[[frame]], clip.root[[frame]])[0]
+    expected = skin(mesh.vertices, mesh.bones, mesh.weights, transforms)
+    assert np.abs(glb.posed(name, float(np.float32(frame / clip.fps))) - expected).max() < 1e-4
+
+
+def test_what_is_built_as_mixamos_characters_has_all_of_it_in_the_armature(mixamo: Path, mesh: SkinnedMesh) -> None:
+    issues = validate(mixamo)["messages"]
+    assert {issue["code"] for issue in issues} == {"NODE_SKINNED_MESH_NON_ROOT"}, (
+        "the place of one in it does not count"
+    )
+    glb = Glb(mixamo)
+    (root,) = glb.json["scenes"][0]["nodes"]
+    assert glb.names[root] == "Armature" and "rotation" not in glb.nodes[root]
+    assert [glb.names[child] for child in glb.nodes[root]["children"]] == ["Hips", "character"]
+    inverse = glb.array(glb.json["skins"][0]["inverseBindMatrices"])
+    np.testing.assert_allclose(np.linalg.inv(inverse)[:, :3, :3], mixamo_axes(mesh.skeleton), atol=1e-6)
 
 
 def test_a_loop_says_so_and_ends_where_it_began_moved_on_by_its_travel(path: Path) -> None:

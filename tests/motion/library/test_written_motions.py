@@ -130,3 +130,14 @@ def test_our_own_clips_come_back(
         apart = rotation.multiply(rotation.inverse(motion.rotations[:frames, order]), clip.rotations.astype(np.float64))
         assert rotation.angle(apart).max() < 2e-4, "radians"
         np.testing.assert_allclose(motion.world()[1][:frames, order[0]], clip.root, atol=1e-4)
+
+
+def test_they_come_back_from_joints_with_axes_of_their_own(tmp_path: Path) -> None:
+    mesh = template_character(texture_size=16)
+    clip = built_in("dance", mesh.skeleton)
+    places = []
+    for mixamo in (False, True):
+        write_glb(tmp_path / "avatar.glb", CharacterModel(mesh, [clip], mixamo=mixamo))
+        motion = read_gltf_motion((tmp_path / "avatar.glb").read_bytes(), "dance")
+        places.append(motion.world()[1][:, [motion.names.index(joint) for joint in mesh.skeleton.names]])
+    np.testing.assert_allclose(places[1], places[0], atol=1e-4)

@@ -1,0 +1,68 @@
+/** The avatar in `@met4citizen/talkinghead`, as who builds with it would have it: it says what it is given, by audio and visemes. */
+
+import { TalkingHead } from '@met4citizen/talkinghead';
+import type { TalkingHeadPage } from './pages';
+
+const RATE = 22050; // samples a second that it expects
+const QUIET = 24; // of 765: two pixels that differ by less look the same
+
+const head = new TalkingHead(document.getElementById('avatar')!, {
+  lipsyncModules: [], // visemes come with the audio
+  cameraView: 'head',
+  modelFPS: 10,
+});
+await head.showAvatar({ url: '/avatar.glb', body: 'F', avatarMood: 'neutral' });
+const face = head.morphs[0]!;
+const canvas = head.renderer.domElement;
+
+/** A hum, as speech services send their audio: 16 bits a sample. */
+function hum(seconds: number): ArrayBuffer {
+  const samples = new Int16Array(Math.round(seconds * RATE));
+  return samples.map((_, index) => 8000 * Math.sin((2 * Math.PI * 220 * index) / RATE)).buffer;
+}
+
+function drawn(): Uint8ClampedArray {
+  head.renderer.render(head.scene, head.camera);
+  const pen = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d')!;
+  pen.drawImage(canvas, 0, 0);
+  return pen.getImageData(0, 0, canvas.width, canvas.height).data;
+}
+
+/** How high in the picture a joint is, in pixels from its upper edge. */
+const height = (joint: string): number =>
+  ((1 - place(joint).project(head.camera).y) / 2) * canvas.height;
+
+function place(joint: string) {
+  const found = head.armature.getObjectByName(joint)!;
+  return found.getWorldPosition(found.position.clone());
+}
+
+const page: TalkingHeadPage = {
+  speak: (visemes, milliseconds) =>
+    head.speakAudio({
+      audio: [hum((visemes.length * milliseconds) / 1000)],
+      words: ['hum'],
+      wtimes: [0],
+      wdurations: [visemes.length * milliseconds],
+      visemes: [...visemes],
+      vtimes: visemes.map((_, index) => index * milliseconds),
+      vdurations: visemes.map(() => milliseconds),
+    }),
+  targets: () => Object.keys(face.morphTargetDictionary!),
+  influence: (name) => face.morphTargetInfluences![face.morphTargetDictionary![name]!]!,
+  joint: (name) => place(name).toArray(),
+  changedBy: (name) => {
+    head.stop();
+    const [index, influences] = [face.morphTargetDictionary![name]!, face.morphTargetInfluences!];
+    const before = drawn();
+    influences[index] = 0;
+    const after = drawn();
+    const rows: number[] = [];
+    for (let i = 0; i < before.length; i += 4) {
+      const apart = [0, 1, 2].reduce((sum, c) => sum + Math.abs(before[i + c]! - after[i + c]!), 0);
+      if (apart > QUIET) rows.push(Math.floor(i / 4 / canvas.width));
+    }
+    return { pixels: rows.length, above: rows.filter((row) => row < height('LeftEye')).length };
+  },
+};
+Object.assign(window, { page });
