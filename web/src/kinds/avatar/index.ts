@@ -18,6 +18,7 @@ export const avatar: Kind<AvatarOrder> = {
   loadStudio: () => import('./studio'),
   loadProgress: () => import('./measured'),
   loadResult: () => withViewer(import('./result')),
+  loadCorrections: () => import('./corrections/panel'),
   loadShared: () => import('./shared'),
   stages: words.stages,
   failures: words.failures,

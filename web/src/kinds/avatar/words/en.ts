@@ -213,7 +213,6 @@ const english = {
 
   correct: {
     person: 'The person',
-    height: 'Height in cm or m',
     frames: { body: 'Frames of the body clip', head: 'Frames of the head clip' },
     framesHint: 'Click frames in which the person moved, or that are blurred: nothing is made of them.',
     frame: (number: number, second: string) => `Frame ${number}, at ${second}`,
@@ -248,6 +247,20 @@ const english = {
     unreadable: 'This browser cannot play the clip: a small picture of the frame stands in for it.',
     cancel: 'Cancel',
     done: 'Apply',
+    left: (name: string) => `Left ${name}`,
+    right: (name: string) => `Right ${name}`,
+    names: {
+      Nose: 'Nose',
+      Shoulder: 'shoulder',
+      Elbow: 'elbow',
+      Wrist: 'wrist',
+      Index: 'index finger',
+      Hip: 'hip',
+      Knee: 'knee',
+      Ankle: 'ankle',
+      Heel: 'heel',
+      FootIndex: 'toes',
+    } as Record<string, string>,
   },
 };
 

@@ -8,6 +8,7 @@ import { type MotionDraft, motionChanges, motionDraftOf } from '../../../motion/
 import { DEFAULT_MOTION } from '../../../motion/motion_names';
 import type { GivenInput } from '../../../motion/types';
 import { plain } from '../../../language/strings';
+import type { Revision } from '../../../sending/use_revision';
 import { changedOptions, type Choices, choicesOf } from '../choices';
 import type { Joints } from '../joints/skeleton';
 import type { LabelStroke, MaskStroke } from '../masks/strokes';
@@ -110,3 +111,12 @@ export function notesFor(job: Job, { motion }: RevisionDraft): { metadata?: Job[
   const name = motion.by === 'file' ? stem(motion.file.name) : motion.by === 'kept' ? motion.name : null;
   return name === null ? {} : { metadata: { ...job.metadata, motion: plain(name) } };
 }
+
+/** The order of a revision: its files, and what is asked for once they have arrived. */
+export const revisionOf = (job: Job, before: RevisionDraft, now: RevisionDraft): Revision => ({
+  files: fileParts.flatMap((part) => {
+    const file = fileOf(now, part);
+    return file ? [[part, file] as const] : [];
+  }),
+  changes: (sent) => ({ ...changesOf(before, now, sent), ...notesFor(job, now) }),
+});

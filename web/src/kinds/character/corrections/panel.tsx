@@ -14,12 +14,12 @@ import { useLoaded } from '../../../api/loading';
 import { LoadingProblem } from '../../../widgets/problem_alert';
 import { mayRepeat } from '../../../result/next_step';
 import { strings } from '../../../language/strings';
-import { forPerson, isChanged, isEverybody, type RevisionDraft, draftOf } from './changes';
+import { forPerson, isChanged, isEverybody, type RevisionDraft, draftOf, revisionOf } from './changes';
 import { CharacterFields, KeepField, VideoFields } from '../choices';
 import { MotionField } from '../../../motion/motion_field';
 import { MasksField } from '../masks/masks_field';
 import { People } from '../people/people_picture';
-import { useRevision } from './use_revision';
+import { useRevision } from '../../../sending/use_revision';
 import { type Joints, jointsOf, middleOf, placedJoints, skeletonIn } from '../joints/skeleton';
 import { words as characterWords } from '../words';
 import '../../../styles/corrections.css';
@@ -46,12 +46,15 @@ export default function CharacterPanel({ job, report: told, proposal, onProposal
     setWishes((known) => ({ ...known, ...part }));
   };
   const sending = useRevision(job, key, onProblem);
+  const send = (wanted: RevisionDraft): void => {
+    if (isChanged(before, wanted) || job.status !== 'succeeded') sending.send(revisionOf(job, before, wanted));
+  };
   useEffect(() => {
     if (!proposal) return;
     const pose = proposal.pose as Pose; // from the viewer: it is to be made
     onProposalTaken();
     wish({ pose });
-    sending.send(before, { ...draft, pose }); // whatever else is wished for comes along
+    send({ ...draft, pose }); // whatever else is wished for comes along
   }, [proposal]);
 
   const again = isChanged(before, draft) || mayRepeat(job);
@@ -81,7 +84,7 @@ export default function CharacterPanel({ job, report: told, proposal, onProposal
       class="corrections character"
       onSubmit={(event) => {
         event.preventDefault();
-        sending.send(before, draft);
+        send(draft);
       }}
     >
       <section class="panel" aria-label={words.person}>

@@ -1,15 +1,19 @@
 /** Sends the files of a revision, if there are any, then the revision; the page turns to its job. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { type Job, type Problem, reviseJob } from '../../../api';
-import { asProblem } from '../../../api/loading';
-import type { Sending } from '../../../sending/order';
-import { usePausing } from '../../../sending/pausing';
-import { jobLink } from '../../../route';
-import { GIVEN_UP, uploadFile } from '../../../api/upload';
-import { changesOf, fileOf, fileParts, isChanged, notesFor, type Sent, type RevisionDraft } from './changes';
+import { type Changes, type Job, type Problem, reviseJob } from '../api';
+import { asProblem } from '../api/loading';
+import { GIVEN_UP, uploadFile } from '../api/upload';
+import { jobLink } from '../route';
+import type { Sending } from './order';
+import { usePausing } from './pausing';
 
-type Part = keyof Sent;
+export interface Revision {
+  /** What is to be sent, by what it is to the job. */
+  files: readonly (readonly [part: string, file: File])[];
+  /** What is asked for once the files have arrived, by their ids. */
+  changes: (sent: Readonly<Record<string, string>>) => Changes;
+}
 
 export function useRevision(job: Job, key: { current: string }, onProblem: (problem: Problem | null) => void) {
   const [busy, setBusy] = useState(false);
@@ -20,7 +24,7 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
   const arrived = useRef(new Map<File, string>());
   useEffect(() => () => stopper.current?.abort(), []);
 
-  const upload = async (part: Part, file: File, signal: AbortSignal): Promise<string> => {
+  const upload = async (part: string, file: File, signal: AbortSignal): Promise<string> => {
     const known = arrived.current.get(file);
     if (known) return known;
     const progress = (sent: number): void => setStep({ step: 'uploading', part, fraction: file.size ? sent / file.size : 1 });
@@ -29,21 +33,16 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
     arrived.current.set(file, id);
     return id;
   };
-  const send = async (before: RevisionDraft, draft: RevisionDraft): Promise<void> => {
+  const send = async ({ files, changes }: Revision): Promise<void> => {
     const { signal } = (stopper.current = new AbortController());
-    if (!isChanged(before, draft) && job.status === 'succeeded') return;
     setBusy(true);
     pause(false);
     onProblem(null);
     try {
-      const sent: Sent = {};
-      for (const part of fileParts) {
-        const file = fileOf(draft, part);
-        if (file) sent[part] = await upload(part, file, signal);
-      }
+      const sent: Record<string, string> = {};
+      for (const [part, file] of files) sent[part] = await upload(part, file, signal);
       setStep(null);
-      const changes = changesOf(before, draft, sent);
-      const revised = await reviseJob(job.id, { ...changes, ...notesFor(job, draft) }, key.current);
+      const revised = await reviseJob(job.id, changes(sent), key.current);
       location.hash = jobLink(revised.id);
     } catch (error) {
       if (signal.aborted) arrived.current.clear(); // what had arrived is gone
@@ -58,6 +57,6 @@ export function useRevision(job: Job, key: { current: string }, onProblem: (prob
     step,
     pause,
     stop: () => stopper.current?.abort(GIVEN_UP),
-    send: (before: RevisionDraft, draft: RevisionDraft) => void send(before, draft),
+    send: (revision: Revision) => void send(revision),
   };
 }
