@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import SuperLU, splu
 
-NO_ROTATION_WEIGHT = 1e-12
-"""Towards no rotation at all, as a share of what the points say: decides what points on one line leave open."""
+from engine.geometry.nearest_rotations import nearest_rotations
 
 
 @dataclass(frozen=True)
@@ -169,19 +168,6 @@ class HeldSystem:
             out[own] = (self.rest[own] - before) @ rotation.T + after
             turned[own] = rotation
         return out, turned
-
-
-def nearest_rotations(spread: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The rotations R (N, 3, 3) for which the sum of |after - R before|^2 is least, where `spread` (N, 3, 3) are the sums of
-    before * after'. What the points leave open, as a turn about the line on which they lie, is not turned.
-
-    Source: W. Kabsch, A solution for the best rotation to relate two sets of vectors, Acta Crystallographica A32, 1976.
-    """
-    size = np.linalg.norm(spread, axis=(1, 2), keepdims=True)
-    steady = spread / np.where(size > 0, size, 1) + NO_ROTATION_WEIGHT * np.eye(3)
-    left, _, right = np.linalg.svd(steady)
-    left[:, :, 2] *= np.sign(np.linalg.det(left) * np.linalg.det(right))[:, None]
-    return np.asarray(right.transpose(0, 2, 1) @ left.transpose(0, 2, 1))
 
 
 def _first_of_each_row(matrix: sp.csr_array) -> NDArray[np.intp]:

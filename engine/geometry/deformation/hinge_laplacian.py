@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from engine.geometry.adjacency import edge_table, edges
-from engine.geometry.deformation.handles import nearest_rotations
+from engine.geometry.nearest_rotations import nearest_rotations
 from engine.geometry.surface import triangle_areas, vertex_normals
 
 MAX_COTANGENT = 4.0

@@ -15,7 +15,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from engine.geometry.deformation.cotangent_laplacian import cotangent_edges, cotangent_laplacian, edge_differences
-from engine.geometry.deformation.handles import Handles, HeldSystem, nearest_rotations
+from engine.geometry.deformation.handles import Handles, HeldSystem
+from engine.geometry.nearest_rotations import nearest_rotations
 from engine.geometry.surface import vertex_areas
 
 MAX_ROUNDS = 100

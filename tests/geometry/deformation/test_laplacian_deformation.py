@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from engine.geometry.deformation.cotangent_laplacian import cotangent_laplacian
-from engine.geometry.deformation.handles import handles, nearest_rotations, surface_points
+from engine.geometry.deformation.handles import handles, surface_points
 from engine.geometry.deformation.laplacian_deformation import AsRigidAsPossible, LaplacianDeformation
 from engine.geometry.surface import vertex_areas
 
@@ -248,14 +248,3 @@ def test_the_laplacian_is_zero_on_linear_functions_of_the_plane_and_areas_sum_up
     np.testing.assert_allclose((laplacian @ sheared)[inner], 0, atol=1e-12)
     np.testing.assert_allclose(laplacian @ np.ones(len(vertices)), 0, atol=1e-12)
     assert vertex_areas(sheared, triangles).sum() == pytest.approx(np.sqrt(0.75))
-
-
-def test_nearest_rotations_are_those_that_were_applied_and_never_mirror() -> None:
-    random = np.random.default_rng(5)
-    turns = Rotation.random(20, random_state=7).as_matrix()
-    points = random.normal(0, 1, (20, 6, 3))
-    spread = np.einsum("npi,npj->nij", points, np.einsum("nij,npj->npi", turns, points))
-    np.testing.assert_allclose(nearest_rotations(spread), turns, atol=1e-10)
-    mirrored = np.einsum("npi,npj->nij", points, points * [1, 1, -1])
-    assert (np.linalg.det(nearest_rotations(mirrored)) > 0.99).all()
-    np.testing.assert_allclose(nearest_rotations(np.zeros((1, 3, 3)))[0], np.eye(3), atol=1e-12)
