@@ -115,7 +115,7 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
                 raise
             run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
     near = clips[1][1] if len(clips) > 1 else None
-    fitted = run.stage("fit_template", fit_template, clips[0][1], near, found.head_sized, run.check)
+    fitted = run.stage("fit_template", fit_template, clips[0][1], near, run.check)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
     if options.height_m is None:

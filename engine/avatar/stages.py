@@ -60,9 +60,9 @@ class ClipScan:
     dense: DenseCloud
     landmarks: SpatialLandmarks
 
-    def scan(self, sized: bool = False) -> Scan:
-        """What registration takes of it; of a head's clip, whether it is `sized` as the body's is."""
-        return Scan(self.dense.cloud, self.landmarks, sized)
+    def scan(self) -> Scan:
+        """What registration takes of it; both clips' worlds are of one size."""
+        return Scan(self.dense.cloud, self.landmarks, sized=True)
 
     def moved(self, change: Similarity) -> ClipScan:
         """All of it in another world."""
@@ -127,11 +127,10 @@ def in_metres(height_m: float | None) -> Similarity:
     return Similarity((height_m or USUAL_HEIGHT) / USUAL_HEIGHT * np.eye(3), np.zeros(3))
 
 
-def fit_template(body: ClipScan, head: ClipScan | None, sized: bool, check: Callable[[], None]) -> FittedTemplate:
-    """The template fitted to the clouds, of which the head's may be `sized` as the body's is: section 3.4. Raises what `register`
-    raises."""
+def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None]) -> FittedTemplate:
+    """The template fitted to the clouds: section 3.4. Raises what `register` raises."""
     check()
-    return register(load_models(), body.scan(), None if head is None else head.scan(sized), check)
+    return register(load_models(), body.scan(), None if head is None else head.scan(), check)
 
 
 def stitch_texture(

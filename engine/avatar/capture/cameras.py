@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.capture.joined_clips import join_clips
+from engine.avatar.capture.joined_clips import join_scenes, moved_person
 from engine.avatar.capture.people_shown import look_for_people, refuse_wrong_clips
 from engine.avatar.capture.person_frame import person_frame
 from engine.avatar.capture.person_lock import PersonLock, lock_to_person, person_tracks
@@ -49,12 +49,20 @@ class ClipCameras:
 
 @dataclass(frozen=True)
 class CaptureCameras:
-    """Of the `body` film and, where it could be joined, of the `head` film, in one frame; `head_sized`: whether the person in
-    both tells it, so that they are as large in one as in the other."""
+    """Of the `body` film and, where it could be joined, of the `head` film, in one frame and of one size."""
 
     body: ClipCameras
     head: ClipCameras | None
-    head_sized: bool
+
+
+@dataclass(frozen=True)
+class _Film:
+    """A film's frames, what networks believe and, of a person seen whole, where they are; and its cameras as the room has them."""
+
+    frames: Sequence[NDArray[np.uint8]]
+    beliefs: Sequence[NDArray[np.float32]]
+    masks: Sequence[NDArray[np.bool_]]
+    scene: ClipScene
 
 
 @dataclass(frozen=True)
@@ -85,8 +93,15 @@ def solve_cameras(
     shown = look_for_people(body)
     refuse_wrong_clips(shown, None if head is None else look_for_people(head))
     share = 1.0 if head is None else 0.6
-    whole = _solve_clip(body, True, lenses[0], lambda fraction: tick(share * fraction))
-    refuse_walking(whole.scene, whole.masks)
+    film = _solved(body, True, lenses[0], lambda fraction: tick(share * fraction))
+    refuse_walking(film.scene, film.masks)
+    near = None
+    if head is not None:
+        near = _head_film(head, lenses[1], warn, lambda fraction: tick(share + (1 - share) * fraction))
+    joined = None if near is None else join_scenes(film.scene, near.scene)
+    if near is not None and joined is None:
+        warn("head_not_joined", "The head clip shows too little of what the body clip shows, and is not used.")
+    whole = _locked(film if joined is None else replace(film, scene=joined.first))
     frame = person_frame(whole.scene, whole.lock, whole.masks, shown.bodies(len(body)))
     if not frame.on_floor:
         warn("floor_unseen", "The floor around the feet has no pattern: the feet's height is a guess.")
@@ -96,35 +111,41 @@ def solve_cameras(
     if not found.locked.all():
         count = int((~found.locked).sum())
         warn("sway_unseen", f"In {count} frames too little is seen of the person to tell how they swayed.")
-    if head is None:
-        return CaptureCameras(found, None, False)
+    if near is None or joined is None:
+        return CaptureCameras(found, None)
+    close = _locked(replace(near, scene=joined.second))
+    moved = moved_person(whole.lock, close.lock, joined.shared)
+    change = Similarity(frame.change.linear @ moved.linear, frame.change(moved.shift))
+    return CaptureCameras(found, _placed(close, change))
+
+
+def _head_film(frames: Sequence[NDArray[np.uint8]], lens: Lens | None, warn: Warn, tick: Tick) -> _Film | None:
+    """The film of the head; None where its cameras cannot be found."""
     try:
-        near = _solve_clip(head, False, lenses[1], lambda fraction: tick(share + (1 - share) * fraction))
+        return _solved(frames, False, lens, tick)
     except InputError as refused:
         if refused.code not in HEAD_UNPLACED:
             raise
         warn("head_not_joined", f"The head clip is not used. {refused.detail}")
-        return CaptureCameras(found, None, False)
-    joint = join_clips(whole.lock, near.lock, (whole.scene, near.scene))
-    if joint is None:
-        warn("head_not_joined", "The head clip shows too little of what the body clip shows, and is not used.")
-        return CaptureCameras(found, None, False)
-    change = Similarity(frame.change.linear @ joint.change.linear, frame.change(joint.change.shift))
-    return CaptureCameras(found, _placed(near, change), joint.by_person)
+        return None
 
 
-def _solve_clip(frames: Sequence[NDArray[np.uint8]], whole: bool, lens: Lens | None, tick: Tick) -> _Clip:
-    """Of a person seen `whole` the masks are known before; of a head, by what the cameras go around."""
+def _solved(frames: Sequence[NDArray[np.uint8]], whole: bool, lens: Lens | None, tick: Tick) -> _Film:
+    """A film with its cameras as the room has them. Of a person seen `whole` the masks are known before."""
     beliefs = believed_masks(frames, whole)
-    masks = settled_masks(frames, beliefs) if whole else None
+    masks = settled_masks(frames, beliefs) if whole else []
     tick(0.2)
     height, width = frames[0].shape[:2]
-    favoured = [enlarged_mask(mask, (width, height)) for mask in masks] if masks else None
-    scene = solve_scene(frames, favoured, lens, lambda fraction: tick(0.2 + 0.7 * fraction))
-    person = person_tracks(scene, masks)
-    lock = lock_to_person(scene, person)
-    tick(1.0)
-    return _Clip(scene, lock, tuple(masks or settled_masks(frames, beliefs, scene, person)))
+    favoured = [enlarged_mask(mask, (width, height)) for mask in masks] or None
+    scene = solve_scene(frames, favoured, lens, lambda fraction: tick(0.2 + 0.8 * fraction))
+    return _Film(frames, beliefs, masks, scene)
+
+
+def _locked(film: _Film) -> _Clip:
+    """The film locked to the person; of a head, what the cameras go around."""
+    person = person_tracks(film.scene, film.masks or None)
+    masks = film.masks or settled_masks(film.frames, film.beliefs, film.scene, person)
+    return _Clip(film.scene, lock_to_person(film.scene, person), tuple(masks))
 
 
 def _placed(clip: _Clip, change: Similarity) -> ClipCameras:

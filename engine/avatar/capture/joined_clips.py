@@ -1,8 +1,8 @@
 """A second film of the same person in the frame of the first: the close-up of the head in that of the body.
 
-Both show the same room, which tells where they are to one another; then the person, who may have moved between the films,
-has the last word: their size above all, which the room tells badly where the lens's focal length is a little wrong in either
-film. Places tell it about, and pixels exactly.
+Both show the same room, which tells where they are to one another, once both are adjusted as one: alone, a lens's focal length is
+a per cent or two off in either film, by which the room is nearer or farther in each, and the head by as much too large or small. Then
+the person, who may have moved between the films, has the last word.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from engine.avatar.capture.person_lock import PersonLock, focus_of
-from engine.avatar.capture.scene_cameras import ClipScene
-from engine.geometry.multiview.structure_from_motion.joining import join_by_pixels
+from engine.avatar.capture.scene_cameras import ClipScene, with_reconstruction
+from engine.geometry.multiview.structure_from_motion.joining import adjust_together, join_by_pixels
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.registration.consensus import similarity_by_consensus
-from engine.geometry.registration.rigid import Similarity
+from engine.geometry.registration.rigid import Similarity, fit_rigid, fit_robustly
 from engine.imaging.feature_matching import match_features, verified_matches
 from engine.imaging.features import Features
 
@@ -29,53 +29,60 @@ MIN_SHARED = 20
 """Points in common by which two films are joined."""
 MIN_PERSON_SHARED = 12
 """Points of the person in common by which they have the last word."""
-ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.05
-"""Distances of the first film's cameras by which places in common may be apart before pixels decide: of the room, and of the
-person, who may have moved."""
+ROOM_TOLERANCE, PERSON_TOLERANCE = 0.03, 0.01
+"""Distances of the first film's cameras by which points in common may be apart: of the room, which is far, and of the person."""
+ADJUSTMENTS = 3
+"""Times that both films are adjusted as one: each time more of what they share agrees."""
 
 
 @dataclass(frozen=True)
-class Joint:
-    """The `change` from the second film's frame to the first one's; `shared`: points in common that agree; `by_person`:
-    whether the person had the last word."""
+class JoinedScenes:
+    """Both films, `first` and `second`, in the first one's frame; `shared` (M, 2): the tracks that agree to be one point each."""
 
-    change: Similarity
-    shared: int
-    by_person: bool
+    first: ClipScene
+    second: ClipScene
+    shared: NDArray[np.intp]
 
 
-def join_clips(first: PersonLock, second: PersonLock, rooms: tuple[ClipScene, ClipScene]) -> Joint | None:
-    """The second film in the frame of the first; None where they have too little in common.
-
-    Parameters
-    ----------
-    first, second : both films, locked to the person. rooms : the same, as the room has them.
-    """
-    tracks = _shared_tracks(*rooms)
-    distance = focus_of(rooms[0].reconstruction).distance
-    a, b = rooms[0].reconstruction.bundle.points[tracks[:, 0]], rooms[1].reconstruction.bundle.points[tracks[:, 1]]
+def join_scenes(first: ClipScene, second: ClipScene) -> JoinedScenes | None:
+    """Two films of one room in one frame; None where they have too little in common."""
+    tracks = _shared_tracks(first, second)
+    one, other = first.reconstruction, second.reconstruction
+    a, b = one.bundle.points[tracks[:, 0]], other.bundle.points[tracks[:, 1]]
     known = np.isfinite(a[:, 0]) & np.isfinite(b[:, 0])
     if known.sum() < MIN_SHARED:
         return None
-    found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE * distance)
+    found = similarity_by_consensus(b[known], a[known], ROOM_TOLERANCE * focus_of(one).distance)
     if found is None or found.agreed.sum() < MIN_SHARED:
         return None
-    joined = join_by_pixels(
-        rooms[0].reconstruction, rooms[1].reconstruction, tracks[known], found.transform, rooms[0].length
-    )
-    if joined.agreed.sum() < MIN_SHARED:
-        return None
+    tracks, change = tracks[known], found.transform
+    shared = tracks
+    for _ in range(ADJUSTMENTS):
+        joined = join_by_pixels(one, other, tracks, change, first.length)
+        shared = tracks[joined.agreed]
+        if len(shared) < MIN_SHARED:
+            return None
+        one, other = adjust_together(one, other, shared, joined.change)
+        change = Similarity(np.eye(3), np.zeros(3))
+    return JoinedScenes(with_reconstruction(first, one), with_reconstruction(second, other), shared)
+
+
+def moved_person(first: PersonLock, second: PersonLock, tracks: NDArray[np.integer]) -> Similarity:
+    """The rigid motion that the person made between both films, which are in one frame and locked to the person: from where the second
+    has them to where the first has. None at all where they share too little of them.
+
+    Parameters
+    ----------
+    tracks : (M, 2) of the first and of the second film, that are one point each.
+    """
+    distance = focus_of(first.scene.reconstruction).distance
     own = tracks[first.person[tracks[:, 0]] & second.person[tracks[:, 1]]]
     a = first.scene.reconstruction.bundle.points[own[:, 0]]
-    b = joined.change(second.scene.reconstruction.bundle.points[own[:, 1]])
-    own = own[np.linalg.norm(a - b, axis=1) < PERSON_TOLERANCE * distance]  # false where a point is not known
-    last = None
-    if len(own) >= MIN_PERSON_SHARED:
-        persons = first.scene.reconstruction, second.scene.reconstruction
-        last = join_by_pixels(*persons, own, joined.change, rooms[0].length)
-    if last is None or last.agreed.sum() < MIN_PERSON_SHARED:
-        return Joint(joined.change, int(joined.agreed.sum()), by_person=False)
-    return Joint(last.change, int(last.agreed.sum()), by_person=True)
+    b = second.scene.reconstruction.bundle.points[own[:, 1]]
+    near = np.linalg.norm(a - b, axis=1) < 5 * PERSON_TOLERANCE * distance  # false where a point is not known
+    if near.sum() < MIN_PERSON_SHARED:
+        return Similarity(np.eye(3), np.zeros(3))
+    return fit_robustly(b[near], a[near], PERSON_TOLERANCE * distance, fit_rigid).transform
 
 
 def _shared_tracks(first: ClipScene, second: ClipScene) -> NDArray[np.intp]:

@@ -51,7 +51,7 @@ def test_two_people_and_nobody_are_refused(whole: NDArray[np.uint8], of_body: Pe
     beside = look_for_people([np.concatenate([whole, whole[:, ::-1]], axis=1)])
     assert beside.share_with_company == 1 and of_body.share_with_company == 0
     assert code(beside) == "two_people"
-    passing = PeopleShown({0: of_body.people[0], 1: of_body.people[0], 2: beside.people[0]}, of_body.size)
+    passing = PeopleShown({k: (beside if k == 3 else of_body).people[0] for k in range(8)}, of_body.size)
     refuse_wrong_clips(passing, None)
     empty = look_for_people([np.full((320, 180, 3), 127, np.uint8)])
     assert code(empty) == "no_person"

@@ -10,13 +10,14 @@ another (B. Triggs, P. McLauchlan, R. Hartley, A. Fitzgibbon, Bundle adjustment 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from engine.geometry.multiview.bundle import MIN_DEPTH, Bundle
+from engine.geometry.multiview.bundle import MIN_DEPTH, Bundle, Observations
+from engine.geometry.multiview.bundle_adjustment import Freedom, adjust
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.registration.rigid import Similarity
 
@@ -32,6 +33,10 @@ LAST_ROUNDS = 5
 """Of Gauss and Newton that believe `SIGMA`."""
 BEHIND = 1e9
 """Pixels by which what is behind a camera is off: it does not count."""
+LOSSES = (6.0, 1.0)
+"""Pixels of the robust loss with which both are adjusted together, one after the other: places in common are far off first."""
+MOST_STEPS, CONVERGED = 15, 1e-4
+"""Steps of each, and the relative decrease at which it ends before."""
 DAMPING = 1e-9
 """Share of its diagonal that is added to each system."""
 
@@ -82,6 +87,57 @@ def join_by_pixels(
         within = np.bincount(side.pair, off < least, len(pairs))
         agreed &= within > np.bincount(side.pair, minlength=len(pairs)) / 2
     return Joined(back.inverse(), agreed)
+
+
+def adjust_together(
+    first: Reconstruction, second: Reconstruction, shared: NDArray[np.integer], change: Similarity
+) -> tuple[Reconstruction, Reconstruction]:
+    """Both reconstructions in the first one's frame, with all their cameras, points and lenses adjusted as one bundle: what either
+    knows badly, its lens above all, it learns of the other.
+
+    Parameters
+    ----------
+    shared : (M, 2) tracks of the first and of the second that are one point each; of several with the same track one counts.
+    change : from the second reconstruction's frame to the first's, about.
+    """
+    shared = shared[np.unique(shared[:, 0], return_index=True)[1]]
+    shared = shared[np.unique(shared[:, 1], return_index=True)[1]]
+    here, there = first.bundle, second.bundle.moved(change)
+    at = len(here.points) + np.arange(len(there.points))
+    at[shared[:, 1]] = shared[:, 0]
+    both = Bundle(
+        np.concatenate([here.rotations, there.rotations]),
+        np.concatenate([here.translations, there.translations]),
+        np.concatenate([here.lenses, there.lenses]),
+        np.concatenate([here.centres, there.centres]),
+        np.concatenate([here.lens_of, there.lens_of + len(here.lenses)]),
+        np.concatenate([here.points, there.points]),
+    )
+    one, other = first.seen[first.agreed], second.seen[second.agreed]
+    seen = Observations(
+        np.concatenate([one.camera, other.camera + len(here.rotations)]),
+        np.concatenate([one.point, at[other.point]]),
+        np.concatenate([one.pixels, other.pixels]),
+    )
+    free = Freedom(np.concatenate([first.registered, second.registered]), (True, True, True))
+    for loss in LOSSES:
+        both = adjust(both, seen, free, loss, MOST_STEPS, CONVERGED).bundle
+    count = len(here.rotations)
+    parts = []
+    for found, cameras, lenses, points in (
+        (first, slice(None, count), slice(None, len(here.lenses)), slice(None, len(here.points))),
+        (second, slice(count, None), slice(len(here.lenses), None), at),
+    ):
+        bundle = Bundle(
+            both.rotations[cameras],
+            both.translations[cameras],
+            both.lenses[lenses],
+            both.centres[lenses],
+            found.bundle.lens_of,
+            both.points[points],
+        )
+        parts.append(replace(found, bundle=bundle))
+    return parts[0], parts[1]
 
 
 def _side(found: Reconstruction, tracks: NDArray[np.integer]) -> _Side:

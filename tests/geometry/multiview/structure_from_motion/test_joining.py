@@ -1,4 +1,4 @@
-"""Two reconstructions of the same points, one of them in a frame of its own, from near, and with poorly known distances."""
+"""Two reconstructions of the same points, one of them in a frame of its own, from near, with poorly known distances or lens."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from made_orbit import SIZE, observed, orbit
 from scipy.spatial.transform import Rotation
 
 from engine.geometry.multiview.bundle import Bundle, Observations
-from engine.geometry.multiview.structure_from_motion.joining import join_by_pixels
+from engine.geometry.multiview.bundle_adjustment import Freedom, adjust
+from engine.geometry.multiview.structure_from_motion.joining import adjust_together, join_by_pixels
 from engine.geometry.multiview.structure_from_motion.mapping import Reconstruction
 from engine.geometry.multiview.structure_from_motion.tracks import Tracks
 from engine.geometry.registration.rigid import Similarity, fit_similarity
@@ -68,3 +69,26 @@ def test_scale_turn_and_place_come_from_what_all_cameras_see(films: tuple[Recons
     truth = OWN_FRAME.inverse()(second.bundle.eyes)
     assert np.linalg.norm(eyes - truth, axis=1).max() < 0.004
     assert joined.agreed[right].mean() > 0.95 and joined.agreed[wrong].mean() < 0.05
+
+
+def test_adjusted_together_a_wrong_lens_is_mended_by_the_other(films: tuple[Reconstruction, Reconstruction]) -> None:
+    """The first is taken to have a focal length 2% too long: its cameras, and the second's scale, are as wrong."""
+    first, second = films
+    wrong = first.bundle.lenses * [1.02, 1, 1]
+    free = Freedom(np.ones(len(first.registered), np.bool_))
+    bent = replace(first, bundle=adjust(replace(first.bundle, lenses=wrong), first.seen, free).bundle)
+    pairs = common(first, second)
+    start = fit_similarity(second.bundle.points[pairs[:, 1]], bent.bundle.points[pairs[:, 0]])
+    joined = join_by_pixels(bent, second, pairs, start, max(SIZE))
+    one, other = adjust_together(bent, second, pairs, joined.change)
+    focal = first.bundle.lenses[0, 0]
+    assert abs(one.bundle.lenses[0, 0] / focal - 1) < 0.003
+
+    def far_off(a: Reconstruction, b: Reconstruction) -> float:
+        """How much larger the second film is beside the first than in truth."""
+        here = fit_similarity(a.bundle.eyes, first.bundle.eyes).scale
+        there = fit_similarity(b.bundle.eyes, OWN_FRAME.inverse()(second.bundle.eyes)).scale
+        return abs(here / there - 1)
+
+    moved = replace(second, bundle=second.bundle.moved(joined.change))
+    assert far_off(bent, moved) > 0.01 > 0.004 > far_off(one, other)
