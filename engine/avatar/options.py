@@ -18,6 +18,19 @@ TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
 
 
+class KnownLens(BaseModel):
+    """A camera's lens that somebody has calibrated, in pixels of the upright clip: Brown's model, as OpenCV has it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    focal: Annotated[float, Field(gt=0, le=100_000)] = Field(description="Focal length.")
+    centre: tuple[Coordinate, Coordinate] | None = Field(
+        None, description="The principal point (x, y); without it the middle of the frame."
+    )
+    k1: Annotated[float, Field(ge=-1, le=1)] = Field(0.0, description="Radial distortion, of the square of the radius.")
+    k2: Annotated[float, Field(ge=-1, le=1)] = Field(0.0, description="Radial distortion, of its fourth power.")
+
+
 class PlacedLandmark(BaseModel):
     """Where a landmark of the body is in one frame of its clip."""
 
@@ -55,6 +68,12 @@ class AvatarOptions(BaseModel):
     vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
         "Galatea", description="Whose the avatar is, as its VRM file says: nobody else may use it without asking."
     )
+    body_lens: KnownLens | None = Field(
+        None,
+        examples=[{"focal": 1580.5, "centre": [539.5, 959.5], "k1": 0.012}],
+        description="The lens of the body's clip, where it is known; otherwise it is found.",
+    )
+    head_lens: KnownLens | None = Field(None, description="The same of the head's clip.")
     body_frames_left_out: LeftOut = Field(
         (),
         description="Frames of the body's clip, by their numbers in the report's `inputs`, of which nothing is made.",

@@ -101,7 +101,8 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     ]
     for early in write_first_impression(out, chosen[0].picture(0, 1280), None, run.mark_synthetic):
         run.publish(early)
-    found = run.stage("find_cameras", find_cameras, chosen[0], chosen[1] if head else None, run.warn, run.tick)
+    lenses = (options.body_lens, options.head_lens)
+    found = run.stage("find_cameras", find_cameras, chosen[0], chosen[1] if head else None, lenses, run.warn, run.tick)
     given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
     grown = in_metres(options.height_m)
     clips = [_scanned(chosen[0], found.body, given, grown, run)]

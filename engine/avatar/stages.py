@@ -18,6 +18,7 @@ from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
 from engine.avatar.landmarks.in_frames import FrameLandmarks, frame_landmarks
 from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.options import KnownLens
 from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.registration.models import load_models
 from engine.avatar.registration.register import Scan, register
@@ -25,6 +26,7 @@ from engine.avatar.texture.avatar_texture import AvatarTexture, avatar_texture
 from engine.avatar.texture.template_surface import template_surface
 from engine.avatar.texture.views import FrameView
 from engine.geometry.camera import Camera
+from engine.geometry.multiview.structure_from_motion.mapping import Lens
 from engine.geometry.registration.rigid import Similarity
 from engine.imaging.resample import enlarged_mask, resized
 
@@ -72,14 +74,33 @@ class ClipScan:
         return ClipScan(self.placed, own, self.masks, dense, self.landmarks.moved(change))
 
 
-def find_cameras(body: ChosenFrames, head: ChosenFrames | None, warn: Warn, tick: Tick) -> CaptureCameras:
-    """Where the cameras of both clips stood, around somebody of usual height: section 3.2's first half. Raises what
-    `solve_cameras` raises."""
+def find_cameras(
+    body: ChosenFrames,
+    head: ChosenFrames | None,
+    lenses: tuple[KnownLens | None, KnownLens | None],
+    warn: Warn,
+    tick: Tick,
+) -> CaptureCameras:
+    """Where the cameras of both clips stood, around somebody of usual height: section 3.2's first half. `lenses` are theirs,
+    where they are known. Raises what `solve_cameras` raises."""
     clips = [
         None if clip is None else [clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in (body, head)
     ]
     assert clips[0] is not None
-    return solve_cameras(clips[0], clips[1], warn, tick)
+    known = [
+        None if clip is None or lens is None or frames is None else lens_of_frames(lens, clip.size, frames[0].shape[:2])
+        for lens, clip, frames in zip(lenses, (body, head), clips, strict=True)
+    ]
+    return solve_cameras(clips[0], clips[1], warn, tick, (known[0], known[1]))
+
+
+def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, int]) -> Lens:
+    """A lens, known in pixels of a clip of a `size` (height, width), as that of its frames that were `shrunk` so."""
+    scale = shrunk[0] / size[0]
+    middle = ((size[1] - 1) / 2, (size[0] - 1) / 2)
+    x, y = lens.centre or middle
+    centre = np.array([(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5])
+    return Lens(np.array([lens.focal * scale, lens.k1, lens.k2]), centre, known=True)
 
 
 def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> ClipLandmarks:

@@ -1476,6 +1476,24 @@ export interface components {
              */
             vrm_author?: string;
             /**
+             * @description The lens of the body's clip, where it is known; otherwise it is found.
+             * @default null
+             * @example {
+             *       "centre": [
+             *         539.5,
+             *         959.5
+             *       ],
+             *       "focal": 1580.5,
+             *       "k1": 0.012
+             *     }
+             */
+            body_lens?: components["schemas"]["KnownLens"] | null;
+            /**
+             * @description The same of the head's clip.
+             * @default null
+             */
+            head_lens?: components["schemas"]["KnownLens"] | null;
+            /**
              * @description Frames of the body's clip, by their numbers in the report's `inputs`, of which nothing is made.
              * @default []
              */
@@ -1735,6 +1753,29 @@ export interface components {
             priority?: "high" | "normal" | "low";
             /** @default null */
             title?: string | null;
+        };
+        /** @description A camera's lens that somebody has calibrated, in pixels of the upright clip: Brown's model, as OpenCV has it. */
+        KnownLens: {
+            /** @description Focal length. */
+            focal: number;
+            /**
+             * @description The principal point (x, y); without it the middle of the frame.
+             * @default null
+             */
+            centre?: [
+                number,
+                number
+            ] | null;
+            /**
+             * @description Radial distortion, of the square of the radius.
+             * @default 0
+             */
+            k1?: number;
+            /**
+             * @description Radial distortion, of its fourth power.
+             * @default 0
+             */
+            k2?: number;
         };
         /** @description A stroke of a round brush over the label map, in pixels of the picture. */
         LabelStroke: {

@@ -54,6 +54,8 @@ const english = {
     body_frames_left_out: 'frames left out of the body clip',
     head_frames_left_out: 'frames left out of the head clip',
     landmarks: 'joints',
+    body_lens: 'lens of the body clip',
+    head_lens: 'lens of the head clip',
     body_frames: 'frames of the body',
     head_frames: 'frames of the head',
     texture_size: 'texture',

@@ -1,0 +1,25 @@
+"""Stages: what they make of options."""
+
+import numpy as np
+import pytest
+
+from engine.avatar.options import KnownLens
+from engine.avatar.stages import lens_of_frames
+from engine.geometry.camera import Camera
+
+
+def test_a_lens_sees_in_shrunk_frames_what_it_sees_in_the_clip() -> None:
+    known = KnownLens(focal=1580.0, centre=(530.0, 970.0), k1=0.05, k2=-0.01)
+    lens = lens_of_frames(known, (1920, 1080), (1280, 720))
+    point = np.array([[0.4, -0.7, -2.0]])
+    clip = Camera((0.0, 0.0, 0.0), 1580.0, (530.0, 970.0), (1920, 1080), distortion=(0.05, -0.01, 0.0, 0.0))
+    focal, k1, k2 = lens.parameters
+    frame = Camera((0.0, 0.0, 0.0), focal, tuple(lens.centre), (1280, 720), distortion=(k1, k2, 0.0, 0.0))
+    at_clip, at_frame = (camera.project(point, np.float64)[0, :2] for camera in (clip, frame))
+    np.testing.assert_allclose((at_clip + 0.5) * 2 / 3 - 0.5, at_frame, atol=1e-9)
+    assert lens.known
+
+
+def test_without_a_principal_point_it_is_the_middle() -> None:
+    lens = lens_of_frames(KnownLens(focal=900.0), (640, 360), (640, 360))
+    assert lens.centre.tolist() == pytest.approx([179.5, 319.5])
