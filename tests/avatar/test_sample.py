@@ -13,15 +13,15 @@ from engine.media.video import probe_video, read_video
 
 def test_both_have_the_frames_and_the_size_of_their_order() -> None:
     for name, count in SAMPLE_FRAMES.items():
-        assert len(read_frames(sample_clip(name))) == count  # type: ignore[arg-type]
-        info = probe_video(sample_clip(name))  # type: ignore[arg-type]
+        assert len(read_frames(sample_clip(name))) == count
+        info = probe_video(sample_clip(name))
         assert (info.width, info.height) == ORDER.size
 
 
 def test_they_are_not_swapped_and_each_camera_of_the_truth_looks_at_the_person() -> None:
     shown = {}
     for name in ("body", "head"):
-        frames = [frame.rgb for frame in read_video(sample_clip(name))]  # type: ignore[arg-type]
+        frames = [frame.rgb for frame in read_video(sample_clip(name))]
         shown[name] = look_for_people(frames[::6])
     refuse_wrong_clips(shown["body"], shown["head"])
     truth = sample_truth()
