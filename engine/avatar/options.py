@@ -64,6 +64,11 @@ class AvatarOptions(BaseModel):
     levels: Annotated[int, Field(ge=0, le=3)] = Field(
         0, description="Further levels of detail, each with a quarter of the triangles, in the same GLB (MSFT_lod)."
     )
+    compression: Literal["none", "meshopt"] = Field(
+        "none",
+        description="Whether geometry and animations of the GLB are compressed (EXT_meshopt_compression): half as large, for programs"
+        " that read it.",
+    )
     vrm: bool = Field(False, description="Write the avatar as VRM 1.0, too.")
     vrm_author: Annotated[str, Field(min_length=1, max_length=200)] = Field(
         "Galatea", description="Whose the avatar is, as its VRM file says: nobody else may use it without asking."

@@ -49,7 +49,15 @@ def write_avatar(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions
         expressions={} if scene.expressions is None else {scene.clip.name: scene.expressions},
         mixamo=True,
     )
-    written = write_glb(out / "avatar.glb", model, name="avatar", synthetic=marked, most=MAX_GLB_BYTES, check=run.check)
+    written = write_glb(
+        out / "avatar.glb",
+        model,
+        name="avatar",
+        synthetic=marked,
+        most=MAX_GLB_BYTES,
+        compression=options.compression,
+        check=run.check,
+    )
     if written.size > MAX_GLB_BYTES:
         run.warn(
             "glb_too_large",

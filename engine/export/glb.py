@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
 import cv2
 import numpy as np
@@ -22,6 +23,7 @@ from engine.export.gltf_joints import add_skeleton
 from engine.export.gltf_materials import Material, add_materials
 from engine.export.gltf_morphs import add_morphs
 from engine.export.influences import quantise_influences
+from engine.export.meshopt.compression import compressed
 from engine.export.synthetic import SOURCE_TYPE, STATEMENT, marked_jpeg
 from engine.geometry.joint_axes import mixamo_axes
 from engine.geometry.morph_target import MorphTarget, MorphTrack
@@ -91,6 +93,7 @@ def write_glb(
     quality: int = JPEG_QUALITY,
     synthetic: bool = True,
     most: int | None = None,
+    compression: Literal["none", "meshopt"] = "none",
     check: Callable[[], None] = lambda: None,
 ) -> WrittenGlb:
     """Write a character; the file appears under its name when it is whole.
@@ -101,6 +104,7 @@ def write_glb(
     synthetic : whether the file says of itself that it is synthetic (`engine.export.synthetic`).
     most : bytes that the file should have at most, levels included: its texture is written as mildly `TEXTURE_REDUCTIONS`
         as that takes. Where no texture is small enough it stays as it is, and the file is larger.
+    compression : of geometry and animations, which readers must know (`engine.export.meshopt`).
     check : called before each of these textures is packed; what it raises ends that, and no file is left.
 
     Raises ValueError where the parts of the model do not fit each other.
@@ -109,7 +113,8 @@ def write_glb(
 
     def with_texture(texture: bytes) -> bytes:
         gltf = build_glb(model, texture, name=name, synthetic=synthetic)
-        return b"".join(gltf.save_to_bytes())
+        data = b"".join(gltf.save_to_bytes())
+        return compressed(data) if compression == "meshopt" else data
 
     how, texture = (1, quality), jpeg(mesh.texture, quality, synthetic)
     data = with_texture(texture)

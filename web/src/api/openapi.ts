@@ -1466,6 +1466,12 @@ export interface components {
              */
             levels?: number;
             /**
+             * @description Whether geometry and animations of the GLB are compressed (EXT_meshopt_compression): half as large, for programs that read it.
+             * @default none
+             * @enum {string}
+             */
+            compression?: "none" | "meshopt";
+            /**
              * @description Write the avatar as VRM 1.0, too.
              * @default false
              */

@@ -14,8 +14,8 @@ export interface TalkingHeadPage {
   influence: (name: string) => number;
   /** Where a joint is in the world. */
   joint: (name: string) => Place;
-  /** Stand still, and say how many pixels a morph target changes now, and how many of those are above the eyes. */
-  changedBy: (name: string) => { pixels: number; above: number };
+  /** Stand still once a morph target goes so far, and say how many pixels it changes then, and how many of those are above the eyes. */
+  shaped: (name: string, least: number) => Promise<{ pixels: number; above: number }>;
 }
 
 export interface VrmPage {
@@ -27,4 +27,13 @@ export interface VrmPage {
   joint: (bone: VRMHumanBoneName) => Place;
   /** Turn a bone as programs for VRM do: as if its axes were the world's. */
   turn: (bone: VRMHumanBoneName, axis: 'x' | 'y' | 'z', degrees: number) => void;
+}
+
+export interface CompressedPage {
+  /** What the compressed avatar has; and how far its vertices are from the plain one's at most: at rest, with an expression, and
+   * half a second into a clip. */
+  compare: (
+    target: string,
+    clip: string,
+  ) => { triangles: number; targets: string[]; rest: number; opened: number; waving: number };
 }

@@ -51,9 +51,10 @@ const page: TalkingHeadPage = {
   targets: () => Object.keys(face.morphTargetDictionary!),
   influence: (name) => face.morphTargetInfluences![face.morphTargetDictionary![name]!]!,
   joint: (name) => place(name).toArray(),
-  changedBy: (name) => {
-    head.stop();
+  shaped: async (name, least) => {
     const [index, influences] = [face.morphTargetDictionary![name]!, face.morphTargetInfluences!];
+    while (influences[index]! < least) await new Promise(requestAnimationFrame);
+    head.stop();
     const before = drawn();
     influences[index] = 0;
     const after = drawn();

@@ -13,6 +13,7 @@ import {
   Vector3,
   VectorKeyframeTrack,
 } from 'three';
+import { MeshoptDecoder } from 'three/examples/jsm/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { CROWN } from '../posing/handles';
 import { Face } from './face';
@@ -141,7 +142,7 @@ const vertices = ({ geometry }: SkinnedMesh): number => geometry.attributes.posi
 export async function loadCharacter(url: string, signal: AbortSignal): Promise<Character> {
   const response = await fetch(url, { signal });
   if (!response.ok) throw new Error(`${response.status}`);
-  const { scene, animations } = await new GLTFLoader().parseAsync(await response.arrayBuffer(), '');
+  const { scene, animations } = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).parseAsync(await response.arrayBuffer(), '');
   const character = new Character(scene, animations);
   if (!signal.aborted) return character;
   character.dispose();
