@@ -38,7 +38,7 @@ def _rehearse(folder: Path) -> None:
 
     (folder / "out").mkdir()
     frames = {f"{name}_frames": count for name, count in SAMPLE_FRAMES.items()}
-    small = {"texture_size": 1024, "size": (96, 160), "fps": 5, "vrm": True}
+    small = {"texture_size": 1024, "size": (96, 160), "fps": 5, "vrm": True, "compression": "meshopt"}
     options = AvatarOptions.model_validate({**frames, **small})
     clips = {"body": sample_clip("body"), "head": sample_clip("head"), "driver": video("idle")}
     with Run() as run:
