@@ -18,7 +18,7 @@ from service.jobs import leases
 from service.tables.jobs import Job, Status
 
 STAGE = "prepare_engine"
-MESSAGE = "The engine is getting ready: this happens once and takes a minute or two."
+MESSAGE = "The engine is getting ready: this happens once and takes a few minutes."
 LOOK_SECONDS = 1.0
 """How often is looked for jobs that wait; a worker that is ready takes one sooner."""
 

@@ -46,7 +46,7 @@ def is_rehearsed(settings: Settings) -> bool:
 def rehearse(settings: Settings) -> None:
     """Have it done. Where it fails, jobs compile for themselves, each anew."""
     log = structlog.get_logger()
-    log.info("rehearsal_began", why="the engine is compiled once, which takes a minute or two")
+    log.info("rehearsal_began", why="the engine is compiled once, which takes a few minutes")
     command = module_command("worker.compilation.rehearsal", *settings.kinds)
     done = subprocess.run(  # noqa: S603  (our own program)
         tied_command(command),

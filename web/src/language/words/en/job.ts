@@ -10,7 +10,7 @@ export const job = {
     queued: 'Waiting in the queue',
     next: 'Next in the queue',
     place: (number: number) => `Place ${number} in the queue`,
-    preparing: 'This happens once and takes a minute or two.',
+    preparing: 'This happens once and takes a few minutes.',
     starting: 'Starting',
     remaining: (duration: string) => `about ${duration} left`,
     done: (percent: string) => `${percent} done`,
