@@ -40,7 +40,7 @@ with av.open(sys.argv[1], "w") as film:
   );
   browser = await launch(['--enable-unsafe-swiftshader']);
   service = await serve({
-    GALATEA_KINDS: 'template_avatar:KIND',
+    GALATEA_KINDS: 'template_avatar_kind:KIND',
     GALATEA_DISK_RESERVE_MB: '1',
     PYTHONPATH: [resolve(root, 'tests/live_service'), root].join(':'),
   });
