@@ -1,7 +1,7 @@
 /** Makes a video at hand a driver of one's own, so that its emotions are found. It is sent as orders are: with a pause. */
 
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { createDriver, type Problem } from '../../api';
+import { createDriver, listDrivers, type Problem } from '../../api';
 import { stem } from '../../language/format';
 import { asProblem } from '../../api/loading';
 import { driverName } from './drivers';
@@ -14,8 +14,6 @@ import { ProblemAlert } from '../../widgets/problem_alert';
 
 interface Props {
   file: File;
-  /** The names that drivers have. */
-  taken: string[];
   /** Something else is being sent: two at once would take the same upload from one another. */
   disabled: boolean;
   onKeeping: (on: boolean) => void;
@@ -25,7 +23,7 @@ interface Props {
 
 const words = portraitWords.studio;
 
-export function KeepDriver({ file, taken, disabled, onKeeping, onKept }: Props) {
+export function KeepDriver({ file, disabled, onKeeping, onKept }: Props) {
   const [step, setStep] = useState<Sending | null>(null);
   const { pauseControl, paused, pause } = usePausing();
   const [problem, setProblem] = useState<Problem | null>(null);
@@ -47,6 +45,7 @@ export function KeepDriver({ file, taken, disabled, onKeeping, onKept }: Props) 
       const progress = (bytes: number): void => setStep({ step: 'uploading', part: 'video', fraction: file.size ? bytes / file.size : 1 });
       arrived.current ??= await uploadFile(file, progress, pauseControl, signal);
       setStep({ step: 'ordering' });
+      const taken = (await listDrivers(signal)).map(({ name }) => name); // as they are now: another page may have kept one
       const { name } = await createDriver(driverName(stem(file.name), taken), arrived.current);
       onKept(signal.aborted ? null : name);
     } catch (error) {

@@ -126,7 +126,6 @@ export function Performances({ drivers, chosen, onChoose, refused, onRefused, se
       {chosen?.by === 'file' && (
         <KeepDriver
           file={chosen.file}
-          taken={drivers.map((driver) => driver.name)}
           disabled={sending}
           onKeeping={onKeeping}
           onKept={(kept) => {
