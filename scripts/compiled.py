@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from service.catalogue.registry import load_kinds
 from service.settings import Settings
-from worker.compilation.rehearsal import is_rehearsed, rehearse
+from worker.compilation.rehearsal import rehearse, unrehearsed
 
 
 def main() -> None:
     settings = Settings(kinds=["engine.kinds:KINDS"])
-    if not is_rehearsed(settings):
-        rehearse(settings)
+    for kind in unrehearsed(load_kinds(settings.kinds)):
+        rehearse(kind, settings)
 
 
 if __name__ == "__main__":

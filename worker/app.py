@@ -9,6 +9,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import structlog
@@ -28,8 +29,7 @@ from service.tables.jobs import Job
 from service.traces.current import origin_logged
 from worker.attempts.attempt import Attempt
 from worker.attempts.spans import AttemptSpans
-from worker.compilation.announcement import announcing
-from worker.compilation.rehearsal import is_rehearsed, rehearse
+from worker.compilation.readiness import Readiness
 from worker.job_process.children import Child, WarmChildren
 from worker.periodic.housekeeping import keep_house
 from worker.periodic.sweep import sweep
@@ -56,6 +56,7 @@ class Worker:
         self.interrupted = False
         self.user = user_id(context.settings.job_user)
         self.children: WarmChildren
+        self.readiness: Readiness
         self.lane: ShortLane | None = None
         self.sender = WebhookSender(context)
         self.owner = worker_name(socket.gethostname(), os.getpid())
@@ -74,6 +75,8 @@ class Worker:
 
     def _run_next(self, kind: str, children: WarmChildren) -> None:
         """Run the job of this kind whose turn it is, if there is one, in one of these processes."""
+        if kind not in self.readiness.ready:
+            return
         child = children.take()  # before the lease, which would run while a process starts
         reuse = True
         try:
@@ -110,15 +113,19 @@ class Worker:
         for task in (self._beat, self._sweep, self._keep_house, self._deliver_webhooks):
             threading.Thread(target=task, name=task.__name__, daemon=True).start()
         kinds = self.context.settings.worker_kinds or list(self.context.kinds)
-        self._rehearse(kinds)
+        for number in (signal.SIGTERM, signal.SIGINT):  # Celery listens only later
+            signal.signal(number, self._quit)
+        self.readiness = Readiness(self.context, kinds)
+        self.readiness.await_one()
         settings = self.context.settings
         self.children = WarmChildren(settings, settings.concurrency, settings.worker_kinds, self.user)
         self.lane = self._short_lane(kinds)
-        queues = [queue_name(kind) for kind in kinds]
+        queues = [queue_name(kind) for kind in self.readiness.ready]
         structlog.get_logger().info("worker_started", kinds=kinds, owner=self.owner)
         worker = self.context.queue.celery.Worker(
             queues=queues, without_gossip=True, without_mingle=True, without_heartbeat=True, quiet=True
         )
+        self.readiness.rehearse_others(partial(self._begin, worker.consumer))
         worker.start()
         self._stop()
         if self.lane is not None:
@@ -136,14 +143,16 @@ class Worker:
         children = WarmChildren(self.context.settings, places, short, self.user)
         return ShortLane(self.context, short, places, children, self._run_next, self._repeat)
 
-    def _rehearse(self, kinds: Sequence[str]) -> None:
-        """Have the engine compiled where it is not, and tell the jobs that wait for it. No message is taken meanwhile:
-        those that wait are not lost."""
-        for number in (signal.SIGTERM, signal.SIGINT):  # Celery listens only later
-            signal.signal(number, self._quit)
-        if not is_rehearsed(self.context.settings):
-            with announcing(self.context, kinds):
-                rehearse(self.context.settings)
+    def _begin(self, consumer: Any, kind: str) -> None:
+        """Take the jobs of a kind from now on. The queue is chosen at once, so that a connection that is made anew listens
+        to it, too; this one begins once its loop runs."""
+        self.children.renew()
+        if self.lane is not None:
+            self.lane.children.renew()
+        structlog.get_logger().info("kind_began", kind=kind)
+        queues = self.context.queue.celery.amqp.queues
+        queues.select_add(queues[queue_name(kind)])
+        consumer.call_soon(consumer.add_task_queue, queue_name(kind))
 
     def _quit(self, number: int, *_: Any) -> None:
         self._stop(sig=signal.Signals(number).name)

@@ -33,7 +33,7 @@ class ShortLane:
     ):
         """`run_next` runs the next job of a kind in one of the `children`; `repeat` does something again and again until
         the worker stops."""
-        self._context, self._kinds, self._children, self._run_next = context, kinds, children, run_next
+        self._context, self._kinds, self.children, self._run_next = context, kinds, children, run_next
         self._threads = [
             threading.Thread(target=repeat, args=(self._look, LOOK_SECONDS), name=f"short-lane-{place}", daemon=True)
             for place in range(places)
@@ -46,7 +46,7 @@ class ShortLane:
         deadline = time.monotonic() + seconds
         for thread in self._threads:
             thread.join(max(deadline - time.monotonic(), 0.0))
-        self._children.close()
+        self.children.close()
 
     def _look(self) -> None:
         """Run a job of each kind that has one."""
@@ -55,6 +55,6 @@ class ShortLane:
                 waiting = repository.count_queued(session, kind)
             if waiting:
                 try:
-                    self._run_next(kind, self._children)
+                    self._run_next(kind, self.children)
                 except ChildLost:
                     return  # the worker is stopping

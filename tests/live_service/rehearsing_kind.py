@@ -1,4 +1,4 @@
-"""The tiny kind with a rehearsal that lasts until the file is there that `REHEARSED_WHEN` names."""
+"""The tiny kind, under two names, with a rehearsal that lasts until the file is there that `REHEARSED_WHEN` names."""
 
 from __future__ import annotations
 
@@ -16,3 +16,4 @@ def rehearse(folder: Path) -> None:
 
 
 KIND = replace(TINY, rehearse=rehearse)
+OTHER = replace(KIND, name="other")

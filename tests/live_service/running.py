@@ -110,10 +110,10 @@ class Running:
                 continue
         return found
 
-    def submit(self, picture: bytes, **options: Any) -> dict[str, Any]:
+    def submit(self, picture: bytes, kind: str = "tiny", **options: Any) -> dict[str, Any]:
         """Upload a picture and submit a tiny job with these options; the job."""
         file = self.client.post("/v1/files", files={"file": ("picture.png", picture)}).raise_for_status().json()
-        job = {"kind": "tiny", "inputs": {"image": file["id"]}, "options": options}
+        job = {"kind": kind, "inputs": {"image": file["id"]}, "options": options}
         return self.client.post("/v1/jobs", json=job).raise_for_status().json()
 
     def rest(self, picture: bytes, **options: Any) -> str:

@@ -24,14 +24,17 @@ LOOK_SECONDS = 1.0
 
 
 @contextmanager
-def announcing(context: Context, kinds: Sequence[str]) -> Iterator[None]:
-    """Tell the jobs of these kinds that wait, from another thread, as long as the block lasts."""
+def announcing(context: Context, waiting: Sequence[str]) -> Iterator[None]:
+    """Tell the jobs that wait of the kinds that do, from another thread, as long as the block lasts. Kinds may be taken from
+    `waiting` meanwhile: they are ready."""
     over = threading.Event()
+    kinds = list(waiting)
 
     def keep_telling() -> None:
         while not over.wait(LOOK_SECONDS):
-            _try(announce, context, kinds)
-        _try(take_back, context, kinds)
+            announce(context, list(waiting))
+            take_back(context, [kind for kind in kinds if kind not in waiting])
+        take_back(context, kinds)
 
     thread = threading.Thread(target=keep_telling, name="announcement", daemon=True)
     thread.start()
@@ -44,6 +47,10 @@ def announcing(context: Context, kinds: Sequence[str]) -> Iterator[None]:
 
 def announce(context: Context, kinds: Sequence[str]) -> None:
     """Tell those that wait and do not know. Where a job of their kind runs, somebody is ready: they wait for their turn."""
+    _try(_announce, context, kinds)
+
+
+def _announce(context: Context, kinds: Sequence[str]) -> None:
     with context.database.read() as session:
         counts = repository.count_by_kind_and_status(session)
         idle = [kind for kind in kinds if not counts.get((kind, Status.RUNNING))]
@@ -52,7 +59,11 @@ def announce(context: Context, kinds: Sequence[str]) -> None:
 
 
 def take_back(context: Context, kinds: Sequence[str]) -> None:
-    """From now on, jobs that were told wait for their turn like others."""
+    """From now on, jobs of these kinds that were told wait for their turn like others."""
+    _try(_take_back, context, kinds)
+
+
+def _take_back(context: Context, kinds: Sequence[str]) -> None:
     with context.database.read() as session:
         told = [job for kind in kinds for job in repository.queued(session, kind, 0.0) if _told(job)]
     _note(context, told, None, "")

@@ -1,13 +1,14 @@
-"""Compiling before the first job: each kind does its work once on media of the project's own.
+"""Compiling before the first job of a kind: it does its work once on media of the project's own.
 
 Compiled functions are kept beside the modules that they are of. Jobs may use them but not leave any
 (`worker.job_process.child`), so somebody who is trusted must have been there before. Once for each state of the engine
 and each machine.
 
 Unlike jobs it does not give way to all others (`worker.programs.niceness`): jobs wait for it, and on a machine that has
-other work to do it would take as long as that lasts. It is one process; the API stays quick beside it.
+other work to do it would take as long as that lasts. It is one process; the API stays quick beside it. Once there are jobs
+to do beside it, it gives way as they do.
 
-`python -m worker.compilation.rehearsal KIND...`
+`python -m worker.compilation.rehearsal KIND PLACE...`
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -28,9 +29,11 @@ from typing import Any
 import structlog
 
 import engine
+from engine.kind import Kind
 from service.catalogue.registry import load_kinds
 from service.settings import Settings
 from worker.programs.interpreter import module_command, module_environment
+from worker.programs.niceness import lower_priority
 from worker.programs.parent_death import tied_command
 
 NAME = "rehearsed"
@@ -38,53 +41,63 @@ FORGOTTEN_SECONDS = 90 * 24 * 3600.0
 """Seconds after which what was compiled is thrown away; compiled again it is there again."""
 
 
-def is_rehearsed(settings: Settings) -> bool:
-    """Whether it was done already."""
-    return _mark(settings.kinds).exists()
+def unrehearsed(kinds: Mapping[str, Kind]) -> list[str]:
+    """The names of those of these kinds that are yet to be rehearsed, in their order."""
+    state = _state()
+    return [name for name, kind in kinds.items() if kind.rehearse is not None and not _mark(name, state).exists()]
 
 
-def rehearse(settings: Settings) -> None:
-    """Have it done. Where it fails, jobs compile for themselves, each anew."""
-    log = structlog.get_logger()
+def rehearse(kind: str, settings: Settings, niceness: int = 0) -> None:
+    """Have it done for one kind. Where it fails, its jobs compile for themselves, each anew."""
+    log = structlog.get_logger().bind(kind=kind)
     log.info("rehearsal_began", why="the engine is compiled once, which takes a few minutes")
-    command = module_command("worker.compilation.rehearsal", *settings.kinds)
-    done = subprocess.run(  # noqa: S603  (our own program)
-        tied_command(command),
+    with subprocess.Popen(  # noqa: S603  (our own program)
+        tied_command(module_command("worker.compilation.rehearsal", kind, *settings.kinds)),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         stdin=subprocess.DEVNULL,
         env=module_environment(),
         start_new_session=True,
-    )
-    if done.returncode != 0:
-        log.warning("rehearsal_failed", printed=done.stderr.decode(errors="replace")[-2000:])
+    ) as process:
+        try:
+            if niceness:
+                lower_priority(process.pid, niceness)
+            _, printed = process.communicate()
+        except BaseException:  # the worker is told to end
+            process.kill()
+            raise
+    if process.returncode != 0:
+        log.warning("rehearsal_failed", printed=printed.decode(errors="replace")[-2000:])
     log.info("rehearsal_ended")
 
 
-def load_compiled(kinds: Sequence[str]) -> None:
+def load_compiled(kinds: Iterable[str]) -> None:
     """Load what was compiled then, and ready the compiler, so that the jobs that are forked from this process find both."""
-    mark = _mark(kinds)
-    if not mark.exists():
-        return
-    for module, name, signatures in pickle.loads(mark.read_bytes()):  # noqa: S301  (ours, as the functions' own files)
-        if module in sys.modules:
-            for signature in signatures:
-                getattr(sys.modules[module], name).compile(signature)
+    state = _state()
+    for mark in (_mark(kind, state) for kind in kinds):
+        if not mark.exists():
+            continue
+        for module, name, signatures in pickle.loads(mark.read_bytes()):  # noqa: S301  (ours, as the functions' own files)
+            if module in sys.modules:
+                for signature in signatures:
+                    getattr(sys.modules[module], name).compile(signature)
     if "numba" in sys.modules:
         from numba.core.registry import cpu_target
 
         cpu_target.target_context.refresh()
 
 
-def _mark(kinds: Sequence[str]) -> Path:
-    """The file that says that it was done for what there is to rehearse of these kinds, and this state of the engine on this
-    machine."""
-    package = Path(engine.__file__).parent
-    rehearsing = sorted(name for name, kind in load_kinds(kinds).items() if kind.rehearse is not None)
-    state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()} {rehearsing}".encode())
-    for path in sorted(package.rglob("*.py")):
+def _mark(kind: str, state: str) -> Path:
+    """The file that says that it was done for a kind and this state of the engine on this machine."""
+    return _folder(Path(engine.__file__).parent) / f"{NAME}-{kind}-{state}"
+
+
+def _state() -> str:
+    """What tells this state of the engine on this machine from others."""
+    state = hashlib.sha256(f"{version('numba')} {platform.python_version()} {_processor()}".encode())
+    for path in sorted(Path(engine.__file__).parent.rglob("*.py")):
         state.update(f"{path} {path.stat().st_mtime_ns}".encode())
-    return _folder(package) / f"{NAME}-{state.hexdigest()[:16]}"
+    return state.hexdigest()[:16]
 
 
 def _folder(package: Path) -> Path:
@@ -101,11 +114,11 @@ def _processor() -> str:
 
 
 def main() -> None:
-    for kind in load_kinds(sys.argv[1:]).values():
-        if kind.rehearse is not None:
-            with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
-                kind.rehearse(Path(folder))
-    mark = _mark(sys.argv[1:])
+    kind = load_kinds(sys.argv[2:])[sys.argv[1]]
+    assert kind.rehearse is not None
+    with tempfile.TemporaryDirectory(prefix="galatea-") as folder:
+        kind.rehearse(Path(folder))
+    mark = _mark(kind.name, _state())
     mark.parent.mkdir(parents=True, exist_ok=True)
     draft = mark.with_suffix(f".{os.getpid()}")
     draft.write_bytes(pickle.dumps(_compiled()))

@@ -184,7 +184,7 @@ def main() -> None:
     for kind in kinds.values():
         if kind.prepare is not None:
             kind.prepare()
-    load_compiled(sys.argv[5:])
+    load_compiled(kinds)
     _compile_without_keeping()
     models = [Path(os.environ[MATTING_SETTING])] if MATTING_SETTING in os.environ else []
     ready = Ready(kinds, limits, [*program_paths(), *compiled_folders(), *models])

@@ -186,6 +186,7 @@ class WarmChildren:
         self._changed = threading.Condition()
         self._idle: list[Child] = []
         self._busy: set[Child] = set()
+        self._outdated: set[Child] = set()
         self._closed = False
         self._started = 0
         threading.Thread(target=self._keep_warm, name="warm-children", daemon=True).start()
@@ -206,6 +207,9 @@ class WarmChildren:
 
     def give_back(self, child: Child, reuse: bool) -> None:
         """Return a process after its job. It is ended unless it may be used again."""
+        with self._changed:
+            reuse = reuse and child not in self._outdated
+            self._outdated.discard(child)
         if reuse:
             child.log_tail()
         else:
@@ -216,6 +220,16 @@ class WarmChildren:
                 self._idle.append(child)
             elif reuse:
                 child.kill()
+            self._changed.notify_all()
+
+    def renew(self) -> None:
+        """Have others in place of all that are there: idle ones now, busy ones after their jobs. They find what was
+        compiled since."""
+        with self._changed:
+            for child in self._idle:
+                child.kill()
+            self._idle.clear()
+            self._outdated |= self._busy
             self._changed.notify_all()
 
     def close(self) -> None:

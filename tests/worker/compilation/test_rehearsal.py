@@ -51,6 +51,21 @@ def test_who_waits_is_told_until_it_is_over_and_it_is_not_done_again(
     assert not said(another, "rehearsal_began")
 
 
+def test_kinds_that_are_ready_do_not_wait_for_those_that_are_not(
+    start: Start, tmp_path: Path, picture: bytes, rehearsed_when: Path
+) -> None:
+    running = start(kinds="tiny_kind:KIND,rehearsing_kind:OTHER")
+    waits = running.submit(picture, kind="other")["id"]
+    eventually(lambda: running.job(waits)["progress"]["stage"] == STAGE, "it is told")
+    running.until(running.submit(picture)["id"], "succeeded")
+    assert running.job(waits)["status"] == "queued"
+    before = running.processes("worker.job_process.child")
+    rehearsed_when.touch()
+    running.until(waits, "succeeded")
+    assert not any(child.is_running() for child in before), "others have loaded what was compiled"
+    assert not said(running, "messages_lost")
+
+
 def test_what_jobs_wait_for_does_not_give_way_and_ends_when_the_worker_is_told_to(
     start: Start, rehearsed_when: Path
 ) -> None:
