@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 from service.catalogue.registry import load_kinds
 from service.settings import Settings
 from worker.compilation.rehearsal import rehearse, unrehearsed
@@ -9,8 +12,8 @@ from worker.compilation.rehearsal import rehearse, unrehearsed
 
 def main() -> None:
     settings = Settings(kinds=["engine.kinds:KINDS"])
-    for kind in unrehearsed(load_kinds(settings.kinds)):
-        rehearse(kind, settings)
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        list(pool.map(lambda kind: rehearse(kind, settings), unrehearsed(load_kinds(settings.kinds))))
 
 
 if __name__ == "__main__":
