@@ -42,7 +42,9 @@ def fit_body(
 ) -> NDArray[np.float64]:
     """The skin (S, 3) laid on the body's cloud from the `coarse` fit (S, 3); `face` (68, 3), NaN where unknown."""
     stiffness = _stiffness(skin, {"face": BODY_FACE_STIFFNESS, "inner": INNER_STIFFNESS})
-    surface = ElasticSurface(without_details(skin, coarse), skin.triangles, skin.visible, stiffness, _trust(skin))
+    surface = ElasticSurface(
+        without_details(skin, coarse), skin.triangles, skin.visible, stiffness, _trust(skin), skin.regions["lower_feet"]
+    )
     drawn = face_landmarks(skin, coarse, face)
     return lay_on_points(surface, cloud.points, cloud.normals, BODY_STEPS, drawn)
 
@@ -53,7 +55,7 @@ def fit_head(
     """The skin (S, 3), as the body's fit has it and the head may have been given another shape, laid on a cloud of head and
     body. Both are one system: a head that is fitted alone drags its neck."""
     stiffness = _stiffness(skin, {"lips": LIP_STIFFNESS, "lids": LID_STIFFNESS, "inner": INNER_STIFFNESS})
-    surface = ElasticSurface(body, skin.triangles, skin.visible, stiffness, _trust(skin))
+    surface = ElasticSurface(body, skin.triangles, skin.visible, stiffness, _trust(skin), skin.regions["lower_feet"])
     drawn = face_landmarks(skin, body, face)
     return lay_on_points(surface, cloud.points, cloud.normals, HEAD_STEPS, drawn)
 

@@ -1,28 +1,39 @@
-"""Whether a person wears shoes, as the cloud has it, and the template in them."""
+"""Whether a person wears shoes, and the template in them.
+
+Who is filmed wears shoes unless feet are seen to be bare: no cloud of feet, as small films have none, is no evidence of toes.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from engine.avatar.registration.skin import Skin
 from engine.body.cache import cached_arrays
 from engine.body.garments.shoes import shod
 from engine.body.garments.toe_cap import ToeCap, toe_cap
-from engine.geometry.closest_points import closest_points
 from engine.geometry.point_cloud import PointCloud
-from engine.geometry.registration.nonrigid_registration import ElasticSurface, geometric_steps, lay_on_points
 
-FOOT_REACH = 0.03
-"""Metres from the feet within which points are of them, and beyond which a point's distance counts no more."""
-STIFF_STEPS = geometric_steps(3, (1e-4, 1e-7), (1.0, 1.0), (0.05, 0.02))
-"""In which feet go where the points are and are bent a little: toes stay toes."""
+FOOT_REACH = 0.02
+"""Metres from the coarse fit's feet within which points are of them."""
+FLOOR_REACH = 0.012
+"""Metres above the lowest of them below which points may be the floor's."""
+NOSE = slice(27, 36)
+"""Of the 68 face landmarks: about them there is skin, and no hair."""
+NOSE_REACH = 0.015
+"""Metres about them."""
 MIN_POINTS = 60
-"""Points about the toes with which a cloud says what they are in."""
-MIN_ADVANTAGE = 0.0007
-"""Metres by which points must be nearer to shoes than to bare toes, in the mean."""
+"""Points of feet, and of the face, with which colours are known."""
+MAX_HUE_OFF = 9.0
+"""By how much, in the plane of CIELAB's a and b, the skin of feet differs from the face's, at most ..."""
+DARKEST, BRIGHTEST = 0.6, 1.5
+"""... and how light it is, in the face's lightness."""
+MIN_BARE_SHARE = 0.6
+"""Of the points of feet, that have the colour of skin."""
 
 
 @dataclass(frozen=True)
@@ -41,49 +52,44 @@ def load_feet(skin: Skin, mean: NDArray[np.floating]) -> Feet:
         made = [toe_cap(mean, skin.triangles, mask) for mask in (left, right)]
         return {f"{name}_{k}": getattr(cap, name) for k, cap in enumerate(made) for name in ("rim", "inside", "disk")}
 
-    stored = cached_arrays("toe-caps", convert)
+    stored = cached_arrays("shoe-caps", convert)
     first, second = (ToeCap(stored[f"rim_{k}"], stored[f"inside_{k}"], stored[f"disk_{k}"]) for k in (0, 1))
     return Feet((left, right), (first, second))
 
 
-def in_shoes(skin: Skin, feet: Feet, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The skin (S, 3) in shoes."""
+def in_shoes(skin: Skin, feet: Feet, vertices: NDArray[np.floating]) -> NDArray[np.float64]:
+    """The skin (S, 3) at rest in shoes."""
     return shod(vertices, skin.triangles, feet.masks, feet.caps)
 
 
-def wears_shoes(skin: Skin, feet: Feet, bare: NDArray[np.float64], cloud: PointCloud) -> bool:
-    """Whether the cloud's points about the toes are nearer to shoes than to bare toes, of the skin `bare` (S, 3), once either has
-    been laid on them a little."""
-    toes = np.zeros(len(bare), np.bool_)
-    for cap in feet.caps:
-        toes[cap.inside] = toes[cap.rim] = True
-    covered = in_shoes(skin, feet, bare)
-    whole = feet.masks[0] | feet.masks[1]
-    near = _about(cloud, bare[whole])
-    if len(near) < MIN_POINTS:
+def seen_barefoot(feet: Feet, coarse: NDArray[np.float64], cloud: PointCloud, face: NDArray[np.floating]) -> bool:
+    """Whether the cloud's points about the feet of the `coarse` fit (S, 3) have the colours of those about the nose, of the landmarks
+    `face` (68, 3), NaN where unknown. Where either are not seen, nobody was seen barefoot."""
+    own = coarse[feet.masks[0] | feet.masks[1]]
+    near = _about(cloud, own, FOOT_REACH)
+    near = near[near.points[:, 1] > own[:, 1].min() + FLOOR_REACH]
+    nose = face[NOSE]
+    nose = nose[np.isfinite(nose).all(1)]
+    if not len(nose):
         return False
-    at_toes = _about(near, np.concatenate([bare[toes], covered[toes]]))
-    if len(at_toes) < MIN_POINTS:
+    skin = _about(cloud, nose, NOSE_REACH)
+    if min(len(near), len(skin)) < MIN_POINTS:
         return False
-    triangles = skin.triangles[toes[skin.triangles].any(1)]
-    laid = [_laid(skin, whole, shape, near) for shape in (bare, covered)]
-    distances = [closest_points(at_toes.points, shape, triangles).distance for shape in laid]
-    about = np.minimum(*distances) < FOOT_REACH
-    means = [float(np.minimum(distance[about], FOOT_REACH).mean()) for distance in distances]
-    return bool(about.sum() >= MIN_POINTS and means[1] < means[0] - MIN_ADVANTAGE)
+    face_lab = np.median(_lab(skin), axis=0)
+    lab = _lab(near)
+    alike = np.linalg.norm(lab[:, 1:] - face_lab[1:], axis=1) < MAX_HUE_OFF
+    alike &= (lab[:, 0] > DARKEST * face_lab[0]) & (lab[:, 0] < BRIGHTEST * face_lab[0])
+    return bool(alike.mean() > MIN_BARE_SHARE)
 
 
-def _about(cloud: PointCloud, places: NDArray[np.float64]) -> PointCloud:
-    """The points in the box of places (N, 3), and a little around."""
-    return cloud[((cloud.points > places.min(0) - FOOT_REACH) & (cloud.points < places.max(0) + FOOT_REACH)).all(1)]
+def _about(cloud: PointCloud, places: NDArray[np.floating], reach: float) -> PointCloud:
+    """The points within `reach` of any of the places (N, 3)."""
+    inside = ((cloud.points > places.min(0) - reach) & (cloud.points < places.max(0) + reach)).all(1)
+    boxed = cloud[inside]
+    distance = cKDTree(places).query(boxed.points, distance_upper_bound=reach)[0]
+    return boxed[np.isfinite(distance)]
 
 
-def _laid(skin: Skin, chosen: NDArray[np.bool_], shape: NDArray[np.float64], cloud: PointCloud) -> NDArray[np.float64]:
-    """The skin `shape` (S, 3) with its `chosen` (S,) vertices laid on the cloud, but kept much as they are."""
-    numbers = np.flatnonzero(chosen)
-    triangles = np.searchsorted(numbers, skin.triangles[chosen[skin.triangles].all(1)])
-    ones = np.ones(len(numbers))
-    surface = ElasticSurface(shape[numbers], triangles, np.ones(len(triangles), np.bool_), ones, ones)
-    out = shape.copy()
-    out[numbers] = lay_on_points(surface, cloud.points, cloud.normals, STIFF_STEPS)
-    return out
+def _lab(cloud: PointCloud) -> NDArray[np.float32]:
+    """(N, 3) the points' colours in CIELAB."""
+    return np.asarray(cv2.cvtColor(cloud.colours[None].astype(np.float32) / 255, cv2.COLOR_RGB2LAB)[0])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,14 @@ from engine.avatar.registration.expressions import transferred_units
 from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
 from engine.avatar.registration.fine import fit_body, fit_head
 from engine.avatar.registration.fitted_template import FittedTemplate
-from engine.avatar.registration.footwear import in_shoes, wears_shoes
+from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.hand_pose import CoarseBody, with_hands
 from engine.avatar.registration.head_cloud import head_to_body, one_cloud
 from engine.avatar.registration.head_shape import head_shape
 from engine.avatar.registration.inner_mouth import inner_skin
 from engine.avatar.registration.models import HumanModels
 from engine.avatar.registration.rigging import Pose, on_the_ground, rest_joints, unposed
+from engine.avatar.registration.standing_feet import with_feet
 from engine.body.face.visemes import viseme_displacements
 from engine.errors import InputError, Notice
 from engine.geometry.deformation.cage_coordinates import cage_coordinates
@@ -69,11 +70,11 @@ def register(
     check()
     parameters = fit_to_points(models.body, models.landmarks, believed, cloud, by_landmarks.parameters)
     check()
+    coefficients = parameters[-models.body.coefficients :]
     body_fit = with_hands(models, parameters, believed)
+    shoes = not seen_barefoot(models.feet, body_fit.vertices, cloud, believed.face)
+    body_fit = with_feet(models, body_fit, coefficients, believed, cloud, shoes)
     coarse = body_fit.vertices
-    shoes = wears_shoes(models.skin, models.feet, coarse, cloud)
-    if shoes:
-        coarse = in_shoes(models.skin, models.feet, coarse)
     fitted = fit_body(models.skin, coarse, cloud, body.landmarks.face)
     check()
     placed: Similarity | None = None
@@ -86,11 +87,11 @@ def register(
     check()
     return _person(
         models,
-        replace(body_fit, vertices=coarse),
-        parameters[-models.body.coefficients :],
+        body_fit,
+        coefficients,
         fitted,
         placed,
-        _notices(by_landmarks, parameters[-models.body.coefficients :], head is not None and placed is None),
+        _notices(by_landmarks, coefficients, head is not None and placed is None),
     )
 
 

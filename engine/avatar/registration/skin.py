@@ -31,6 +31,9 @@ NIPPLE_BOX = np.array([[-0.25, 1.0, 0.03], [0.25, 1.6, 1.0]])
 FINE_EDGE = 0.009
 """Vertices of the trunk whose edges are shorter in the mean, metres, are nipples (or the navel), which no clothes show."""
 
+LOWER_FOOT = 0.2
+"""Of a foot's length: so far above the ground it is the lower foot."""
+
 
 @dataclass(frozen=True)
 class Skin:
@@ -40,8 +43,8 @@ class Skin:
     triangles : (T, 3) into them, counter-clockwise from outside.
     visible : (T,) seen from outside; the mouth's inside and the eyes' sockets are not.
     bones, weights : (S, K) the joints that move each, and by how much, summing to one.
-    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `feet`, `inner` (part of no
-        visible triangle), `hidden_by_cloth` (nipples, navel).
+    regions : masks (S,) by name: `head`, `face`, `lips` (with the skin around), `lids`, `hands`, `feet`, `lower_feet` (what
+        a shoe covers at least), `inner` (part of no visible triangle), `hidden_by_cloth` (nipples, navel).
     face_points : (68,) the face landmarks.
     """
 
@@ -107,11 +110,13 @@ def _regions(
     trunk &= np.isin(
         strongest, ["Spine", "Spine1", "Spine2", "LeftShoulder", "RightShoulder", "LeftArm", "RightArm", "Hips"]
     )
+    feet = np.isin(strongest, [f"{side}{bone}" for side in ("Left", "Right") for bone in ("Foot", "ToeBase")])
     return {
         "lips": moved_by(LIP_UNITS) | (vertex_mask(template, "lips")[vertices] > 0.5),
         "lids": moved_by(LID_UNITS),
         "hands": np.char.find(strongest, "Hand") >= 0,
-        "feet": np.isin(strongest, [f"{side}{bone}" for side in ("Left", "Right") for bone in ("Foot", "ToeBase")]),
+        "feet": feet,
+        "lower_feet": feet & (mean[:, 1] < mean[feet, 1].min() + LOWER_FOOT * np.ptp(mean[feet, 2])),
         "hidden_by_cloth": grown(trunk & (edge < FINE_EDGE), triangles, 2),
     }
 

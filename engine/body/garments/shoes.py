@@ -1,7 +1,8 @@
-"""Feet in shoes: toes under one smooth cap, soles flat.
+"""Feet in shoes: a shoe's own smooth shape, closed over the toes, its sole flat.
 
-Bare toes that are laid on a shoe become claws. What a cloud of shoes is fitted with is this shape instead; its vertices are the
-template's, so that nothing else need know.
+Bare toes that are laid on a shoe become claws. A shoe is made on a last, whose shape is given here as curves along its length; the
+skin of a foot is carried onto it along rays from an axis within the foot, so that the vertices are the template's and nothing else
+need know.
 """
 
 from __future__ import annotations
@@ -14,14 +15,30 @@ from numpy.typing import NDArray
 from engine.body.garments.toe_cap import ToeCap
 from engine.geometry.surface import vertex_normals
 
-CAP_BLUNTNESS = 2.6
-"""Exponent of the superellipse along a cap: 2 is an ellipsoid, more is blunter."""
-CAP_REACH = 1.1
-"""How far caps reach before the rim, in lengths of the toes there."""
-SIDE_NORMAL, SOLE_NORMAL = -0.2, -0.7
-"""The vertical part of the normals where the sides of a foot end, and where all is sole."""
-SOLE_RISE = 0.035
-"""Metres above the lowest point within which what faces down is sole, the arch included."""
+LENGTH, WIDTH = 1.09, 1.15
+"""Of a shoe, in lengths and widths of the foot in it."""
+HEEL_ROOM = 0.3
+"""Of what a shoe is longer than the foot, how much is behind the heel."""
+STATIONS = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.72, 0.85, 1.0])
+"""Where along a shoe, in its lengths from the heel, the curves of the last are given:"""
+HALF_WIDTHS = np.array([0.34, 0.34, 0.34, 0.37, 0.46, 0.5, 0.5, 0.47])
+"""half its width, in its greatest width;"""
+HEIGHTS = np.array([0.36, 0.36, 0.34, 0.28, 0.22, 0.2, 0.19, 0.19])
+"""its height, in its length; at the back it reaches higher than the shoe's rim, where the ankle is."""
+HEEL_ROUND, TOE_ROUND = (0.14, 2.4), (0.36, 2.2)
+"""How far from its ends, in its length, it is rounded, and the exponents of the superellipses by which it is."""
+TOE_BOX = (0.34, 2.1)
+"""The same of its height before the toes."""
+SOLE_EXPONENT, UPPER_EXPONENT = 3.5, 2.3
+"""Of the superellipses of its cross-sections below and above half their height."""
+TOE_SPRING = 0.03
+"""By how much of its length the sole's tip is above the ground, from the ball on."""
+AXIS = np.array([[0.0, 0.12, 0.16], [0.0, 0.055, 0.8]])
+"""Both ends of the axis within it: aside, above the ground and along it, in its length."""
+COLLAR = (0.16, 0.27)
+"""Above the ground, in lengths of the foot: up to the first all is shoe, from the second on none is ..."""
+SOCK = 0.004
+"""... but cloth, metres thick."""
 
 
 def shod(
@@ -30,35 +47,99 @@ def shod(
     feet: Sequence[NDArray[np.bool_]],
     caps: Sequence[ToeCap],
 ) -> NDArray[np.float64]:
-    """The skin (S, 3), standing with y up, with both `feet` (S,) in shoes that end in `caps`."""
+    """The skin (S, 3) at rest, standing with y up and facing +z, with both `feet` (S,) in shoes that close over `caps`."""
     out = np.array(vertices, np.float64)
+    normals = vertex_normals(out, triangles)
     for foot, cap in zip(feet, caps, strict=True):
-        ground = out[foot, 1].min()
-        out[cap.inside] = _cap_places(out, cap, ground)
-        facing = vertex_normals(out, triangles)[:, 1]
-        flat = np.clip((SIDE_NORMAL - facing) / (SIDE_NORMAL - SOLE_NORMAL), 0, 1)
-        flat = np.where(foot & (out[:, 1] < ground + SOLE_RISE), flat * flat * (3 - 2 * flat), 0)
-        out[:, 1] += flat * (ground - out[:, 1])
+        out[foot] = _shoe(out, normals, foot, cap)[foot]
     return out
 
 
-def _cap_places(vertices: NDArray[np.float64], cap: ToeCap, ground: float) -> NDArray[np.float64]:
-    """(M, 3) of the toes' vertices: half an ellipsoid before the rim, on the ground below."""
-    rim, toes = vertices[cap.rim], vertices[cap.inside]
-    middle = rim.mean(0)
-    ahead = (toes.mean(0) - middle) * [1, 0, 1]
+def _shoe(
+    vertices: NDArray[np.float64], normals: NDArray[np.floating], foot: NDArray[np.bool_], cap: ToeCap
+) -> NDArray[np.float64]:
+    """(S, 3) the skin, its vertices of the foot on the shoe."""
+    origin, axes = _foot_axes(vertices, foot, cap)
+    local = (vertices - origin) @ axes.T
+    least, most = local[foot].min(0), local[foot].max(0)
+    foot_length, foot_width = most[2] - least[2], most[0] - least[0]
+    length, width = LENGTH * foot_length, WIDTH * foot_width
+    back = np.array([(least[0] + most[0]) / 2, 0.0, least[2] - HEEL_ROOM * (length - foot_length)])
+    local = (local - back) / length
+    starts, ways = _rays(local, cap)
+    reached = starts + _reach(starts, ways, width / length)[:, None] * ways
+    shoe = (reached * length + back) @ axes + origin
+    low, high = COLLAR
+    share = np.clip((local[:, 1] * length / foot_length - low) / (high - low), 0, 1)
+    share = (share * share * (3 - 2 * share))[:, None]
+    return np.asarray(shoe + share * (vertices + SOCK * normals - shoe))
+
+
+def _foot_axes(
+    vertices: NDArray[np.float64], foot: NDArray[np.bool_], cap: ToeCap
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The middle of the foot on the ground (3,), and its axes as rows (3, 3): to its left, up, ahead."""
+    own = vertices[foot]
+    ground = own[:, 1].min()
+    low = own[own[:, 1] < ground + 0.3 * np.ptp(own[:, 1])]
+    ahead = (vertices[cap.inside].mean(0) - low[low[:, 2] < np.quantile(low[:, 2], 0.15)].mean(0)) * [1, 0, 1]
     ahead /= np.linalg.norm(ahead)
-    reach = CAP_REACH * ((toes - middle) @ ahead).max()
-    radius = np.minimum(np.linalg.norm(cap.disk, axis=1), 1)
+    up = np.array([0.0, 1.0, 0.0])
+    middle = own.mean(0) * [1, 0, 1] + ground * up
+    return middle, np.stack([np.cross(up, ahead), up, ahead])
+
+
+def _rays(local: NDArray[np.float64], cap: ToeCap) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(S, 3) points of the axis and (S, 3) unit ways from there through the foot's vertices; those of toes fan out before the
+    axis' end, as they lie on the cap's disk."""
+    heel, tip = AXIS
+    along = tip - heel
+    rim = local[cap.rim]
+    last = np.clip(((rim - heel) @ along).max() / (along @ along), 0, 1)
+    share = np.clip((local - heel) @ along / (along @ along), 0, last)
+    starts = heel + share[:, None] * along
+    ways = local - starts
+    ways /= np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-9)
+    radius = np.minimum(np.linalg.norm(cap.disk, axis=1), 1) * np.pi / 2
     turn = np.mod(np.arctan2(cap.disk[:, 1], cap.disk[:, 0]), 2 * np.pi)
     lengths = np.linalg.norm(np.roll(rim, -1, 0) - rim, axis=1)
     stations = 2 * np.pi * np.concatenate([[0], np.cumsum(lengths)]) / lengths.sum()
-    closed = np.concatenate([rim, rim[:1]])
-    border = np.stack([np.interp(turn, stations, closed[:, axis]) for axis in range(3)], 1)
-    across = np.sin(radius * np.pi / 2)
-    ahead_by = (1 - across**CAP_BLUNTNESS) ** (1 / CAP_BLUNTNESS)
-    places = middle + (border - middle) * across[:, None] + ahead * (reach * ahead_by)[:, None]
-    lift = (middle[1] - ground) * 0.35
-    places[:, 1] -= lift * ahead_by
-    places[:, 1] = np.maximum(places[:, 1], ground)
-    return places
+    closed = np.concatenate([cap.rim, cap.rim[:1]])
+    starts_of_rim, ways_of_rim = (
+        np.stack([np.interp(turn, stations, of[closed, axis]) for axis in range(3)], 1) for of in (starts, ways)
+    )
+    ahead, aside = np.cos(radius)[:, None], np.sin(radius)[:, None]
+    starts[cap.inside] = starts_of_rim + ahead * (tip - starts_of_rim)
+    fan = aside * ways_of_rim + ahead * np.array([0.0, 0.0, 1.0])
+    ways[cap.inside] = fan / np.linalg.norm(fan, axis=1, keepdims=True)
+    return starts, ways
+
+
+def _reach(starts: NDArray[np.float64], ways: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+    """(S,) how far from points within a last of length 1 rays leave it."""
+    near, far = np.zeros(len(starts)), np.ones(len(starts))
+    for _ in range(40):
+        middle = (near + far) / 2
+        within = _within_last(starts + middle[:, None] * ways, width)
+        near, far = np.where(within, middle, near), np.where(within, far, middle)
+    return near
+
+
+def _within_last(places: NDArray[np.float64], width: float) -> NDArray[np.bool_]:
+    """(N,) whether places (N, 3) are in a last of length 1 and a greatest `width`, its heel's end at the origin."""
+    x, y, z = places.T
+    inside = (z > 0) & (z < 1)
+    z = np.clip(z, 0, 1)
+    aside = np.interp(z, STATIONS, HALF_WIDTHS) * width * _rounded(z, *HEEL_ROUND) * _rounded(1 - z, *TOE_ROUND)
+    spring = TOE_SPRING * np.clip((z - 0.75) / 0.25, 0, 1) ** 2
+    high = np.interp(z, STATIONS, HEIGHTS) * _rounded(1 - z, *TOE_BOX)
+    across = np.abs(x) / np.maximum(aside, 1e-9)
+    rise = (y - spring) / np.maximum(high / 2, 1e-9) - 1
+    exponent = np.where(rise < 0, SOLE_EXPONENT, UPPER_EXPONENT)
+    return np.asarray(inside & (across**exponent + np.abs(rise) ** exponent < 1))
+
+
+def _rounded(away: NDArray[np.float64], reach: float, exponent: float) -> NDArray[np.float64]:
+    """What remains of a width so far `away` from an end that is rounded over `reach`: a superellipse."""
+    missing = np.clip(1 - away / reach, 0, 1)
+    return np.asarray((1 - missing**exponent) ** (1 / exponent))

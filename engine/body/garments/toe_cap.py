@@ -8,11 +8,15 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import splu
 
+from engine.geometry.adjacency import edges
 from engine.geometry.injective_disk import injective_disk
 
 TOE_SHARE = 0.66
 """Of a foot's length from the heel, from where on it is toes."""
+EVENING_ROUNDS, EVENING_EXPONENT = 10, 0.4
+"""How often long edges are given more weight, and how much more: between toes few vertices have to span much of a shoe."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,28 @@ def toe_cap(vertices: NDArray[np.floating], triangles: NDArray[np.integer], foot
     edge = np.stack([np.cos(turns), np.sin(turns)], 1)
     number = np.full(len(places), -1)
     number[np.concatenate([inside, rim])] = np.arange(len(inside) + len(rim))
-    return ToeCap(rim, inside, injective_disk(number[faces], edge, len(inside)))
+    return ToeCap(rim, inside, _evened(injective_disk(number[faces], edge, len(inside)), edge, number[faces]))
+
+
+def _evened(disk: NDArray[np.float64], edge: NDArray[np.float64], faces: NDArray[np.intp]) -> NDArray[np.float64]:
+    """(M, 2) places in the disk, of a hemisphere's edges of more even length: W. T. Tutte's map, which has no folds, with weights
+    that grow where edges are long."""
+    free, places = len(disk), np.concatenate([disk, edge])
+    pairs = edges(faces)
+    weights = np.ones(len(pairs))
+    for _ in range(EVENING_ROUNDS):
+        radius = np.linalg.norm(places, axis=1, keepdims=True)
+        bent = np.minimum(radius, 1) * np.pi / 2
+        dome = np.concatenate([places / np.maximum(radius, 1e-9) * np.sin(bent), np.cos(bent)], 1)
+        lengths = np.linalg.norm(dome[pairs[:, 0]] - dome[pairs[:, 1]], axis=1)
+        weights *= (lengths / lengths.mean()) ** EVENING_EXPONENT
+        weights = np.clip(weights / weights.mean(), 1e-3, 1e3)
+        ends = (pairs.ravel(), pairs[:, ::-1].ravel())
+        beside = sp.csr_array((weights.repeat(2), ends), (len(places), len(places)))
+        laplacian = sp.csr_array(sp.diags_array(beside.sum(1)) - beside)[:free]
+        pulled = np.asarray(laplacian[:, free:] @ edge)
+        places[:free] = splu(sp.csc_array(laplacian[:, :free])).solve(-pulled)
+    return places[:free]
 
 
 def _largest_piece(faces: NDArray[np.integer], count: int) -> NDArray[np.intp]:

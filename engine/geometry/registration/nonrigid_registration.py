@@ -34,7 +34,7 @@ class ElasticSurface:
 
     `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
     `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
-    near a vertex count.
+    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none.
     """
 
     rest: NDArray[np.float64]
@@ -42,6 +42,7 @@ class ElasticSurface:
     matched: NDArray[np.bool_]
     stiffness: NDArray[np.float64]
     trust: NDArray[np.float64]
+    held: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,7 @@ def lay_on_points(
     weighed = sp.csr_array(hinges.operator.T @ sp.diags_array(shares))
     bending = sp.csr_array(weighed @ hinges.operator)
     vertices = surface.rest.copy() if start is None else np.asarray(start, np.float64).copy()
+    free = np.ones(len(vertices), np.bool_) if surface.held is None else ~surface.held
     system = _SameSparsity()
     for step in steps:
         for _ in range(ITERATIONS):
@@ -100,11 +102,10 @@ def lay_on_points(
             elif not matrix.nnz:
                 raise ValueError("no point of the cloud is near the surface")
             bent = weighed @ hinges.turned(hinges.rotations(vertices))
-            held = FREE_VERTEX_WEIGHT * sp.eye_array(len(vertices))
-            vertices = system.solve(
-                sp.csc_array(matrix + step.regularisation * bending + held),
-                right + step.regularisation * bent + FREE_VERTEX_WEIGHT * vertices,
-            )
+            kept = FREE_VERTEX_WEIGHT * sp.eye_array(len(vertices))
+            whole = sp.csr_array(matrix + step.regularisation * bending + kept)[free]
+            right = right + step.regularisation * bent + FREE_VERTEX_WEIGHT * vertices
+            vertices[free] = system.solve(sp.csc_array(whole[:, free]), right[free] - whole[:, ~free] @ vertices[~free])
     return vertices
 
 

@@ -1,25 +1,44 @@
-"""Whether a cloud is of shoes."""
+"""Whether somebody is seen to be barefoot."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from known_person import KnownPerson, sampled
 
-from engine.avatar.registration.footwear import in_shoes, wears_shoes
+from engine.avatar.registration.footwear import seen_barefoot
 from engine.avatar.registration.models import HumanModels
+from engine.geometry.point_cloud import PointCloud, joined
+
+SKIN, SHADED_SKIN, LEATHER, WHITE = (196, 150, 128), (150, 110, 92), (52, 38, 34), (235, 235, 232)
 
 
-@pytest.mark.parametrize("shoes", [False, True])
-def test_clouds_of_feet_and_of_shoes_are_told_apart(models: HumanModels, person: KnownPerson, shoes: bool) -> None:
-    bare = person.vertices[models.skin.vertices]
-    truth = in_shoes(models.skin, models.feet, bare) if shoes else bare
-    cloud = sampled(models, truth, 20000, 0.003, part="feet")
+def of_colour(cloud: PointCloud, colour: tuple[int, int, int]) -> PointCloud:
+    """The cloud in one colour, with noise."""
+    noise = np.random.default_rng(2).normal(0, 6, (len(cloud), 3))
+    return replace(cloud, colours=np.clip(np.array(colour) + noise, 0, 255).astype(np.uint8))
+
+
+@pytest.mark.parametrize(
+    ("colour", "bare"), [(SKIN, True), (SHADED_SKIN, True), (LEATHER, False), (WHITE, False)], ids=str
+)
+def test_feet_are_bare_where_they_have_the_face_s_colours(
+    models: HumanModels, person: KnownPerson, colour: tuple[int, int, int], bare: bool
+) -> None:
+    skin = person.vertices[models.skin.vertices]
+    face = of_colour(sampled(models, skin, 5000, 0.003, part="head"), SKIN)
+    feet = of_colour(sampled(models, skin, 2000, 0.003, part="feet"), colour)
     # the coarse fit is a few millimetres off
-    assert wears_shoes(models.skin, models.feet, bare + np.array([0.003, 0, -0.004]), cloud) is shoes
+    coarse = skin + np.array([0.003, 0, -0.004])
+    assert seen_barefoot(models.feet, coarse, joined([face, feet]), person.landmarks.face) is bare
 
 
-def test_without_points_feet_are_bare(models: HumanModels, person: KnownPerson) -> None:
-    bare = person.vertices[models.skin.vertices]
-    cloud = sampled(models, bare, 500, 0.003, part="head")
-    assert not wears_shoes(models.skin, models.feet, bare, cloud)
+def test_who_is_not_seen_wears_shoes(models: HumanModels, person: KnownPerson) -> None:
+    skin = person.vertices[models.skin.vertices]
+    face, feet = (of_colour(sampled(models, skin, 5000, 0.003, part=part), SKIN) for part in ("head", "feet"))
+    unknown = np.full((68, 3), np.nan)
+    assert not seen_barefoot(models.feet, skin, face, person.landmarks.face)  # no feet
+    assert not seen_barefoot(models.feet, skin, feet, person.landmarks.face)  # no face
+    assert not seen_barefoot(models.feet, skin, joined([face, feet]), unknown)

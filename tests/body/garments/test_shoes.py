@@ -9,6 +9,8 @@ from scipy.spatial import ConvexHull
 
 from engine.avatar.registration.footwear import in_shoes
 from engine.avatar.registration.models import HumanModels, load_models
+from engine.body.garments.shoes import LENGTH, WIDTH
+from engine.geometry.surface import face_normals, triangle_areas
 
 
 @pytest.fixture(scope="module")
@@ -20,11 +22,24 @@ def test_shoes_stand_where_feet_stood_and_have_no_toes(models: HumanModels) -> N
     bare = models.space.mean[models.skin.vertices].astype(np.float64)
     shoes = in_shoes(models.skin, models.feet, bare)
     for mask, cap in zip(models.feet.masks, models.feet.caps, strict=True):
-        assert shoes[mask, 1].min() == pytest.approx(bare[mask, 1].min(), abs=1e-9)
-        assert np.ptp(shoes[mask, 2]) / np.ptp(bare[mask, 2]) == pytest.approx(1, abs=0.08)
-        assert _hollow(shoes[cap.inside]) < 0.006 < _hollow(bare[cap.inside])  # between toes it is deep
+        assert shoes[mask, 1].min() == pytest.approx(bare[mask, 1].min(), abs=0.001)
+        assert np.ptp(shoes[mask, 2]) / np.ptp(bare[mask, 2]) == pytest.approx(LENGTH, abs=0.03)
+        assert np.ptp(shoes[mask, 0]) / np.ptp(bare[mask, 0]) == pytest.approx(WIDTH, abs=0.08)
+        assert _hollow(shoes[cap.inside]) < 0.004 < _hollow(bare[cap.inside])  # between toes it is deep
+        assert (shoes[mask, 1] < bare[mask, 1].min() + 0.004).mean() > 0.1  # the sole, of all that is foot
     elsewhere = ~(models.feet.masks[0] | models.feet.masks[1])
     assert np.array_equal(shoes[elsewhere], bare[elsewhere])
+
+
+def test_a_shoe_s_surface_is_not_turned_over(models: HumanModels) -> None:
+    skin = models.skin
+    shoes = in_shoes(skin, models.feet, models.space.mean[skin.vertices])
+    for mask in models.feet.masks:
+        own = skin.triangles[mask[skin.triangles].all(1)]
+        middle = shoes[mask].mean(0) * [1, 0, 1] + [0, 0.02, 0]
+        outwards = (face_normals(shoes, own) * (shoes[own].mean(1) - middle)).sum(1)
+        areas = triangle_areas(shoes, own)
+        assert areas[outwards < 0].sum() < 0.01 * areas.sum()
 
 
 def _hollow(places: NDArray[np.float64]) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -67,6 +69,17 @@ def test_landmarks_pull_along_the_surface() -> None:
     off = [np.linalg.norm(laid - turned, axis=1).mean() for laid in (free, drawn)]
     assert off[0] > 0.02  # metres
     assert off[1] < 0.008  # and less with more iterations
+
+
+def test_what_is_held_stays_and_the_rest_follows() -> None:
+    vertices, triangles = icosphere(2)
+    held = vertices[:, 1] < -0.5
+    cloud, normals = 1.1 * vertices, vertices
+    surface = replace(_surface(vertices, triangles), held=held)
+    moved = lay_on_points(surface, cloud, normals, geometric_steps(4, (1e-3, 1e-7), (1.0, 1.0), (0.5, 0.3)))
+    np.testing.assert_array_equal(moved[held], vertices[held])
+    top = vertices[:, 1] > 0.5
+    assert np.linalg.norm(moved[top] - cloud[top], axis=1).mean() < 0.02
 
 
 def test_nothing_near_is_said() -> None:
