@@ -31,6 +31,8 @@ LID_STIFFNESS = 10.0
 """... and of lids."""
 HAND_TRUST = 0.2
 """What points of hands count: fingers drift while others are filmed."""
+ANCHOR = 0.01
+"""What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
 MAX_FACE_DISTANCE = 0.03
@@ -42,9 +44,7 @@ def fit_body(
 ) -> NDArray[np.float64]:
     """The skin (S, 3) laid on the body's cloud from the `coarse` fit (S, 3); `face` (68, 3), NaN where unknown."""
     stiffness = _stiffness(skin, {"face": BODY_FACE_STIFFNESS, "inner": INNER_STIFFNESS})
-    surface = ElasticSurface(
-        without_details(skin, coarse), skin.triangles, skin.visible, stiffness, _trust(skin), skin.regions["lower_feet"]
-    )
+    surface = _elastic(skin, without_details(skin, coarse), stiffness)
     drawn = face_landmarks(skin, coarse, face)
     return lay_on_points(surface, cloud.points, cloud.normals, BODY_STEPS, drawn)
 
@@ -55,7 +55,7 @@ def fit_head(
     """The skin (S, 3), as the body's fit has it and the head may have been given another shape, laid on a cloud of head and
     body. Both are one system: a head that is fitted alone drags its neck."""
     stiffness = _stiffness(skin, {"lips": LIP_STIFFNESS, "lids": LID_STIFFNESS, "inner": INNER_STIFFNESS})
-    surface = ElasticSurface(body, skin.triangles, skin.visible, stiffness, _trust(skin), skin.regions["lower_feet"])
+    surface = _elastic(skin, body, stiffness)
     drawn = face_landmarks(skin, body, face)
     return lay_on_points(surface, cloud.points, cloud.normals, HEAD_STEPS, drawn)
 
@@ -85,6 +85,12 @@ def _smooth_sheet(skin: Skin, vertices: NDArray[np.float64], drawn: NDArray[np.b
     solved = vertices.copy()
     solved[drawn] = splu(sp.csc_array(bend[:, drawn])).solve(-(bend[:, ~drawn] @ vertices[~drawn]))
     return solved
+
+
+def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float64]) -> ElasticSurface:
+    """The skin (S, 3) at rest as what is laid on a cloud; soles and toes stay where they are."""
+    held = skin.regions["lower_feet"]
+    return ElasticSurface(rest, skin.triangles, skin.visible, stiffness, _trust(skin), held, ANCHOR)
 
 
 def _stiffness(skin: Skin, factors: dict[str, float]) -> NDArray[np.float64]:

@@ -18,14 +18,14 @@ from scipy.sparse.linalg import splu
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
 from engine.geometry.deformation.hinge_laplacian import HingeLaplacian
-from engine.geometry.surface import vertex_normals
+from engine.geometry.surface import vertex_areas, vertex_normals
 
 MIN_NORMAL_COSINE = 0.2
 """Between the normals of a point and of the surface there: what faces another way is another side of the body."""
 ITERATIONS = 3
 """Of each step: new closest points, new turns, new places."""
 FREE_VERTEX_WEIGHT = 1e-14
-"""What holds vertices of no hinge where they are, against any other pull."""
+"""What holds vertices of no hinge where they are at rest, against any other pull."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,9 @@ class ElasticSurface:
 
     `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
     `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
-    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none.
+    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `anchor`: what it counts that
+    the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a limb that no point is of swing
+    about the joint at which the points end.
     """
 
     rest: NDArray[np.float64]
@@ -43,6 +45,7 @@ class ElasticSurface:
     stiffness: NDArray[np.float64]
     trust: NDArray[np.float64]
     held: NDArray[np.bool_] | None = None
+    anchor: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,8 @@ def lay_on_points(
     shares = hinges.areas * surface.stiffness[hinges.hinges].max(1) / hinges.areas.sum()
     weighed = sp.csr_array(hinges.operator.T @ sp.diags_array(shares))
     bending = sp.csr_array(weighed @ hinges.operator)
+    areas = vertex_areas(surface.rest, surface.triangles)
+    anchors = FREE_VERTEX_WEIGHT + surface.anchor * areas / areas.sum()
     vertices = surface.rest.copy() if start is None else np.asarray(start, np.float64).copy()
     free = np.ones(len(vertices), np.bool_) if surface.held is None else ~surface.held
     system = _SameSparsity()
@@ -102,9 +107,8 @@ def lay_on_points(
             elif not matrix.nnz:
                 raise ValueError("no point of the cloud is near the surface")
             bent = weighed @ hinges.turned(hinges.rotations(vertices))
-            kept = FREE_VERTEX_WEIGHT * sp.eye_array(len(vertices))
-            whole = sp.csr_array(matrix + step.regularisation * bending + kept)[free]
-            right = right + step.regularisation * bent + FREE_VERTEX_WEIGHT * vertices
+            whole = sp.csr_array(matrix + step.regularisation * bending + sp.diags_array(anchors))[free]
+            right = right + step.regularisation * bent + anchors[:, None] * surface.rest
             vertices[free] = system.solve(sp.csc_array(whole[:, free]), right[free] - whole[:, ~free] @ vertices[~free])
     return vertices
 

@@ -54,6 +54,25 @@ def test_a_hole_is_bridged_and_outliers_are_ignored() -> None:
     assert np.abs(np.linalg.norm(laid, axis=1) - 0.21).max() < 6e-3
 
 
+def test_a_limb_that_no_point_is_of_stays_where_it_was_if_it_is_anchored() -> None:
+    """Points of one half of a rod that was turned by three degrees about its middle: the other half would swing along."""
+    rod = trimesh.creation.cylinder(0.04, 1.0, 24).subdivide_to_size(0.05)
+    vertices, triangles = np.asarray(rod.vertices, np.float64), np.asarray(rod.faces, np.int32)
+    turned = rod.copy().apply_transform(trimesh.transformations.rotation_matrix(np.radians(3), [0, 1, 0]))
+    points, faces = trimesh.sample.sample_surface(turned, 4000, seed=0)
+    there = points[:, 2] < 0
+    measured = points[there], turned.face_normals[faces[there]]
+    free, anchored = (
+        lay_on_points(replace(_surface(vertices, triangles), anchor=anchor), *measured, STEPS) for anchor in (0.0, 0.01)
+    )
+    far, near = vertices[:, 2] > 0.3, vertices[:, 2] < -0.1
+    moved = [np.linalg.norm(laid - vertices, axis=1)[far].mean() for laid in (free, anchored)]
+    assert moved[0] > 0.015  # metres
+    assert moved[1] < 0.002
+    assert closest_points(points[there], anchored, triangles).distance.mean() < 1e-3
+    assert np.linalg.norm(anchored - free, axis=1)[near].mean() < 2e-3  # what points tell stands
+
+
 def test_landmarks_pull_along_the_surface() -> None:
     """Points of a sphere do not tell how it was turned; landmarks do."""
     vertices, triangles = icosphere(3)
