@@ -1,4 +1,4 @@
-"""Hands and feet in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
+"""Hands and feet, arms and legs in the masks of a person: what networks lose first, and what colours cannot tell from a dark floor.
 
 Where they are is known in space, by landmarks on which views agree: that marks them in every frame, also in those that show them
 blurred, small or from behind, and colours near by tell how far they reach.
@@ -21,8 +21,12 @@ from engine.imaging.masks.colour_segmentation import grab_cut
 SIDES = ("Left", "Right")
 FOOT, PALM = ("Ankle", "Heel", "FootIndex"), ("Wrist", "Index", "Pinky")
 """The corners of a foot and of a palm, without their side."""
-REACH_SHARE = 0.35
-"""How far a limb may reach beyond its marks, in lengths of what is marked."""
+BONES = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
+"""Both ends of what is long, without their side."""
+REACH_SHARE, BONE_REACH_SHARE = 0.35, 0.2
+"""How far a hand or a foot, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
+LOST_SHARE = 0.1
+"""Of the marks of an arm or a leg, which networks mostly find: where fewer are outside of a mask, it stays as it is."""
 SURE_SHARE = 0.03
 """Half the width of what is surely within a limb around its marks, in their lengths."""
 SURROUNDINGS_SHARE = 0.8
@@ -37,15 +41,22 @@ MIN_PIXELS = 6
 
 @dataclass(frozen=True)
 class Limb:
-    """Lines (L, 2, 3) within a hand or a foot, in space."""
+    """`lines` (L, 2, 3) within a limb, in space; how far it may `reach` beyond, in lengths of all of them; what share of them must
+    be `lost` in a mask for it to be looked for."""
 
     lines: NDArray[np.float64]
+    reach: float = REACH_SHARE
+    lost: float = 0.0
 
 
 def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
-    """The person's feet and hands, as far as they are known."""
+    """The person's arms and legs, feet and hands, as far as they are known."""
     limbs = []
     for k, side in enumerate(SIDES):
+        for ends in BONES:
+            both = [landmarks.body.get(f"{side}{end}") for end in ends]
+            if all(place is not None for place in both):
+                limbs.append(Limb(np.array([both], np.float64), BONE_REACH_SHARE, LOST_SHARE))
         for corners in (FOOT, PALM):
             named = [landmarks.body.get(f"{side}{corner}") for corner in corners]
             if all(place is not None for place in named):
@@ -62,7 +73,7 @@ def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
 def with_limbs(
     rgb: NDArray[np.uint8], mask: NDArray[np.bool_], camera: Camera, limbs: Sequence[Limb]
 ) -> NDArray[np.bool_]:
-    """The mask (h, w) of a person in a frame (h, w, 3) of a `camera` of that size, with their hands and feet."""
+    """The mask (h, w) of a person in a frame (h, w, 3) of a `camera` of that size, with their limbs."""
     out = mask.copy()
     for limb in limbs:
         if camera.depth(limb.lines.reshape(-1, 3)).min() < MIN_DEPTH:
@@ -77,15 +88,22 @@ def with_limbs(
         if (most - least < MIN_PIXELS).any():
             continue
         part = np.s_[least[1] : most[1], least[0] : most[0]]
-        out[part] = _limb(np.ascontiguousarray(rgb[part]), out[part], lines - least, length)
+        if _lost_share(out[part], lines - least) >= limb.lost:
+            out[part] = _limb(np.ascontiguousarray(rgb[part]), out[part], lines - least, length, limb.reach)
     return out
 
 
+def _lost_share(mask: NDArray[np.bool_], lines: NDArray[np.float64]) -> float:
+    """Of lines (L, 2, 2), which share of what is in the picture a mask lacks."""
+    marks = _around(mask.shape, lines, 0.5)
+    return float((marks & ~mask).sum() / max(marks.sum(), 1))
+
+
 def _limb(
-    rgb: NDArray[np.uint8], mask: NDArray[np.bool_], lines: NDArray[np.float64], length: float
+    rgb: NDArray[np.uint8], mask: NDArray[np.bool_], lines: NDArray[np.float64], length: float, reach: float
 ) -> NDArray[np.bool_]:
     """The mask of what is around a limb, which is free within the limb's reach alone."""
-    near = _around(mask.shape, lines, REACH_SHARE * length)
+    near = _around(mask.shape, lines, reach * length)
     sure = _around(mask.shape, lines, SURE_SHARE * length)
     kernel = np.ones((2 * SETTLED_PIXELS + 1,) * 2, np.uint8)
     inner = cv2.erode(mask.astype(np.uint8), kernel) > 0

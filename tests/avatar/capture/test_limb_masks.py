@@ -1,4 +1,4 @@
-"""Hands and feet that a mask lacks come back; the rest of it stays."""
+"""Limbs that a mask lacks come back; the rest of it stays."""
 
 import cv2
 import numpy as np
@@ -34,6 +34,23 @@ def test_a_shoe_that_the_networks_lost_is_found_by_where_the_foot_is() -> None:
     assert (lacking & true).sum() / true.sum() < 0.85
     assert (found & true).sum() / (found | true).sum() > 0.96
     assert np.array_equal(found[:200], lacking[:200]), "far from the foot nothing changes"
+
+
+def test_a_forearm_that_the_networks_lost_is_found_and_one_that_is_there_stays() -> None:
+    random = np.random.default_rng(3)
+    rgb = np.full((300, 200, 3), (120, 140, 90), np.uint8)
+    ends = {"LeftElbow": np.array([-0.1, 0.9, 0.0]), "LeftWrist": np.array([0.15, 0.75, 0.0])}
+    arm = np.zeros((300, 200), np.uint8)
+    elbow, wrist = np.rint(CAMERA.project(np.stack(list(ends.values())))[:, :2]).astype(int).tolist()
+    cv2.line(arm, elbow, wrist, 1, 16)
+    rgb[arm > 0] = (60, 80, 170)
+    rgb = (rgb + random.normal(0, 5, rgb.shape)).clip(0, 255).astype(np.uint8)
+    limbs = limbs_of(SpatialLandmarks(ends))
+    lacking = (arm > 0) & (np.arange(200) < elbow[0] + 10)
+    found = with_limbs(rgb, lacking, CAMERA, limbs)
+    assert (found & (arm > 0)).sum() / (found | (arm > 0)).sum() > 0.9
+    generous = cv2.dilate(arm, np.ones((9, 9), np.uint8)) > 0
+    assert np.array_equal(with_limbs(rgb, generous, CAMERA, limbs), generous)
 
 
 def test_what_is_not_known_or_not_in_the_picture_changes_nothing() -> None:
