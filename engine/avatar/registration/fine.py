@@ -31,7 +31,7 @@ LID_STIFFNESS = 10.0
 """... and of lids."""
 HAND_TRUST = 0.2
 """What points of hands count: fingers drift while others are filmed."""
-ANCHOR = 0.01
+ANCHOR = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
