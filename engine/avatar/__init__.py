@@ -87,7 +87,7 @@ KIND = Kind(
     ),
     prepare=_prepare,
     rehearse=_rehearse,
-    needs=Needs(seconds=2400, memory_mb=6000, cores=2),  # 20 minutes, or twice that where the machine has more to do
+    needs=Needs(seconds=1200, memory_mb=6000, cores=2),
 )
 
 __all__ = ["KIND", "AvatarOptions"]
