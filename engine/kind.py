@@ -6,7 +6,7 @@ system is adding its folder and one line there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -21,7 +21,7 @@ class Input:
     """One named input of a kind."""
 
     name: str
-    media: Literal["image", "video", "motion"]
+    media: Literal["image", "video", "motion", "model"]
     description: str
     required: bool = True
     many: bool = False
@@ -34,6 +34,10 @@ class Input:
     moment can be named then (`myclip/happy`), which sets it."""
     spared_by: str | None = None
     """Where set, the option of this name makes the input one that may be left out."""
+    spared_by_input: str | None = None
+    """The same of another input, which is given instead."""
+    artifact: str | None = None
+    """Where set, the input may also be an earlier job of the same kind, by its id: the artifact of this name that it left."""
 
     named_by: str | None = None
     """Where set, the option of this name names something built in that stands in for the input: in a shell either may
@@ -46,9 +50,15 @@ class Input:
         """Whether `auto` may be given: the work chooses among the library's files then."""
         return self.library is not None and self.named_by is None
 
-    def needed(self, options: BaseModel) -> bool:
-        """Whether a job with these options must have the input."""
-        return self.required and not (self.spared_by is not None and getattr(options, self.spared_by))
+    @property
+    def always_needed(self) -> bool:
+        """Whether there is no job without it."""
+        return self.required and self.spared_by is None and self.spared_by_input is None
+
+    def needed(self, options: BaseModel, given: Container[str] = ()) -> bool:
+        """Whether a job with these options, and inputs of the names `given`, must have the input."""
+        spared = self.spared_by is not None and getattr(options, self.spared_by)
+        return self.required and not spared and self.spared_by_input not in given
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,8 @@ class Input(Model):
     library: str | None
     trimmed_by: str | None
     spared_by: str | None
+    spared_by_input: str | None
+    artifact: str | None
     corrects: bool
 
 

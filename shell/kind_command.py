@@ -61,7 +61,7 @@ def kind_command(kind: Kind) -> click.Command:
         inputs = {item.name: found for item in kind.inputs if (found := _input(item, files[item.name])) is not None}
         chosen = _options(kind, options, given, named)
         for item in kind.inputs:
-            if item.needed(chosen) and item.name not in inputs:
+            if item.needed(chosen, inputs) and item.name not in inputs:
                 raise CliError(f"{item.name} is missing, --{item.name.replace('_', '-')}: {item.description}")
         _run(kind, inputs, chosen, Path(out), settings)
 
@@ -76,9 +76,9 @@ def _parameter(item: Input, place: int, alone: bool) -> click.Parameter:
     names = "|NAME|auto" if item.auto else "|NAME" if item.named_by else ""
     metavar = "DIR" if item.many else item.media.upper() + names
     if alone or (place == 0 and item.media == "image"):
-        return click.Argument([item.name], required=item.required, metavar=item.name.upper())
+        return click.Argument([item.name], required=item.always_needed, metavar=item.name.upper())
     flag = "--" + item.name.replace("_", "-")
-    required = item.required and item.spared_by is None
+    required = item.always_needed
     return click.Option(
         [flag, item.name], required=required, metavar=metavar, help=item.description, shell_complete=_names_of(item)
     )

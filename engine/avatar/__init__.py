@@ -17,10 +17,16 @@ from engine.run import Run
 
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
-    from engine.avatar.pipeline import make_avatar  # the service reads KIND alone: it stays light
-
     assert isinstance(options, AvatarOptions)
-    make_avatar(inputs, options, out, run)
+    # imported here: the service reads KIND alone, which stays light
+    if "avatar" in inputs:
+        from engine.avatar.animating import animate_avatar
+
+        animate_avatar(inputs, options, out, run)
+    else:
+        from engine.avatar.pipeline import make_avatar
+
+        make_avatar(inputs, options, out, run)
 
 
 def _prepare() -> None:
@@ -54,6 +60,7 @@ KIND = Kind(
             "video",
             "A clip of the whole person, who stands still with the arms a little away from the body: one slow circle around the"
             " upper body, then one around the legs.",
+            spared_by_input="avatar",
         ),
         Input(
             "head",
@@ -77,6 +84,14 @@ KIND = Kind(
             "A video of anybody's face, which the avatar's face follows in the animation.",
             required=False,
             corrects=True,
+        ),
+        Input(
+            "avatar",
+            "model",
+            "The avatar of an earlier job, instead of clips: that job's id, or its `avatar.glb`. It does what `motion` and `driver`"
+            " say, within seconds.",
+            required=False,
+            artifact="avatar.glb",
         ),
     ),
     options=AvatarOptions,

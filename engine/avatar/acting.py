@@ -25,6 +25,8 @@ TRAVEL_METRES = 0.1
 """Metres: a loop that gets further than this in one round goes somewhere."""
 VIEW_POINTS = 12
 """Frames of a clip by which the camera is placed so that all of them are in the picture."""
+FILMED = "filmed"
+"""The clip that holds the pose in which the person was filmed."""
 BUST_HEIGHT = 0.52
 """Metres from the crown down that are shown where a face acts."""
 
@@ -41,7 +43,7 @@ def standing_clip(mesh: SkinnedMesh, rotations: NDArray[np.floating], root: NDAr
     """The pose in which the person was filmed, one frame. `rotations` (J, 3, 3): each joint's axes, in the world; `root` (3,)."""
     parents = mesh.skeleton.parents
     own = np.stack([rotations[p].T @ rotations[j] if p >= 0 else rotations[j] for j, p in enumerate(parents)])
-    return Clip("filmed", fps, from_matrix(own)[None].astype(np.float32), np.asarray(root, np.float32)[None])
+    return Clip(FILMED, fps, from_matrix(own)[None].astype(np.float32), np.asarray(root, np.float32)[None])
 
 
 def built_in_clips(mesh: SkinnedMesh, fps: float) -> list[Clip]:

@@ -38,13 +38,20 @@ def assemble(
     units, visemes, and what talking heads ask for besides."""
     surface = surface_of(template)
     whole = skinned_mesh(surface, rig, fitted.skeleton, fitted.rest, texture)
-    morphs = morphs_of(surface, with_combined_targets(fitted.expressions))
+    mesh, morphs = with_fewer_triangles(whole, morphs_of(surface, with_combined_targets(fitted.expressions)), triangles)
+    filmed = standing_clip(mesh, fitted.rotations, fitted.joints[0], 30.0)
+    return Avatar(mesh, morphs, filmed)
+
+
+def with_fewer_triangles(
+    whole: SkinnedMesh, morphs: tuple[MorphTarget, ...], triangles: int
+) -> tuple[SkinnedMesh, tuple[MorphTarget, ...]]:
+    """A mesh of so many triangles at most, with its morph targets."""
     fewer = decimate(whole, triangles, joint_importance(whole, {"Head": FACE_IMPORTANCE, "Jaw": FACE_IMPORTANCE}))
-    if fewer.mesh is not whole:
-        count = len(whole.vertices)
-        morphs = tuple(morph_target(morph.name, morph.dense(count)[fewer.kept]) for morph in morphs)
-    filmed = standing_clip(fewer.mesh, fitted.rotations, fitted.joints[0], 30.0)
-    return Avatar(fewer.mesh, morphs, filmed)
+    if fewer.mesh is whole:
+        return whole, morphs
+    count = len(whole.vertices)
+    return fewer.mesh, tuple(morph_target(morph.name, morph.dense(count)[fewer.kept]) for morph in morphs)
 
 
 def coarser(avatar: Avatar, levels: int) -> list[SkinnedMesh]:

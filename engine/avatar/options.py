@@ -17,6 +17,12 @@ Motion = Literal["idle", "walk", "run", "jump", "sit", "wave", "dance", "bow"]
 TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
 
+CAPTURE_OPTIONS = (
+    *("height_m", "body_frames", "head_frames", "body_lens", "head_lens"),
+    *("body_frames_left_out", "head_frames_left_out", "landmarks"),
+)
+"""What is about clips of a person: an avatar that is there already cannot have it."""
+
 
 class KnownLens(BaseModel):
     """A camera's lens that somebody has calibrated, in pixels of the upright clip: Brown's model, as OpenCV has it."""

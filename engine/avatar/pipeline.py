@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from engine.avatar.acting import Scene, film
+from engine.avatar.acting import Scene
+from engine.avatar.animating import chosen_scene, file_of, video_writer, write_animation
 from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
-from engine.avatar.face_performance import acting_clip, capture_performance
 from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
@@ -35,20 +34,11 @@ from engine.avatar.turntable import turntable
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
 from engine.body.parts import BODY_PARTS, vertex_parts
 from engine.errors import InputError
-from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
 from engine.export.still import write_first_impression, write_still
-from engine.export.video import VideoWriter
 from engine.geometry.point_cloud import PointCloud, joined, thinned
 from engine.geometry.registration.rigid import Similarity
 from engine.kind import Given
-from engine.media.excerpt import Excerpt
-from engine.motion.clip import Clip
-from engine.motion.edit import in_place, repeat_loop
-from engine.motion.files.reading import read_motion
-from engine.motion.library import built_in
-from engine.motion.retargeting.joint_map import lost_warning
-from engine.motion.retargeting.retarget import retarget
 from engine.run import Run, write_report
 
 STAGES = {
@@ -80,7 +70,7 @@ Clipped = tuple[ChosenFrames, ClipScan]
 
 def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, run: Run) -> None:
     """Make an avatar of the person in the clips `body` and `head`; leaves the artifacts of the contract in `out`."""
-    body, head, motion, driver = (_file(inputs, name) for name in ("body", "head", "motion", "driver"))
+    body, head, motion, driver = (file_of(inputs, name) for name in ("body", "head", "motion", "driver"))
     assert body is not None
     run.plan(STAGES, dict.fromkeys(EACH_CLIP, 1 if head is None else 2))
     if head is None:
@@ -128,7 +118,7 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
 
     human = load_models()
     avatar = assemble(human.template, human.rig, fitted, texture.texture, options.triangles)
-    scene = _scene(avatar, motion, driver, options, run)
+    scene = chosen_scene(avatar, motion, driver, options, run)
     with run.timed("write_avatar"):
         write_avatar(out, avatar, scene, options, run)
         _write_capture(out, [frames for frames, _ in clips], scans)
@@ -176,25 +166,6 @@ def _coverage(fitted: FittedTemplate, cloud: PointCloud) -> dict[str, float]:
     return {name: round(share, 3) for name, share in shown.items()}
 
 
-def _scene(avatar: Avatar, motion: Path | None, driver: Path | None, options: AvatarOptions, run: Run) -> Scene:
-    """What the animation shows: a driver's face, or a motion by a file or a name."""
-    skeleton, fps = avatar.mesh.skeleton, options.fps
-    clip: Clip
-    if motion is not None:
-        source = read_motion(motion, options.motion_clip)
-        carried = retarget(source, skeleton, options.motion_joints, fps=fps)
-        if lost := lost_warning(source, carried.mapping):
-            run.warn("motion_joints_unmapped", lost)
-        clip = replace(carried.clip, name="motion")
-    else:
-        clip = built_in(options.motion, skeleton, fps)
-    if driver is None:
-        return Scene(clip)
-    with run.timed("capture_face"):
-        performance = capture_performance(Excerpt(driver, fps, None, run.limits), run.tick, run.warn)
-    return Scene(acting_clip(skeleton, performance, in_place(clip)), performance.units)
-
-
 def _write_capture(out: Path, clips: Sequence[ChosenFrames], scans: Sequence[ClipScan]) -> tuple[Path, Path, Path]:
     """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the fitted template; their paths."""
     written = []
@@ -211,27 +182,10 @@ def _write_capture(out: Path, clips: Sequence[ChosenFrames], scans: Sequence[Cli
 
 def _write_films(out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions, run: Run) -> None:
     """`turntable.mp4`, `animation.mp4`, and `poster.jpg`, the turntable's first frame."""
-    with run.timed("turntable"), _writer(out / "turntable.mp4", options, run) as writer:
+    with run.timed("turntable"), video_writer(out / "turntable.mp4", options, run) as writer:
         for index, frame in enumerate(turntable(avatar.mesh, avatar.filmed, options.size, TURN_SECONDS, options.fps)):
             if index == 0:
                 write_still(out / "poster.jpg", frame, run.mark_synthetic)
             writer.write(frame)
             run.tick(index / (TURN_SECONDS * options.fps))
-    shown = scene
-    if scene.expressions is None:
-        frames = max(1, round(options.seconds * options.fps))
-        shown = Scene(repeat_loop(scene.clip, frames))
-    with run.timed("animate"), _writer(out / "animation.mp4", options, run) as writer:
-        for index, frame in enumerate(film(avatar.mesh, avatar.morphs, shown, options.size)):
-            writer.write(frame)
-            run.tick(index / len(shown.clip.rotations))
-
-
-def _writer(path: Path, options: AvatarOptions, run: Run) -> VideoWriter:
-    return VideoWriter(VideoTarget(path, options.size, options.fps, "mp4", synthetic=run.mark_synthetic))
-
-
-def _file(inputs: Mapping[str, Given], name: str) -> Path | None:
-    given = inputs.get(name)
-    assert given is None or isinstance(given, Path)
-    return given
+    write_animation(out, avatar, scene, options, run)

@@ -1,5 +1,5 @@
 """What the names in a job's `inputs` mean: uploaded files, addresses to fetch, the user's own drivers and motions,
-built-in ones."""
+built-in ones, what an earlier job made."""
 
 from __future__ import annotations
 
@@ -14,18 +14,20 @@ from engine.kind import AUTO, Input, Kind
 from engine.media.sniff import IMAGE_TYPES, MOTION_TYPES, VIDEO_TYPES
 from service.files import repository as files
 from service.ids import is_id
+from service.job_records import artifacts, jobs
 from service.libraries import repository as kept
 from service.libraries.library import LIBRARIES, Library
 from service.outbound.address import AddressRefused, Network, require_callable
 from service.problems import FieldError, Problem
 from service.tables.files import File
+from service.tables.jobs import Status
 from service.uploads import repository as uploads
 
 MAX_OWN_CANDIDATES = 6
 """How many of the user's own drivers `auto` looks at: looking at one costs a second or two."""
 
-MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPES}
-
+MODEL_TYPES = frozenset({"model/gltf-binary"})
+MEDIA_TYPES = {"image": IMAGE_TYPES, "video": VIDEO_TYPES, "motion": MOTION_TYPES, "model": MODEL_TYPES}
 
 Value = str | list[str] | None
 """What can be given for an input; null is nothing."""
@@ -55,6 +57,7 @@ class _Lookup:
 
     session: Session
     owner: str
+    kind: str
     allowed: Sequence[Network]
     used: set[str]
     """Takes up the ids of the files that were found."""
@@ -79,8 +82,9 @@ def resolve(
     place = "/inputs" if revised is None else "/corrections"
     stays = {name: source for name, source in (revised or {}).items() if name not in given}
     resolved = ResolvedInputs(stays, _files_in(stays))
-    lookup = _Lookup(session, owner, allowed, resolved.file_ids)
-    errors = []
+    lookup = _Lookup(session, owner, kind.name, allowed, resolved.file_ids)
+    there = {name for name, value in given.items() if value} | set(stays)
+    errors = _erased(lookup, stays)
     offered = {item.name: item for item in kind.inputs}
     for name in given:
         if name not in offered:
@@ -93,7 +97,7 @@ def resolve(
             source = _source(lookup, item, given.get(item.name))
             if source is not None:
                 resolved.sources[item.name] = source
-            elif item.needed(chosen) and item.name not in resolved.sources:
+            elif item.needed(chosen, there) and item.name not in resolved.sources:
                 detail = f"The input “{item.name}” is missing: {item.description}"
                 by_option = revised is not None and item.name not in given  # the one that makes it needed was changed
                 at = (str(item.spared_by), "/options") if by_option else (item.name, place)
@@ -189,10 +193,37 @@ def _one(lookup: _Lookup, item: Input, value: str) -> dict[str, Any]:
                 raise ValueRefused(f"unknown_{library.noun}", detail)
             return {"library": item.library, "name": value}
         file_id = own.file_id
+    if item.artifact is not None and (found := _earlier_job(lookup, item.name, value, item.artifact)) is not None:
+        return found
     file = held_file(session, owner, file_id, item.name)
     require_media(item, file.content_type)
     lookup.used.add(file.id)
     return {"file": file.id}
+
+
+def _earlier_job(lookup: _Lookup, name: str, job_id: str, artifact: str) -> dict[str, str] | None:
+    """The artifact of an earlier job as a source; None where the owner has no job of this id."""
+    job = jobs.get(lookup.session, job_id)
+    if job is None or job.owner != lookup.owner:
+        return None
+    if job.kind != lookup.kind:
+        raise ValueRefused(
+            "job_of_other_kind", f"“{name}” takes a job of the kind {lookup.kind}; this is a {job.kind}."
+        )
+    if job.status != Status.SUCCEEDED or artifacts.get(lookup.session, job_id, artifact) is None:
+        detail = f"“{name}” takes a job that has succeeded and left {artifact}; this one is {job.status}."
+        raise ValueRefused("job_not_succeeded", detail)
+    return {"job": job_id, "artifact": artifact}
+
+
+def _erased(lookup: _Lookup, sources: Mapping[str, Any]) -> list[FieldError]:
+    """Of what a revision would read again, what was erased with the job that made it."""
+    made = {name: one for name, one in sources.items() if isinstance(one, dict) and "job" in one}
+    return [
+        _error(name, "input_erased", f"The job that “{name}” was taken from was erased, and all of it.")
+        for name, one in made.items()
+        if artifacts.get(lookup.session, one["job"], one["artifact"]) is None
+    ]
 
 
 def held_file(session: Session, owner: str, file_id: str, what: str) -> File:

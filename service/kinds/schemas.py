@@ -27,6 +27,10 @@ class InputOut(BaseModel):
     """Where set, the input may also be a moment of a driver, `name/moment`: the option of this name is set to it."""
     spared_by: str | None
     """Where set, the option of this name makes a required input one that may be left out."""
+    spared_by_input: str | None
+    """The same of another input, which is given instead."""
+    artifact: str | None
+    """Where set, the input may also be the id of a job of the same kind that has succeeded: its artifact of this name."""
     corrects: bool
     """Whether a revision may give it as a correction."""
 
@@ -70,7 +74,7 @@ class KindOut(BaseModel):
             inputs_schema={
                 "type": "object",
                 "properties": properties,
-                "required": [item.name for item in kind.inputs if item.required and item.spared_by is None],
+                "required": [item.name for item in kind.inputs if item.always_needed],
                 "additionalProperties": False,
             },
             options_schema=kind.options.model_json_schema(),

@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from engine.avatar import KIND as AVATAR
 from engine.avatar import AvatarOptions
 from engine.avatar.acting import Scene
+from engine.avatar.animating import animate_avatar
 from engine.avatar.avatar import assemble
 from engine.avatar.capture.chosen_frames import choose_frames
 from engine.avatar.frame_sheet import write_frame_sheets
@@ -40,6 +41,9 @@ from engine.run import Run, write_report
 
 def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     assert isinstance(options, AvatarOptions)
+    if "avatar" in inputs:
+        animate_avatar(inputs, options, out, run)
+        return
     clips = {
         name: choose_frames(given, 16, name, run.limits)
         for name in ("body", "head")

@@ -97,7 +97,7 @@ def misbehave(how: str | None, out: Path) -> None:
 
 def work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
     assert isinstance(options, TinyOptions)
-    image = inputs["image"]
+    image = inputs.get("image") or inputs["earlier"]
     assert isinstance(image, Path)
     run.plan({"measure": 0.2, "rest": 0.7, "write": 0.1})
     mean = run.stage("measure", measure, image)
@@ -145,3 +145,12 @@ KIND = Kind(
 OTHER = replace(KIND, name="other")
 SHORT = replace(KIND, name="short", needs=Needs(seconds=600, memory_mb=1500, cores=1, short=True))
 BRIEF = replace(KIND, name="brief", needs=Needs(seconds=4, short=True))
+FOLLOWING = replace(
+    KIND,
+    name="following",
+    inputs=(
+        Input("image", "image", "a picture", spared_by_input="earlier"),
+        Input("earlier", "image", "the picture of an earlier job", required=False, artifact="preview.jpg"),
+    ),
+)
+"""Takes what an earlier job of it left."""

@@ -117,6 +117,8 @@ class Attempt:
             verdict = self._watch()
         except Stop as stop:
             verdict = stop.verdict
+        except FetchFailed as failed:
+            verdict = {"outcome": "failed", "code": failed.code, "detail": failed.detail, "clean": True}
         except ChildLost as lost:
             verdict = {"outcome": "crashed", "reason": str(lost)}
         except OSError as error:

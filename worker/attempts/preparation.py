@@ -14,9 +14,11 @@ from service.catalogue.allowance import Allowance
 from service.context import Context
 from service.files import analyses
 from service.files import repository as files
+from service.job_records import artifacts
 from service.jobs.leases import Lease
 from service.settings import MEGABYTE
 from service.tables.jobs import Job
+from worker.job_files.fetch import FetchFailed
 from worker.job_files.mirror import Mirror
 
 
@@ -57,6 +59,8 @@ def prepare(
     """Lay out the folders, fetch what lies elsewhere, and let `user`, who works, change what is theirs.
 
     Returns the command for the process. Takes as long as the storage does: the lease must be kept meanwhile.
+
+    Raises `FetchFailed` where what an earlier job made is not there any more.
     """
     for left in folders.attempt.parent.glob("*-*"):  # by an attempt whose worker was killed
         shutil.rmtree(left, ignore_errors=True)
@@ -106,9 +110,26 @@ def _local(context: Context, source: Any, folder: Path) -> Any:
         return [_local(context, one, folder) for one in source]
     if "candidates" in source:
         return {"candidates": {name: _local(context, one, folder) for name, one in source["candidates"].items()}}
+    if "job" in source:
+        return str(_artifact(context, source["job"], source["artifact"], folder))
     if "file" not in source:
         return source
     return str(context.storage.fetch(f"files/{source['file']}", folder / source["file"]))
+
+
+def _artifact(context: Context, job_id: str, name: str, folder: Path) -> Path:
+    """What an earlier job made, as a local file."""
+    with context.database.read() as session:
+        made = artifacts.get(session, job_id, name)
+        key, own = (made.key, folder / made.id) if made is not None else ("", folder)
+    try:
+        if key:
+            return context.storage.fetch(key, own)
+    except FileNotFoundError:
+        pass  # erased in this very moment
+    raise FetchFailed(
+        "input_erased", "The job whose result this one begins with was erased, and all of it: give another."
+    )
 
 
 def _hand_over(folders: Sequence[Path], user: int) -> None:

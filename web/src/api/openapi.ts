@@ -1077,6 +1077,8 @@ export interface components {
             library: string | null;
             trimmed_by: string | null;
             spared_by: string | null;
+            spared_by_input: string | null;
+            artifact: string | null;
             corrects: boolean;
         };
         /** @description What is to be different about a job. */

@@ -41,5 +41,5 @@ export const avatar: Kind<AvatarOrder> = {
   },
   inspections: ['motion'],
   files: words.files,
-  endings: { body: 'mp4', head: 'mp4', motion: 'bvh', driver: 'mp4' },
+  endings: { body: 'mp4', head: 'mp4', motion: 'bvh', driver: 'mp4', avatar: 'glb' },
 };

@@ -46,13 +46,15 @@ export default function AvatarPanel({ job, onProblem }: CorrectionsProps) {
         if (again && !wrong) sending.send(revisionOf(job, before, draft));
       }}
     >
-      <section class="panel" aria-label={words.person}>
-        <h3>{words.person}</h3>
-        <HeightField value={draft.height} onChange={(height) => wish({ height })} />
-        {sheets?.body && (
-          <LandmarksField job={job} sheet={sheets.body} value={draft.landmarks} onChange={(landmarks) => wish({ landmarks })} />
-        )}
-      </section>
+      {!job.inputs.avatar && ( // which was measured by another job
+        <section class="panel" aria-label={words.person}>
+          <h3>{words.person}</h3>
+          <HeightField value={draft.height} onChange={(height) => wish({ height })} />
+          {sheets?.body && (
+            <LandmarksField job={job} sheet={sheets.body} value={draft.landmarks} onChange={(landmarks) => wish({ landmarks })} />
+          )}
+        </section>
+      )}
       <section class="panel" aria-label={words.animation}>
         <h3>{words.animation}</h3>
         <MotionField job={job} value={draft} before={before} onChange={wish} />

@@ -18,6 +18,7 @@ const english = {
     find_landmarks: 'Finding joints and face',
     fit_template: 'Fitting the body model',
     stitch_texture: 'Making the texture',
+    read_avatar: 'Reading the avatar',
     capture_face: 'Reading the driver’s face',
     write_avatar: 'Writing the avatar',
     turntable: 'Filming it from all around',
@@ -42,6 +43,11 @@ const english = {
     frame_not_used: 'A landmark is placed in a frame that is not used',
     person_unseen: 'No frame shows the person',
     cloud_unreadable: 'The points cannot be shown',
+    avatar_not_ours: 'The file is no avatar of this service',
+    avatar_compressed: 'The avatar’s file is compressed',
+    avatar_too_large: 'The avatar’s file is too large',
+    avatar_and_clips: 'There are both an avatar and clips of a person',
+    option_needs_clips: 'An option is about clips that were not given',
   },
 
   /** Inputs, options and corrections, as they are named where versions of a work are told apart. */
@@ -50,6 +56,7 @@ const english = {
     head: 'head clip',
     motion: 'motion',
     driver: 'driver',
+    avatar: 'avatar',
     height_m: 'height',
     body_frames_left_out: 'frames left out of the body clip',
     head_frames_left_out: 'frames left out of the head clip',
