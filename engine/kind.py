@@ -36,6 +36,8 @@ class Input:
     """Where set, the option of this name makes the input one that may be left out."""
     spared_by_input: str | None = None
     """The same of another input, which is given instead."""
+    personal: bool = False
+    """Shows somebody as they are: an operator may have it erased once the job has succeeded. Only stored stages may read it then."""
     artifact: str | None = None
     """Where set, the input may also be an earlier job of the same kind, by its id: the artifact of this name that it left."""
 

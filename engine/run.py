@@ -28,7 +28,7 @@ import numpy as np
 from pydantic import BaseModel
 
 import engine
-from engine.errors import Canceled, Notice
+from engine.errors import Canceled, InputError, Notice
 from engine.media.limits import Limits
 from engine.store import StageStore
 
@@ -68,6 +68,8 @@ class Run:
     canceled : asked between stages and inside long loops; True ends the run with `Canceled`.
     on_stage : called with the name of each stage when it begins and when it ends or breaks off.
     on_artifact : called with the path of an artifact that is complete before the run is (a preview).
+    erased : files that are not there any more, with the SHA-256 of what was in them: what stages found in them is in the store,
+        or the run ends with an `InputError`, `source_erased`.
     limits : how large the inputs may be; whoever opens them hands these on to `engine.media`.
     mark_synthetic : whether what shows a person says of itself that it is synthetic (`engine.export.synthetic`): for
         whoever runs the program to choose, never a job.
@@ -83,6 +85,7 @@ class Run:
         limits: Limits | None = None,
         mark_synthetic: bool = True,
         on_stage: Callable[[str, Turn], None] | None = None,
+        erased: Mapping[Path, str] | None = None,
     ):
         self._store = store
         self._shared = shared or store
@@ -90,6 +93,7 @@ class Run:
         self._canceled = canceled or (lambda: False)
         self._on_artifact = on_artifact or (lambda path: None)
         self._on_stage = on_stage or (lambda name, turn: None)
+        self._erased = dict(erased or {})
         self.limits = limits or Limits()
         self.mark_synthetic = mark_synthetic
         self._keys: dict[int, tuple[Callable[[], Any], str]] = {}
@@ -192,6 +196,7 @@ class Run:
             heard.extend(notices)
             self.reused.append(name)
         else:
+            self._require_there(arguments)
             output = function(*arguments)
             if store is not None:
                 output = store.save(key, output, heard[before:], kind)
@@ -256,7 +261,7 @@ class Run:
         if id(argument) in self._keys and self._keys[id(argument)][0]() is argument:
             return self._keys[id(argument)][1]
         if isinstance(argument, Path):
-            return content_hash(argument)
+            return self._erased.get(argument) or content_hash(argument)
         if isinstance(argument, BaseModel):
             return argument.model_dump(mode="json")
         if isinstance(argument, np.ndarray):
@@ -274,6 +279,14 @@ class Run:
         if argument is None or isinstance(argument, str | int | float | bool):
             return argument
         raise TypeError(f"a stage cannot be keyed by {type(argument).__name__}")
+
+    def _require_there(self, arguments: Sequence[Any]) -> None:
+        """Refuse to work on what was erased."""
+        if any(isinstance(one, Path) and one in self._erased for one in arguments):
+            raise InputError(
+                "source_erased",
+                "This has to be made of the files that were sent, which were erased when the first job had succeeded: submit them anew.",
+            )
 
     def _report(self, fraction: float, message: str) -> None:
         now = time.monotonic()

@@ -99,6 +99,10 @@ class Settings(BaseSettings):
     disk_reserve_mb: float = Field(500, ge=0, description="Free space below which nothing new is accepted (507).")
     cache_mb: float = Field(2000, gt=0, description="The space for analyses that jobs share.")
     job_days: float = Field(0, ge=0, description="How long an ended job is kept with its media; 0 keeps it for good.")
+    erase_sources: bool = Field(
+        False,
+        description="Whether clips of a person, of which an avatar is made, are erased once their job has succeeded.",
+    )
     file_hours: float = Field(24, gt=0, description="How long an uploaded file waits for a job before it is erased.")
 
     webhook_connect_seconds: float = Field(5, gt=0, description="How long a receiver may take to be reached.")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 import engine
-from engine.errors import Canceled, Notice
+from engine.errors import Canceled, InputError, Notice
 from engine.run import Progress, Run, content_hash, write_report
 from engine.store import StageStore
 
@@ -183,6 +183,18 @@ def test_shared_stages_go_to_the_shared_store(path: Path, tmp_path: Path) -> Non
         run.stage("fit", pipeline.fit, found, Options())
     assert pipeline.worked == ["detect", "fit", "fit"]
     assert len(list((tmp_path / "two").iterdir())) == 1
+
+
+def test_what_was_found_in_a_file_outlives_it(path: Path, store: StageStore) -> None:
+    pipeline = Pipeline()
+    first = pipeline(Run(store), path, strength=2.0)
+    gone = {Path("gone"): content_hash(path)}
+    path.unlink()
+    again = pipeline(Run(store, erased=gone), Path("gone"), strength=3.0)
+    assert pipeline.worked == ["fit", "refine"] and np.array_equal(again, first * 1.5)
+    with pytest.raises(InputError) as refused:
+        pipeline(Run(store, erased=gone), Path("gone"), seed=1)
+    assert refused.value.code == "source_erased" and pipeline.worked == []
 
 
 def test_stages_that_are_not_stored_work_every_time(path: Path, store: StageStore) -> None:

@@ -61,6 +61,7 @@ KIND = Kind(
             "A clip of the whole person, who stands still with the arms a little away from the body: one slow circle around the"
             " upper body, then one around the legs.",
             spared_by_input="avatar",
+            personal=True,
         ),
         Input(
             "head",
@@ -68,6 +69,7 @@ KIND = Kind(
             "A clip of the same person's head: a slow circle, then the crown, then under the chin. Without it the face is as"
             " coarse as the body's clip shows it.",
             required=False,
+            personal=True,
         ),
         Input(
             "motion",

@@ -81,7 +81,7 @@ def resolve(
     chosen = kind.options.model_validate(options)
     place = "/inputs" if revised is None else "/corrections"
     stays = {name: source for name, source in (revised or {}).items() if name not in given}
-    resolved = ResolvedInputs(stays, _files_in(stays))
+    resolved = ResolvedInputs(stays, files_in(stays))
     lookup = _Lookup(session, owner, kind.name, allowed, resolved.file_ids)
     there = {name for name, value in given.items() if value} | set(stays)
     errors = _erased(lookup, stays)
@@ -154,12 +154,12 @@ def _refused(name: str, code: str, detail: str) -> Problem:
     return Problem(422, code, detail, [_error(name, code, detail, "/corrections")])
 
 
-def _files_in(sources: Mapping[str, Any]) -> set[str]:
+def files_in(sources: Mapping[str, Any]) -> set[str]:
     """The ids of all files that a job reads from."""
     found: set[str] = set()
     for source in sources.values():
         for one in source if isinstance(source, list) else [source]:
-            found |= _files_in(one["candidates"]) if "candidates" in one else {one["file"]} if "file" in one else set()
+            found |= files_in(one["candidates"]) if "candidates" in one else {one["file"]} if "file" in one else set()
     return found
 
 

@@ -145,6 +145,29 @@ KIND = Kind(
 OTHER = replace(KIND, name="other")
 SHORT = replace(KIND, name="short", needs=Needs(seconds=600, memory_mb=1500, cores=1, short=True))
 BRIEF = replace(KIND, name="brief", needs=Needs(seconds=4, short=True))
+
+
+def measure_above(image: Path, level: float) -> Mean:
+    mean = measure(image)
+    return replace(mean, value=mean.value + level)
+
+
+def measure_person(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) -> None:
+    """Reads its picture in a stored stage only, whose output is as large as the picture."""
+    assert isinstance(options, TinyOptions)
+    mean = run.stage("measure", measure_above, inputs["image"], options.level)
+    misbehave(options.crash, out)
+    (out / "spectrum.json").write_text(str(mean.spectrum.tolist()))
+    write_report(out / "report.json", "person", run, {}, {"mean": mean.value, "reused": len(run.reused)})
+
+
+PERSON = replace(
+    KIND,
+    name="person",
+    inputs=(Input("image", "image", "a picture of somebody", personal=True),),
+    work=measure_person,
+)
+"""Whose picture an operator may have erased once it was measured."""
 FOLLOWING = replace(
     KIND,
     name="following",

@@ -95,10 +95,12 @@ def _shared(context: Context, job: Job) -> Path | None:
     kind = context.kinds[job.kind]
     name = next((one.name for one in kind.inputs if one.serves_many and not one.many), None)
     source = job.sources.get(name) if name is not None else None
-    if source is None or "candidates" in source:  # whose analyses are kept with the job
+    if source is None:
         return None
     if "library" in source:
         return analyses.folder(context.settings, analyses.LIBRARY_OWNER, source["name"])
+    if "file" not in source:  # candidates, whose analyses are kept with the job, or nothing that would be there
+        return None
     with context.database.read() as session:
         file = files.get(session, job.owner, source["file"])
     return analyses.folder(context.settings, file.owner, file.sha256) if file is not None else None

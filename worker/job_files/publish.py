@@ -14,12 +14,16 @@ from sqlalchemy.orm import Session
 from service.clock import now
 from service.context import Context
 from service.events import repository as events
+from service.files.service import forget
 from service.ids import new_id
 from service.job_records import artifacts as repository
+from service.job_records import jobs
 from service.job_records.schemas import ArtifactOut
 from service.jobs import leases
 from service.jobs.leases import Lease
+from service.jobs.source_erasure import erase_sources
 from service.tables.artifacts import Artifact
+from service.tables.files import File
 from worker.job_files.content_types import content_type
 from worker.job_files.plain_files import FileRefused, open_plain
 from worker.retry_db import retry_db
@@ -53,11 +57,13 @@ def publish(context: Context, lease: Lease, path: Path) -> tuple[int, int] | Non
 
 
 def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[str, tuple[int, int]]) -> bool:
-    """Publish everything in `out` that is not published yet and end the job as succeeded, all by one change.
+    """Publish everything in `out` that is not published yet and end the job as succeeded, all by one change; what it was made
+    of is erased, where the operator wants that.
 
     Returns False if the lease was lost: then nothing is published. Raises `FileRefused`, OSError.
     """
     artifacts: list[Artifact] = []
+    sources: list[File] = []
 
     def record() -> list[str | None] | None:
         with context.database.write() as session:
@@ -65,6 +71,7 @@ def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[st
                 return None
             freed = [_record(session, _copy(artifact)) for artifact in artifacts]
             leases.succeed(session, lease)
+            sources[:] = _erase_sources(context, session, lease)
             leases.count_stages(session, lease, seconds)
             return freed
 
@@ -80,6 +87,7 @@ def publish_all(context: Context, lease: Lease, out: Path, published: Mapping[st
     if freed is None:
         return _erase_unrecorded(context, artifacts)
     context.storage.delete(key for key in freed if key)
+    forget(context, sources)
     return True
 
 
@@ -93,6 +101,14 @@ def _erase_unrecorded(context: Context, artifacts: Sequence[Artifact]) -> bool:
         return False
     context.storage.delete(artifact.key for artifact in artifacts if artifact.id not in recorded)
     return len(artifacts) > 0 and len(recorded) == len(artifacts)
+
+
+def _erase_sources(context: Context, session: Session, lease: Lease) -> list[File]:
+    """Erase the clips of a person that a job was made of, if the operator wants that; the files."""
+    job = jobs.get(session, lease.job_id)
+    if job is None or not context.settings.erase_sources or job.kind not in context.kinds:
+        return []
+    return erase_sources(session, context.kinds[job.kind], job.id)
 
 
 def _stage_seconds(out: Path) -> dict[str, float]:

@@ -24,7 +24,7 @@ from engine.perception.models import MATTING_SETTING
 from service.catalogue.registry import load_kinds
 from worker.compilation.rehearsal import compiled_folders, load_compiled
 from worker.job_process import exit_reason
-from worker.job_process.work import EventChannel, failed, files_of, local, perform
+from worker.job_process.work import EventChannel, erased_in, failed, files_of, local, perform
 from worker.programs.parent_death import die_with_parent
 from worker.sandbox.confinement import Limits, confine, keep_to_cores, limit, program_paths
 
@@ -112,7 +112,9 @@ def _work(job: Mapping[str, Any], ready: Ready, parent: int, told: int, orders: 
     code = 1
     try:
         wire = EventChannel(os.fdopen(told, "wb"))
-        readable = [path for source in job["inputs"].values() for path in files_of(local(source))]
+        readable = [
+            path for source in job["inputs"].values() for path in files_of(local(source)) if not erased_in(source)
+        ]
         changeable = [Path(job[name]) for name in ("out", "temporary", "stages", "shared")]
         keep_to_cores(job["cores"])
         limits = replace(ready.limits, memory_bytes=min(ready.limits.memory_bytes, job["memory_bytes"]))

@@ -78,6 +78,7 @@ def perform(job: Mapping[str, Any], kinds: Mapping[str, Kind], wire: EventChanne
             on_artifact=lambda path: wire.send("artifact", name=path.name),
             limits=Limits(**job["limits"]),
             mark_synthetic=job["mark_synthetic"],
+            erased={local(one): one["erased"] for source in job["inputs"].values() for one in erased_in(source)},
         ) as run:
             inputs = {name: local(source) for name, source in job["inputs"].items()}
             kind.work(inputs, kind.options.model_validate(job["options"]), out, run)
@@ -98,12 +99,21 @@ def failed(
 
 
 def local(source: Any) -> Any:
-    """The path of an input, a tuple of paths, or the candidates that the work chooses from."""
+    """The path of an input, where nothing is if it was erased, a tuple of paths, or the candidates that the work chooses from."""
     if isinstance(source, list):
         return tuple(local(one) for one in source)
     if isinstance(source, dict) and "candidates" in source:
         return Candidates({name: local(one) for name, one in source["candidates"].items()})
+    if isinstance(source, dict) and "erased" in source:
+        return Path("erased") / source["erased"]
     return built_in.item(source["library"], source["name"]) if isinstance(source, dict) else Path(source)
+
+
+def erased_in(source: Any) -> list[dict[str, str]]:
+    """Those files of an input that were erased, which are known by what was in them."""
+    return [
+        one for one in (source if isinstance(source, list) else [source]) if isinstance(one, dict) and "erased" in one
+    ]
 
 
 def files_of(given: Given) -> tuple[Path, ...]:

@@ -22,6 +22,7 @@ export const failures = {
     file_too_large: 'The file is too large',
     media_type_unsupported: 'This kind of file is not supported',
     media_type_mismatch: 'The file is not what its name says',
+    source_erased: 'What the work was made of has been erased',
     input_erased: 'What the job begins with was erased',
     input_wrong_media: 'The file is not of the right kind',
     input_url_refused: 'This address is not allowed',
