@@ -34,11 +34,11 @@ TURN_SIGMA = 0.25
 """Radians by which a foot is turned otherwise than the coarse fit has it, usually."""
 SIZE_SIGMAS = (0.05, 0.04, 0.08)
 """Shares by which a foot is longer, wider and higher than is usual for the body."""
-POINT_SIGMA = 0.006
-"""Metres by which points are off, usually, ..."""
-INDEPENDENT_POINTS = 150.0
-"""... and as how many independent ones they count, at most."""
-GATES = (0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
+POINT_SIGMA = 0.004
+"""Metres by which points are off, at least; they are as far as they lie from the foot, root mean square, and all alike: ..."""
+INDEPENDENT_POINTS = 8.0
+"""... they count as so many independent ones, at most."""
+GATES = (0.04, 0.04, 0.03, 0.03, 0.025, 0.02, 0.015, 0.015, 0.012, 0.012)
 """Metres within which points are matched, from round to round."""
 MIN_FACING = 0.4
 """The cosine between the normals of a point and of the foot there, at least."""
@@ -186,7 +186,8 @@ def _matched(
     own = np.einsum("mk,mkc->mc", nearest.barycentrics, foot.places[foot.triangles[nearest.triangle]])[used]
     weights = (1 - (nearest.distance[used] / gate) ** 2) ** 2
     weights *= min(1.0, INDEPENDENT_POINTS / weights.sum())
-    return own, normals[used], points.points[used].astype(np.float64), np.sqrt(weights) / POINT_SIGMA
+    sigma = max(float(np.sqrt((nearest.distance[used] ** 2).mean())), POINT_SIGMA)
+    return own, normals[used], points.points[used].astype(np.float64), np.sqrt(weights) / sigma
 
 
 def _about_vertical(turn: float) -> NDArray[np.float64]:

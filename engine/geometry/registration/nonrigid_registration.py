@@ -2,7 +2,9 @@
 
 Source: equation 1 of S. Wenninger, J. Achenbach, A. Bartl, M. E. Latoschik, M. Botsch, Realistic Virtual Humans from
 Smartphone Videos, VRST 2020; minimised as in J. Achenbach, T. Waltemate, M. E. Latoschik, M. Botsch, Fast generation of
-realistic virtual humans, VRST 2017: by turns for the places of vertices, the turns of edges and the closest points.
+realistic virtual humans, VRST 2017: by turns for the places of vertices, the turns of edges and the closest points. Beyond the
+paper, what points about a place scatter takes from what they count (`engine.geometry.registration.point_noise`): where a cloud is
+noise, the surface stays as smooth as it was at rest.
 """
 
 from __future__ import annotations
@@ -18,12 +20,15 @@ from scipy.sparse.linalg import splu
 from engine.geometry.closest_points import closest_points
 from engine.geometry.deformation.handles import surface_points
 from engine.geometry.deformation.hinge_laplacian import HingeLaplacian
+from engine.geometry.registration.point_noise import point_noise
 from engine.geometry.surface import vertex_areas, vertex_normals
 
 MIN_NORMAL_COSINE = 0.2
 """Between the normals of a point and of the surface there: what faces another way is another side of the body."""
 ITERATIONS = 3
 """Of each step: new closest points, new turns, new places."""
+WEIGHED_STEPS = 2
+"""The last steps, in which points count by how much those around them scatter; before, the surface is too stiff to tell."""
 FREE_VERTEX_WEIGHT = 1e-14
 """What holds vertices of no hinge where they are at rest, against any other pull."""
 
@@ -34,7 +39,8 @@ class ElasticSurface:
 
     `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
     `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
-    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `anchor`: what it counts that
+    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `noise`: metres by which
+    points may scatter before they count less; by default as many as they like. `anchor`: what it counts that
     the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a limb that no point is of swing
     about the joint at which the points end.
     """
@@ -45,6 +51,7 @@ class ElasticSurface:
     stiffness: NDArray[np.float64]
     trust: NDArray[np.float64]
     held: NDArray[np.bool_] | None = None
+    noise: float = np.inf
     anchor: float = 0.0
 
 
@@ -97,9 +104,14 @@ def lay_on_points(
     vertices = surface.rest.copy() if start is None else np.asarray(start, np.float64).copy()
     free = np.ones(len(vertices), np.bool_) if surface.held is None else ~surface.held
     system = _SameSparsity()
-    for step in steps:
+    trust = surface.trust
+    for number, step in enumerate(steps):
+        if np.isfinite(surface.noise) and number >= len(steps) - WEIGHED_STEPS:
+            matched = np.asarray(surface.triangles)[surface.matched]
+            scatter = point_noise(vertices, matched, points, normals, MIN_NORMAL_COSINE)
+            trust = surface.trust / (1 + (scatter / surface.noise) ** 2)
         for _ in range(ITERATIONS):
-            matrix, right = _matched_points(surface, vertices, points, normals, step.gate)
+            matrix, right = _matched_points(surface, trust, vertices, points, normals, step.gate)
             if landmarks is not None:
                 pull = step.landmarks / len(landmarks.places)
                 matrix = matrix + pull * (landmarks.rows.T @ landmarks.rows)
@@ -115,21 +127,22 @@ def lay_on_points(
 
 def _matched_points(
     surface: ElasticSurface,
+    trust: NDArray[np.float64],
     vertices: NDArray[np.float64],
     points: NDArray[np.floating],
     normals: NDArray[np.floating],
     gate: float,
 ) -> tuple[sp.csr_array, NDArray[np.float64]]:
-    """The normal equations of the closeness term: (V, V) sparse, and (V, 3)."""
+    """The normal equations of the closeness term: (V, V) sparse, and (V, 3); `trust` (V,): what points near a vertex count now."""
     candidates = np.asarray(surface.triangles)[surface.matched]
     nearest = closest_points(points, vertices, candidates)
     corners = candidates[nearest.triangle]
     own = vertex_normals(vertices, surface.triangles)[corners]
     facing = np.einsum("nk,nkc,nc->n", nearest.barycentrics, own, normals) > MIN_NORMAL_COSINE
     weights = facing * np.maximum(1 - (nearest.distance / gate) ** 2, 0) ** 2
-    weights *= np.einsum("nk,nk->n", nearest.barycentrics, surface.trust[corners])
+    total = (weights * np.einsum("nk,nk->n", nearest.barycentrics, surface.trust[corners])).sum()
+    weights *= np.einsum("nk,nk->n", nearest.barycentrics, trust[corners])
     used = weights > 0
-    total = weights.sum()
     count = len(vertices)
     if not total:
         return sp.csr_array((count, count)), np.zeros((count, 3))

@@ -55,7 +55,7 @@ def test_a_longer_foot_that_is_turned_is_found(
     cloud = cloud[cloud.points[:, 0] > truth[:, 0].mean()]
     found = standing(models, person, body, cloud, shoes)
     off = np.linalg.norm(found.vertices[left] - truth[left], axis=1)
-    assert off.mean() < 0.003 < np.linalg.norm(stood.vertices[left] - truth[left], axis=1).mean()
+    assert off.mean() < 0.005 < 0.015 < np.linalg.norm(stood.vertices[left] - truth[left], axis=1).mean()
     by = found.rotations[models.rig.index("LeftFoot")] @ stood.rotations[models.rig.index("LeftFoot")].T
     assert Rotation.from_matrix(by).magnitude() == pytest.approx(0.2, abs=0.03)
 

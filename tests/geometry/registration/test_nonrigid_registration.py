@@ -101,6 +101,20 @@ def test_what_is_held_stays_and_the_rest_follows() -> None:
     assert np.linalg.norm(moved[top] - cloud[top], axis=1).mean() < 0.02
 
 
+def test_noise_crumples_nothing_and_what_is_measured_well_is_followed() -> None:
+    vertices, triangles = icosphere(3)
+    fine, _ = icosphere(5)
+    noise = np.where(fine[:, 1] > 0, 0.012, 0.0005)
+    random = np.random.default_rng(4)
+    points = fine * (0.205 + random.normal(0, noise))[:, None]
+    believing = replace(_surface(vertices * 0.2, triangles), noise=0.0015)
+    laid, plain = (lay_on_points(of, points, fine, STEPS) for of in (believing, _surface(vertices * 0.2, triangles)))
+    upper = vertices[:, 1] > 0.2
+    roughness = [np.linalg.norm(of[upper], axis=1).std() for of in (laid, plain)]
+    assert roughness[0] < 0.5 * roughness[1]
+    assert np.abs(np.linalg.norm(laid[vertices[:, 1] < -0.2], axis=1) - 0.205).max() < 0.0015
+
+
 def test_nothing_near_is_said() -> None:
     vertices, triangles = icosphere(1)
     with pytest.raises(ValueError, match="no point"):
