@@ -24,8 +24,8 @@ def matched_in_lab(
     """The colours (N, 3) sRGB, 0 to 255, so that L, a and b are each distributed as those of the `reference` (M, 3). Their
     order stays. Where there is no reference they stay as they are.
 
-    `max_stretch`: by how much a channel's range may grow. Where the reference's is wider, as that of a hand under shading, it is
-    narrowed about its median, so that no grain of the colours becomes a stain.
+    `max_stretch`: by how much two values of a channel may be parted. Where the reference's are farther apart, as those of a hand
+    under shading, or between skin and a sleeve, they are drawn to its median, so that no grain of the colours becomes a stain.
     """
     if not len(colours) or not len(reference):
         return np.asarray(colours, np.float32)
@@ -35,15 +35,23 @@ def matched_in_lab(
     for channel in range(3):
         have = np.quantile(own[:, channel], steps)
         want = np.quantile(goal[:, channel], IGNORED_TAIL + (1 - 2 * IGNORED_TAIL) * steps)
-        inner = slice(QUANTILES // 10, -(QUANTILES // 10))
-        wider = float(np.ptp(want[inner])) / max(float(np.ptp(have[inner])), 1e-6)
-        want = np.median(want) + (want - np.median(want)) * min(1.0, max_stretch / max(wider, 1e-6))
         if np.ptp(have) < MIN_RANGE:
             out[:, channel] = own[:, channel] + np.median(want) - np.median(have)
         else:
             rising = np.concatenate([[True], np.diff(have) > 0])
-            out[:, channel] = np.interp(own[:, channel], have[rising], want[rising])
+            out[:, channel] = np.interp(own[:, channel], have[rising], _drawn_together(have, want, max_stretch)[rising])
     return from_lab(out)
+
+
+def _drawn_together(have: NDArray[np.floating], want: NDArray[np.floating], max_stretch: float) -> NDArray[np.floating]:
+    """The quantiles `want` (Q,), nowhere farther apart than so many times those that are there, `have` (Q,); their median stays."""
+    steps = (
+        np.minimum(np.diff(want), np.maximum(max_stretch * np.diff(have), 0))
+        if np.isfinite(max_stretch)
+        else np.diff(want)
+    )
+    drawn = np.concatenate([[0.0], np.cumsum(steps)])
+    return drawn - drawn[len(drawn) // 2] + want[len(want) // 2]
 
 
 def to_lab(colours: NDArray[np.floating]) -> NDArray[np.float32]:

@@ -12,6 +12,7 @@ from engine.avatar.texture.exposure import exposure_gains
 from engine.avatar.texture.labels import UNSEEN, FaceLabels, best_views, stitched
 from engine.avatar.texture.levelling import level_seams
 from engine.avatar.texture.painting import paint
+from engine.avatar.texture.photo_consistency import consistent
 from engine.avatar.texture.view_samples import sample_views
 from engine.avatar.texture.views import ChartedSurface, FrameView
 from engine.geometry.surface import triangle_areas
@@ -43,6 +44,7 @@ def stitch_texture(surface: ChartedSurface, views: Sequence[FrameView], size: in
     """
     samples = sample_views(surface, views)
     gains = exposure_gains(samples)
+    samples = consistent(samples, gains)
     areas = triangle_areas(surface.vertices, surface.triangles)
     best, labels = best_views(samples, gains, areas), stitched(samples, gains, areas)
     del samples
