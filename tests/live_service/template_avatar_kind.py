@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from pydantic import BaseModel
+from template_avatar import fitted_template
 
 from engine.avatar import KIND as AVATAR
 from engine.avatar import AvatarOptions
@@ -20,13 +21,10 @@ from engine.avatar.animating import animate_avatar
 from engine.avatar.avatar import assemble
 from engine.avatar.capture.chosen_frames import choose_frames
 from engine.avatar.frame_sheet import write_frame_sheets
-from engine.avatar.registration.fitted_template import FittedTemplate
 from engine.avatar.turntable import turntable
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
-from engine.body.face.visemes import viseme_displacements
-from engine.body.rest_pose import t_pose
 from engine.body.rig import HUMAN_RIG
-from engine.body.template import FACE_UNITS, load_rig, load_template
+from engine.body.template import load_rig, load_template
 from engine.errors import InputError
 from engine.export.encoders import VideoTarget
 from engine.export.ply import write_ply
@@ -58,21 +56,8 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
         )
     for path in write_first_impression(out, body.picture(0), None, run.mark_synthetic):
         run.publish(path)
-    template, rig = load_template(), load_rig(HUMAN_RIG)
-    skeleton, _, rest = t_pose(rig, template.vertices, template.vertices_of("body"))
-    units = {unit: template.face_units.displacement({unit: 1.0}) for unit in FACE_UNITS}
-    fitted = FittedTemplate(
-        vertices=rest.astype(np.float64),
-        rest=rest,
-        skeleton=skeleton,
-        joints=skeleton.heads.astype(np.float64),
-        rotations=np.tile(np.eye(3), (len(rig.names), 1, 1)),
-        expressions=units | viseme_displacements(units, len(rest)),
-        head_to_body=None,
-        coefficients=np.zeros(3),
-        notices=(),
-    )
-    skin = rest[template.vertices_of("body")]
+    template, rig, fitted = load_template(), load_rig(HUMAN_RIG), fitted_template()
+    skin = fitted.rest[template.vertices_of("body")]
     normals = np.tile(np.array([0, 0, 1], np.float32), (len(skin), 1))
     write_ply(out / "preview.ply", PointCloud(skin, normals, np.full(skin.shape, 150, np.uint8)))
     places = [(2.2 * np.sin(angle), 1.2, 2.2 * np.cos(angle)) for angle in np.linspace(0, 5.5, len(body))]
@@ -83,7 +68,7 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
 
     texture = np.full((64, 64, 3), (190, 150, 130), np.uint8)
     avatar = assemble(template, rig, fitted, texture, options.triangles)
-    scene = Scene(built_in(options.motion, skeleton, 10.0))
+    scene = Scene(built_in(options.motion, fitted.skeleton, 10.0))
     write_avatar(out, avatar, scene, options, run)
     frames = list(turntable(avatar.mesh, avatar.filmed, (180, 320), 0.4, 10.0))
     write_still(out / "poster.jpg", frames[0], False)

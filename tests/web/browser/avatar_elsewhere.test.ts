@@ -15,7 +15,7 @@ import { inPython } from './media';
 const AVATAR = `
 import sys
 from pathlib import Path
-sys.path.insert(0, "tests")
+sys.path.insert(0, "tests/live_service")
 from engine.avatar.options import AvatarOptions
 from template_avatar import write_template_avatar
 from engine.export.meshopt.compression import compressed

@@ -84,7 +84,8 @@ describe('choosing', () => {
     await page.keyboard.press('Tab');
     await expect.poll(() => focused(page)).toBe('Skip to the content');
     await page.keyboard.press('Enter');
-    for (const place of ['Portrait', 'Character', 'Avatar']) {
+    const { kinds } = await import('@web/kinds');
+    for (const place of kinds.all.map(({ label }) => label)) {
       await page.keyboard.press('Tab');
       await expect.poll(() => focused(page)).toBe(place);
     }
