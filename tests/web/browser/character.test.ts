@@ -5,7 +5,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints, expectComplaint, unanswered } from './complaints';
 import { accepted, again, isMade, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { LONG } from './jobs';
+import { LIGHT, LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, samplePeople } from './media';
 import { address, finished, somebody } from './own_service';
@@ -256,7 +256,7 @@ describe('a finished character', () => {
   });
 
   it.each([320, 390, 1440])('fits a window of %i pixels, start page, result and corrections', async (width) => {
-    const page = await openStill(browser, '#/character', { viewport: { width, height: 800 }, reducedMotion: 'reduce' });
+    const page = await openStill(browser, '#/character', { viewport: { width, height: 800 }, deviceScaleFactor: 1 });
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     await page.getByText('Options').click();
     await expect.poll(() => overflow()).toBeLessThanOrEqual(0);
@@ -390,7 +390,7 @@ describe('corrections of a character', () => {
   });
 
   it('choose somebody else by a click, or everybody; who was chosen before a box is again after it', async () => {
-    const id = await orderCharacter(join(folder, 'two.png'), { seconds: 1, size: [240, 320], joints: { LeftElbow: [300, 270] } });
+    const id = await orderCharacter(join(folder, 'two.png'), { ...LIGHT, joints: { LeftElbow: [300, 270] } });
     const page = await corrections(id);
     await page.getByText('2 people were found.').waitFor();
     await page.getByRole('button', { name: 'Person 2 of 2' }).click();

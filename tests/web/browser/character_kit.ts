@@ -15,9 +15,12 @@ export const isRevision = (request: Request): boolean =>
 /** A browser that shows 3D on any machine. */
 export const launchIn3D = (): Promise<Browser> => launch(['--enable-unsafe-swiftshader']);
 
-/** The page for who wants stillness: the character does not walk, which costs much where there is no graphics card. */
+/**
+ * The page for who wants stillness: the character does not walk, which costs much where there is no graphics card, as every
+ * pixel does that is drawn of them.
+ */
 export const openStill = (browser: Browser, hash = '', options: Parameters<Browser['newPage']>[0] = {}): Promise<Page> =>
-  open(browser, hash, { reducedMotion: 'reduce', ...options });
+  open(browser, hash, { reducedMotion: 'reduce', deviceScaleFactor: 0.5, ...options });
 
 /** Until the character is made, and shown on its page. */
 export const isMade = (page: Page): Promise<void> => page.getByRole('region', { name: 'In 3D' }).waitFor({ timeout: LONG });

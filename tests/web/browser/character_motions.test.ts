@@ -7,7 +7,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { complaints } from './complaints';
 import { accepted, isOrder, launchIn3D, openCorrections, openStill, revised } from './character_kit';
-import { LONG } from './jobs';
+import { LIGHT, LONG } from './jobs';
 import { lacks } from './lacks';
 import { inPython, media } from './media';
 import { address, somebody } from './own_service';
@@ -73,7 +73,7 @@ async function moving(motion: string): Promise<string> {
   body.append('kind', 'character');
   body.append('photo', new File([readFileSync(somebody)], 'somebody.png'));
   body.append('motion', new File([readFileSync(motion)], 'motion.bvh'));
-  body.append('options', JSON.stringify({ seconds: 1, size: [240, 320] }));
+  body.append('options', JSON.stringify(LIGHT));
   const response = await fetch(`${address}/v1/jobs`, { method: 'POST', body });
   return ((await response.json()) as { id: string }).id;
 }

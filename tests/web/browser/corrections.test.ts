@@ -9,7 +9,8 @@ import { accepted, revised } from './character_kit';
 import { launch } from './browser';
 import { LONG } from './jobs';
 import { lacks } from './lacks';
-import { faceless, inPython, portrait } from './media';
+import { inPython, portrait } from './media';
+import { finished } from './own_service';
 import { ask, jobOf, open, order, played } from './page';
 
 type Points = [number, number][];
@@ -37,7 +38,7 @@ let done: string;
 beforeAll(async () => {
   browser = await launch();
   border = Number(inPython(TWO, portrait, join(folder, 'two.png')));
-  done = await order(join(folder, 'two.png'), 'idle');
+  done = await order(join(folder, 'two.png'), 'wink');
 });
 afterAll(async () => {
   await browser.close();
@@ -106,7 +107,7 @@ describe('corrections by hand', () => {
   });
 
   it('name another face of the performance, where it has not so many', async () => {
-    const id = await order(portrait, 'idle', { driver_face_index: 1 });
+    const id = await order(portrait, 'wink', { driver_face_index: 1 });
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByText('There are fewer faces in the performance').waitFor({ timeout: LONG });
     await page.getByLabel('Face in the video').selectOption('The largest face');
@@ -140,10 +141,10 @@ describe('corrections by hand', () => {
     await page.getByRole('button', { name: 'Apply' }).click();
     await page.getByText('The landmarks were placed by hand.').waitFor();
 
-    await page.getByRole('button', { name: 'Make it again' }).click();
+    const request = await revised(page);
     await page.waitForURL((url) => !url.hash.endsWith(done));
-    await played(page);
     const job = await ask<{ options: { landmarks: Points } }>(`/v1/jobs/${jobOf(page)}`);
+    await accepted(request);
     const after = job.options.landmarks;
     const moves = after.map(([x, y], index) => [x - before[index]![0], y - before[index]![1]] as const);
     moves.forEach(([dx, dy], index) => {
@@ -157,7 +158,7 @@ describe('corrections by hand', () => {
   });
 
   it('place a face where none was found', async () => {
-    const id = await order(faceless, 'idle');
+    const id = finished.noFace;
     const page = await open(browser, `#/jobs/${id}`);
     await page.getByText('Correct and try again').click({ timeout: LONG });
     const again = page.getByRole('button', { name: 'Make it again' });

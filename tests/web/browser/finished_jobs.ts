@@ -3,11 +3,11 @@
  * they lie in (`own_service`), so that none of them makes what another has made, nor finds what another left.
  */
 
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { TestProject } from 'vitest/node';
-import { ended, LONG, orderCharacter, orderPortrait } from './jobs';
+import { ended, LIGHT, LONG, orderCharacter, orderPortrait } from './jobs';
 import { faceless, portrait, samplePerson } from './media';
 import { serve } from './service';
 
@@ -18,6 +18,8 @@ declare module 'vitest' {
       jobs: Finished;
       /** The picture of the finished character: the project's own, of one person. */
       somebody: string;
+      /** The file of what the reactive portrait left for a web page: profile.zip. */
+      profile: string;
     };
   }
 }
@@ -27,10 +29,12 @@ export interface Finished {
   portrait: string;
   /** A portrait that failed: nobody is in the picture. */
   noFace: string;
-  /** The person of the project's own picture, in a small video of two seconds. */
+  /** The person of the project's own picture, in a small video of a second. */
   character: string;
   /** A character that failed likewise. */
   noPerson: string;
+  /** The portrait of `media`, reactive: it can be happy and surprised. */
+  reactive: string;
 }
 
 /** Milliseconds that the engine is compiled for where that was not done before; the first jobs wait for it. */
@@ -39,7 +43,7 @@ const COMPILING = 1_200_000;
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const { address, data, stop, end } = await serve({ GALATEA_CONCURRENCY: '2' });
   const pictures = mkdtempSync(join(tmpdir(), 'galatea-pictures-'));
-  const somebody = join(pictures, 'somebody.png');
+  const [somebody, profile] = ['somebody.png', 'profile.zip'].map((name) => join(pictures, name)) as [string, string];
   const forget = async (): Promise<void> => {
     await end();
     rmSync(pictures, { recursive: true, force: true });
@@ -48,17 +52,20 @@ export default async function setup(project: TestProject): Promise<() => Promise
     samplePerson(somebody);
     // the two that are looked at most come last: what is recent is shown first
     const jobs: Finished = {
-      noFace: await orderPortrait(address, faceless, 'happy'),
+      noFace: await orderPortrait(address, faceless, 'wink'),
       noPerson: await orderCharacter(address, faceless, { seconds: 1 }),
+      reactive: await orderPortrait(address, portrait, null, { reactive: ['happy', 'surprise'], size: [240, 300] }),
       portrait: await orderPortrait(address, portrait, 'happy'),
-      character: await orderCharacter(address, somebody, { seconds: 2, size: [240, 320] }),
+      character: await orderCharacter(address, somebody, LIGHT),
     };
     await Promise.all([
-      ...[jobs.character, jobs.portrait].map((id) => ended(address, id, 'succeeded', COMPILING + LONG)),
+      ...[jobs.character, jobs.portrait, jobs.reactive].map((id) => ended(address, id, 'succeeded', COMPILING + LONG)),
       ...[jobs.noFace, jobs.noPerson].map((id) => ended(address, id, 'failed', COMPILING + LONG)),
     ]);
+    const zip = await fetch(`${address}/v1/jobs/${jobs.reactive}/artifacts/profile.zip`);
+    writeFileSync(profile, Buffer.from(await zip.arrayBuffer()));
     await stop();
-    project.provide('finished', { folder: data, jobs, somebody });
+    project.provide('finished', { folder: data, jobs, somebody, profile });
   } catch (error) {
     await forget();
     throw error;

@@ -30,6 +30,9 @@ export const orderPortrait = (
   options: object = {},
 ): Promise<string> => submit(address, 'portrait', { image: fileOf(image), ...(driver !== null && { driver }) }, options);
 
+/** Options of a character that is soon made, and soon drawn where there is no graphics card. */
+export const LIGHT = { seconds: 1, size: [240, 320], triangles: 10_000 };
+
 /** Orders a character. */
 export const orderCharacter = (address: string, photo: string, options: object = {}): Promise<string> =>
   submit(address, 'character', { photo: fileOf(photo) }, options);

@@ -6,13 +6,13 @@ import { complaints } from './complaints';
 import { launch } from './browser';
 import { LONG } from './jobs';
 import { portrait } from './media';
-import { open, order } from './page';
+import { finished } from './own_service';
+import { open } from './page';
 
 let browser: Browser;
-let job: string;
+const job = finished.reactive;
 beforeAll(async () => {
   browser = await launch();
-  job = await order(portrait, null, { reactive: ['happy'], size: [160, 200], fps: 15 });
 });
 afterAll(() => browser.close());
 

@@ -6,11 +6,10 @@ import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { afterAll, afterEach, beforeAll, describe, expect, inject, it } from 'vitest';
 import type { Profile } from '../../../web/reactive/src/profile';
 import { answered, complaints, expectComplaint, watch } from './complaints';
 import { launch } from './browser';
-import { portrait } from './media';
 
 const root = resolve(import.meta.dirname, '../../..');
 const python = join(root, '.venv/bin/python');
@@ -22,13 +21,7 @@ let server: ChildProcess;
 let address: string;
 
 beforeAll(async () => {
-  const options = JSON.stringify({ reactive: ['happy', 'surprise'], size: [240, 300] });
-  execFileSync(python, ['-m', 'shell.main', 'portrait', portrait, '-o', join(folder, 'out'), '--options', options], {
-    cwd: root,
-    env: { ...process.env, PYTHONPATH: root, GALATEA_DATA_DIR: join(folder, 'data') },
-    stdio: ['ignore', 'ignore', 'pipe'],
-  });
-  execFileSync(python, ['-m', 'zipfile', '-e', join(folder, 'out/profile.zip'), site]);
+  execFileSync(python, ['-m', 'zipfile', '-e', inject('finished').profile, site]);
   const port = await freePort();
   address = `http://127.0.0.1:${port}/`;
   server = spawn(python, ['-m', 'http.server', String(port), '--bind', '127.0.0.1'], { cwd: site, stdio: 'ignore' });
@@ -37,7 +30,7 @@ beforeAll(async () => {
     await new Promise((wake) => setTimeout(wake, 100));
   }
   browser = await launch();
-}, 1_200_000);
+});
 afterAll(async () => {
   await browser?.close();
   server?.kill();
@@ -165,7 +158,11 @@ describe('a profile from a plain file server', () => {
       await page.evaluate((state) => document.querySelector('reactive-portrait')!.play(state), state);
     }
     await page.waitForFunction(() => changes.at(-1)?.cause === 'end');
-    await page.waitForTimeout(5500);
+    const from = (await frames(page)).length;
+    await page.waitForFunction((from) => {
+      const idling = seen.slice(from).filter(({ state, part }) => state === 'idle' && part === 'clip');
+      return idling.some(({ frame }, index) => frame < (idling[index - 1]?.frame ?? 0)); // over its seam, too
+    }, from);
     const shown = (await frames(page)).filter(({ energy }) => energy > 0).slice(1);
     const pairs = shown.slice(1).map((here, index) => ({ here, before: shown[index]! }));
     const inside = pairs.filter(({ here, before }) => here.part === 'clip' && here.frame === before.frame + 1);

@@ -7,7 +7,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll, expect } from 'vitest';
 import { launch } from './browser';
 import { complaints, watch } from './complaints';
-import { ended, LONG, orderCharacter } from './jobs';
+import { ended, LIGHT, LONG, orderCharacter } from './jobs';
 import { samplePeople } from './media';
 import { address, finished, somebody } from './own_service';
 import { openViewer } from './viewer_page';
@@ -37,7 +37,7 @@ async function ordered({ several, options }: (typeof ORDERS)[keyof typeof ORDERS
   const people = join(folder, 'people.png');
   try {
     if (several) samplePeople(people);
-    return await orderCharacter(address, several ? people : somebody, { seconds: 2, size: [240, 320], ...options });
+    return await orderCharacter(address, several ? people : somebody, { ...LIGHT, ...options });
   } finally {
     rmSync(folder, { recursive: true });
   }
