@@ -21,7 +21,8 @@ KINDS = "tiny_kind:KIND,engine.kinds:KINDS"
 @pytest.fixture(scope="module")
 def searching(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     """A service with the engine's own kinds."""
-    service = Running(tmp_path_factory.mktemp("searching") / "data", kinds=KINDS)
+    data = tmp_path_factory.mktemp("searching") / "data"
+    service = Running(data, kinds=KINDS, worker_kinds="tiny,portrait,moments")
     yield service
     service.stop()
 

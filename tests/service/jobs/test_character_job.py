@@ -21,7 +21,8 @@ OPTIONS = {"seconds": 1, "vrm": True, "lit": True}
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    running = Running(tmp_path_factory.mktemp("characters") / "data", kinds="engine.kinds:KINDS")
+    data = tmp_path_factory.mktemp("characters") / "data"
+    running = Running(data, kinds="engine.kinds:KINDS", worker_kinds="character")
     yield running
     running.stop()
 
@@ -42,12 +43,24 @@ def submitted(service: Running, **job: Any) -> dict[str, Any]:
     return service.until(made["id"], "succeeded", "failed", seconds=300)
 
 
-def test_a_picture_and_a_motion_become_a_character(service: Running, photo: str, media: Callable[[str], Path]) -> None:
+@pytest.fixture(scope="module")
+def made(service: Running, photo: str, media: Callable[[str], Path]) -> dict[str, Any]:
+    """A character that was made of a picture and a motion, with all that may come with it."""
     motion = uploaded(service, "jacks.bvh", media("mocap/cmu_jumping_jacks.bvh").read_bytes())
     assert motion["content_type"] == "text/x-bvh"
     job = submitted(service, inputs={"photo": photo, "motion": motion["id"]}, options=OPTIONS)
     assert job["error"] is None
-    artifacts = job["artifacts"]
+    return job
+
+
+def picture_of(service: Running, job: dict[str, Any], artifact: str) -> np.ndarray:
+    """An artifact as grey values (H, W)."""
+    content = service.client.get(job["artifacts"][artifact]["url"]).raise_for_status().content
+    return np.asarray(Image.open(BytesIO(content)).convert("L"))
+
+
+def test_a_picture_and_a_motion_become_a_character(service: Running, made: dict[str, Any]) -> None:
+    artifacts = made["artifacts"]
     assert {"character.glb", "character.usdz", "character.vrm", "animation.mp4", "posed.png"} <= set(artifacts)
     warned = [one["code"] for one in service.client.get(artifacts["report.json"]["url"]).json()["warnings"]]
     usual = {"motion_joints_unmapped"}  # the motion made here moves more than a person has
@@ -56,23 +69,14 @@ def test_a_picture_and_a_motion_become_a_character(service: Running, photo: str,
     )
     assert artifacts["character.glb"]["content_type"] == "model/gltf-binary"
     assert service.client.get(artifacts["character.glb"]["url"]).content[:4] == b"glTF"
-    correction = {"corrections": {"joints": {"LeftElbow": [300.0, 290.0]}}}
-    made = service.client.post(f"/v1/jobs/{job['id']}/revisions", json=correction).raise_for_status().json()
-    revised = service.until(made["id"], "succeeded", "failed", seconds=300)
-    assert revised["error"] is None
-    skeleton = service.client.get(revised["artifacts"]["skeleton.json"]["url"]).json()
-    assert skeleton["joints"]["LeftElbow"] == {"place": [300.0, 290.0], "confidence": 1.0}
     if "lit.png" not in artifacts:
         missing("there is no OpenGL without a screen: nobody has seen a lit picture (scripts/setup.sh --for-tests)")
 
 
-def test_a_mask_painted_by_hand_corrects_what_was_found(service: Running, photo: str) -> None:
-    """A hand is taken off the mask that was found: the next mask is without it."""
-    job = submitted(service, inputs={"photo": photo}, options={"seconds": 1})
-    address = f"/v1/jobs/{job['id']}/revisions"
-    found = np.asarray(
-        Image.open(BytesIO(service.client.get(job["artifacts"]["mask.png"]["url"]).content)).convert("L")
-    )
+def test_a_mask_painted_by_hand_and_a_joint_correct_what_was_found(service: Running, made: dict[str, Any]) -> None:
+    """A hand is taken off the mask that was found: the next mask is without it. The elbow is where it was put."""
+    address = f"/v1/jobs/{made['id']}/revisions"
+    found = picture_of(service, made, "mask.png")
     columns = np.flatnonzero((found > 128).any(axis=0))
     edge = int(columns[0]) + 12
     assert (found[:, :edge] > 128).sum() > 50
@@ -82,22 +86,25 @@ def test_a_mask_painted_by_hand_corrects_what_was_found(service: Running, photo:
     def corrected(mask: np.ndarray) -> dict[str, Any]:
         file = BytesIO()
         Image.fromarray(mask).save(file, "PNG")
-        made = service.client.post(address, files={"mask": ("mask.png", file.getvalue())}).raise_for_status().json()
-        return service.until(made["id"], "succeeded", "failed", seconds=300)
+        form = {"corrections": '{"joints": {"LeftElbow": [300.0, 290.0]}}', "options": '{"vrm": null, "lit": null}'}
+        sent = service.client.post(address, data=form, files={"mask": ("mask.png", file.getvalue())})
+        return service.until(sent.raise_for_status().json()["id"], "succeeded", "failed", seconds=300)
 
     revised = corrected(painted)
-    assert revised["error"] is None and set(revised["inputs"]) == {"photo", "mask"}
-    again = np.asarray(
-        Image.open(BytesIO(service.client.get(revised["artifacts"]["mask.png"]["url"]).content)).convert("L")
-    )
+    assert revised["error"] is None and set(revised["inputs"]) == {*made["inputs"], "mask"}
+    again = picture_of(service, revised, "mask.png")
     assert (again[:, : edge - 3] > 128).sum() == 0
     assert np.mean(again[:, edge:] > 128) > 0.9 * np.mean(found[:, edge:] > 128)
+    skeleton = service.client.get(revised["artifacts"]["skeleton.json"]["url"]).json()
+    assert skeleton["joints"]["LeftElbow"] == {"place": [300.0, 290.0], "confidence": 1.0}
     assert corrected(painted[:-7])["error"]["code"] == "mask_size"
 
 
 def test_a_built_in_motion_may_be_named_in_place_of_a_file(service: Running, photo: str) -> None:
-    job = submitted(service, inputs={"photo": photo, "motion": "wave"}, options={"seconds": 1})
-    assert (job["error"], job["options"]["motion"], list(job["inputs"])) == (None, "wave", ["photo"])
+    asked = {"kind": "character", "inputs": {"photo": photo, "motion": "wave"}, "options": {"seconds": 1}}
+    job = service.client.post("/v1/jobs", json=asked).raise_for_status().json()
+    service.client.post(f"/v1/jobs/{job['id']}/cancel").raise_for_status()
+    assert (job["options"]["motion"], list(job["inputs"])) == ("wave", ["photo"])
     made = service.client.post("/v1/jobs", json={"kind": "character", "inputs": {"photo": photo, "motion": "fly"}})
     assert (made.status_code, made.json()["code"]) == (422, "unknown_motion")
     assert made.json()["errors"][0]["pointer"] == "/inputs/motion"

@@ -42,7 +42,8 @@ Frame Time: 0.04
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
     """A service with the engine's own kinds."""
-    running = Running(tmp_path_factory.mktemp("motions") / "data", kinds="tiny_kind:KIND,engine.kinds:KINDS")
+    data = tmp_path_factory.mktemp("motions") / "data"
+    running = Running(data, kinds="engine.kinds:KINDS", worker_kinds="motion,character")
     yield running
     running.stop()
 
