@@ -1,4 +1,5 @@
-"""A whole avatar of two small clips, whose truth is known: from films to files."""
+"""A whole avatar of two small clips, whose truth is known: from films to files, as a job behind its walls that went on after
+its worker was killed."""
 
 from __future__ import annotations
 
@@ -18,6 +19,7 @@ from made_clip import read_frames, write_frames
 from made_motion import bvh
 from numpy.typing import NDArray
 from PIL import Image
+from running import Running, eventually
 from scipy.spatial import cKDTree
 
 from benchmarks.scan_studio.sample_clips import sample_truth
@@ -52,11 +54,12 @@ DRIVER_FRAMES = 4
 
 @dataclass(frozen=True)
 class Made:
-    """The folder with the files, the store of the stages, and what was given."""
+    """The folder with the files, the store of the stages, what was given, and how often the job began."""
 
     out: Path
     store: Path
     inputs: dict[str, Any]
+    attempts: int
 
     @property
     def report(self) -> dict[str, Any]:
@@ -94,9 +97,23 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
         "driver": write_frames(folder / "driver.mp4", frames, fps=5),
         "motion": folder / "arms.bvh",
     }
-    made = Made(folder / "out", folder / "store", inputs)
-    assert made.again(made.out) == []
-    return made
+    with Running(
+        folder / "data", kinds="engine.kinds:KINDS", worker_kinds="avatar", lease_seconds=5, sweep_seconds=0.5
+    ) as service:
+        files = {name: (path.name, path.read_bytes()) for name, path in inputs.items()}
+        asked = {"kind": "avatar", "options": json.dumps(OPTIONS)}
+        job = service.client.post("/v1/jobs", data=asked, files=files).raise_for_status().json()["id"]
+        eventually(lambda: service.job(job)["progress"]["stage"] == "measure_cloud", "stereo measures", 500)
+        (worker,) = service.processes("shell.main worker")
+        worker.kill()
+        done = service.until(job, "succeeded", "failed", seconds=500)
+        assert done["error"] is None
+        for name, artifact in done["artifacts"].items():
+            (folder / "out" / name).write_bytes(service.client.get(artifact["url"]).raise_for_status().content)
+        with service.client.stream("GET", f"/v1/jobs/{job}/events") as events:
+            attempts = events.read().decode().count('{"status": "running"}')
+    (store,) = (folder / "data" / "jobs").glob("*/stages")
+    return Made(folder / "out", store, inputs, attempts)
 
 
 @pytest.fixture(scope="module")
@@ -118,6 +135,12 @@ def to_truth(truth: Truth, cameras: dict[str, NDArray[np.float64]]) -> Similarit
     """From the avatar's world to the true one, by the body's cameras."""
     body = cameras["body"]
     return fit_robustly(body[:, 1:], true_eyes(truth, "body", body[:, 0]), 0.05).transform
+
+
+def test_what_was_found_before_the_worker_was_killed_is_not_sought_again(made: Made) -> None:
+    assert made.attempts == 2
+    took = made.report["stages"]
+    assert took["find_cameras"] < took["measure_cloud"] / 4
 
 
 def test_cameras_stand_to_one_another_as_they_stood(
