@@ -36,6 +36,9 @@ STEREO_SIDE = 960
 """The same of frames between which stereo measures: a millimetre and a half of somebody who fills them."""
 LANDMARK_SIDE = 1280
 """The same of frames in which landmarks are found."""
+HEAD_VIEW_REACH = 1.5
+"""How far away frames of the head's clip are asked about the person, in distances of the head: shoes below a chin that sways are
+hidden by what the mesh has elsewhere."""
 
 Tick = Callable[[float], None]
 Warn = Callable[[str, str], None]
@@ -161,12 +164,13 @@ def stitch_texture(
     the head's: section 3.5."""
     views: list[FrameView] = []
     scans = in_body_s_world([scan for _, scan in clips], fitted)
-    for (chosen, _), scan in zip(clips, scans, strict=False):
-        views += [
-            _frame_view(chosen, int(k), camera, mask, check)
-            for k, camera, mask in zip(scan.placed, scan.cameras, scan.masks, strict=True)
-        ]
     human = load_models()
+    head = fitted.vertices[human.skin.vertices[human.skin.regions["head"]]].mean(0)
+    for number, ((chosen, _), scan) in enumerate(zip(clips, scans, strict=False)):
+        for k, camera, mask in zip(scan.placed, scan.cameras, scan.masks, strict=True):
+            view = _frame_view(chosen, int(k), camera, mask, check)
+            away = HEAD_VIEW_REACH * float(np.linalg.norm(camera.eye - head))
+            views.append(replace(view, farthest=away) if number else view)
     return avatar_texture(template_surface(human.template, human.rig), human.rig, fitted.vertices, views, size)
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +26,8 @@ EDGE_SAMPLES = 6
 """Points of an edge at which frames are compared."""
 NORMAL_SMOOTHINGS, NORMAL_SMOOTHING = 6, 0.5
 """Rounds in which normals become half their neighbours': folds of cloth do not change who sees it best, and patches get fewer."""
+RIM_SHARE = 0.004
+"""Of a frame's longer side, by which masks of the person err."""
 STEEPEST_DEGREES = 65.0
 """Between a normal and the way to the camera, from which on nothing is taken at all."""
 
@@ -65,11 +68,11 @@ def sample_views(surface: ChartedSurface, views: Sequence[FrameView]) -> ViewSam
         pixels = view.camera.project(on_faces)
         seen = seen_points(depth_buffer(view.camera, points, faces), pixels)
         if view.person is not None:
-            seen[seen] = _at(view.person(), pixels[seen])
+            seen[seen] = _at(_without_rim(view.person()), pixels[seen])
         middles = points[faces].mean(1)
         towards = view_cosines(view.camera, middles, facing_to)
         whole = seen.reshape(len(faces), -1).all(1) & (towards > np.cos(np.radians(STEEPEST_DEGREES)))
-        whole &= surface.stitched
+        whole &= surface.stitched & (view.camera.depth(middles) < view.farthest)
         cosine[:, n] = np.where(whole, towards, 0)
         density[:, n] = view.camera.focal / np.maximum(view.camera.depth(middles), 1e-6)
         found = bilinear(view.picture(), view.camera.project(on_edges))
@@ -86,6 +89,12 @@ def _smooth_normals(points: NDArray[np.float64], faces: NDArray[np.int32]) -> ND
     for _ in range(NORMAL_SMOOTHINGS):
         normals = (1 - NORMAL_SMOOTHING) * normals + NORMAL_SMOOTHING * (around @ normals) / number
     return normals
+
+
+def _without_rim(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A mask (H, W) without what is next to its outline, where a frame may show either side."""
+    side = 2 * max(round(RIM_SHARE * max(mask.shape)), 1) + 1
+    return np.asarray(cv2.erode(mask.astype(np.uint8), np.ones((side, side), np.uint8), borderValue=1) > 0)
 
 
 def _at(mask: NDArray[np.bool_], pixels: NDArray[np.floating]) -> NDArray[np.bool_]:

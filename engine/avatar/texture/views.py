@@ -33,12 +33,14 @@ class ChartedSurface:
 @dataclass(frozen=True)
 class FrameView:
     """A frame by its camera. `read` gives the picture (H, W, 3) uint8, of the camera's size, anew each time it is asked: of a
-    film's frames only one is held at a time. `person`, where it is known, gives (H, W) bool: which pixels show the person.
+    film's frames only one is held at a time. `person`, where it is known, gives (H, W) bool: which pixels show the person. What
+    is more than `farthest` metres away it is not asked about.
     """
 
     camera: Camera
     read: Callable[[], NDArray[np.uint8]]
     person: Callable[[], NDArray[np.bool_]] | None = None
+    farthest: float = np.inf
 
     def picture(self) -> NDArray[np.uint8]:
         """The picture. Raises ValueError where it has another size than its camera."""
