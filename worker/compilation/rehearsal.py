@@ -5,8 +5,8 @@ Compiled functions are kept beside the modules that they are of. Jobs may use th
 and each machine.
 
 Unlike jobs it does not give way to all others (`worker.programs.niceness`): jobs wait for it, and on a machine that has
-other work to do it would take as long as that lasts. It is one process; the API stays quick beside it. Once there are jobs
-to do beside it, it gives way as they do.
+other work to do it would take as long as that lasts. It is one process; the API stays quick beside it. Once a kind was
+rehearsed there may be jobs beside it, and it gives way as they do.
 
 `python -m worker.compilation.rehearsal KIND PLACE...`
 """
