@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.landmarks.spatial import SpatialLandmarks
+from engine.avatar.landmarks.spatial import HAND_SIDES, SpatialLandmarks
 from engine.avatar.registration.coarse import CoarseFit, fit_to_landmarks, fit_to_points
 from engine.avatar.registration.expressions import transferred_units
 from engine.avatar.registration.face_parts import lids_on_eyes, place_parts
@@ -91,7 +91,7 @@ def register(
         coefficients,
         fitted,
         placed,
-        _notices(by_landmarks, coefficients, head is not None and placed is None),
+        _notices(by_landmarks, body_fit, coefficients, head is not None and placed is None),
     )
 
 
@@ -140,8 +140,17 @@ def _person(
     )
 
 
-def _notices(coarse: CoarseFit, coefficients: NDArray[np.float64], head_lost: bool) -> tuple[Notice, ...]:
+def _notices(
+    coarse: CoarseFit, body: CoarseBody, coefficients: NDArray[np.float64], head_lost: bool
+) -> tuple[Notice, ...]:
     found = []
+    if lost := [side.lower() for side in HAND_SIDES if side not in body.hands]:
+        found.append(
+            Notice(
+                "hand_not_measured",
+                f"Frames do not show, or do not agree, how the {' and the '.join(lost)} hand is held: it is held as usual.",
+            )
+        )
     if head_lost:
         found.append(
             Notice(

@@ -62,6 +62,11 @@ def test_expressions_are_the_person_s(models: HumanModels, fitted: FittedTemplat
     assert np.linalg.norm(fitted.expressions["eyeBlinkLeft"][chin]) < 1e-3
 
 
+def test_hands_that_no_landmarks_tell_of_are_named(fitted: FittedTemplate) -> None:
+    (notice,) = [notice for notice in fitted.notices if notice.code == "hand_not_measured"]
+    assert "left and the right hand" in notice.message
+
+
 def test_too_few_points_are_refused(models: HumanModels, person: KnownPerson) -> None:
     none = np.zeros((10, 3), np.float32)
     with pytest.raises(InputError) as raised:
