@@ -35,7 +35,7 @@ ANCHOR = 0.003
 """What the coarse fit's place of the skin counts beside the points': nothing where there are some, all where there are none."""
 POINT_NOISE = 0.0015
 """Metres by which points scatter in a good cloud. In a bad one, of plain clothes in a small film, it is five times that: sleeves and
-trousers that followed it would be crumpled paper."""
+trousers that followed it would be crumpled paper. A face is believed whatever it is: it is stiff, and filmed from near."""
 FIRST_INNER_FACE_POINT = 17
 """Face landmarks before it lie on the jaw's outline, at another place of it in every view."""
 MAX_FACE_DISTANCE = 0.03
@@ -99,7 +99,7 @@ def _elastic(skin: Skin, rest: NDArray[np.float64], stiffness: NDArray[np.float6
         stiffness,
         _trust(skin),
         held=skin.regions["lower_feet"],
-        noise=POINT_NOISE,
+        noise=np.where(skin.regions["face"], np.inf, POINT_NOISE),
         anchor=ANCHOR,
     )
 

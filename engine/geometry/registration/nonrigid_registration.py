@@ -39,8 +39,8 @@ class ElasticSurface:
 
     `rest` (V, 3) metres: how it likes to be bent. `triangles` (T, 3), `matched` (T,) bool: those that points are of.
     `stiffness` (V,): by how much more than others the hinges at a vertex keep their bend. `trust` (V,) in [0, 1]: what points
-    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `noise`: metres by which
-    points may scatter before they count less; by default as many as they like. `anchor`: what it counts that
+    near a vertex count. `held` (V,) bool: those that stay where they are at first; by default none. `noise` (V,) or one for all:
+    metres by which points may scatter before they count less; by default as many as they like. `anchor`: what it counts that
     the surface stays where it is at rest, if points, all of them, count 1: bending alone lets a limb that no point is of swing
     about the joint at which the points end.
     """
@@ -51,7 +51,7 @@ class ElasticSurface:
     stiffness: NDArray[np.float64]
     trust: NDArray[np.float64]
     held: NDArray[np.bool_] | None = None
-    noise: float = np.inf
+    noise: NDArray[np.float64] | float = np.inf
     anchor: float = 0.0
 
 
@@ -106,7 +106,7 @@ def lay_on_points(
     system = _SameSparsity()
     trust = surface.trust
     for number, step in enumerate(steps):
-        if np.isfinite(surface.noise) and number >= len(steps) - WEIGHED_STEPS:
+        if np.isfinite(surface.noise).any() and number >= len(steps) - WEIGHED_STEPS:
             matched = np.asarray(surface.triangles)[surface.matched]
             scatter = point_noise(vertices, matched, points, normals, MIN_NORMAL_COSINE)
             trust = surface.trust / (1 + (scatter / surface.noise) ** 2)
