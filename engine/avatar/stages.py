@@ -12,7 +12,7 @@ from engine.avatar.capture.cameras import CaptureCameras, ClipCameras, solve_cam
 from engine.avatar.capture.captured_view import CapturedView
 from engine.avatar.capture.chosen_frames import ChosenFrames
 from engine.avatar.capture.dense import DenseCloud, dense_cloud
-from engine.avatar.capture.limb_masks import limbs_of, with_limbs
+from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
 from engine.avatar.capture.person_frame import USUAL_HEIGHT
 from engine.avatar.landmarks.detection import spatial_landmarks
 from engine.avatar.landmarks.given import GivenLandmark, placed_by_hand
@@ -116,11 +116,15 @@ def find_landmarks(chosen: ChosenFrames, found: ClipCameras, tick: Tick) -> Clip
         seen.append(frame_landmarks(picture).scaled(chosen.size[0] / picture.shape[0]))
         tick(number / len(placed))
     limbs = limbs_of(spatial_landmarks(list(zip(cameras, seen, strict=True))))
+    believed = [found.masks[k] for k in placed]
+    small_cameras = [
+        _resized(camera, (mask.shape[0], mask.shape[1])) for camera, mask in zip(cameras, believed, strict=True)
+    ]
+    limbs = shown_limbs(limbs, believed, small_cameras)
     masks = []
-    for k, camera in zip(placed, cameras, strict=True):
-        mask = found.masks[k]
+    for k, mask, camera in zip(placed, believed, small_cameras, strict=True):
         small = resized(chosen.picture(int(k)), (mask.shape[1], mask.shape[0]))
-        masks.append(with_limbs(small, mask, _resized(camera, (mask.shape[0], mask.shape[1])), limbs))
+        masks.append(with_limbs(small, mask, camera, limbs))
     return ClipLandmarks(placed, tuple(seen), tuple(masks))
 
 

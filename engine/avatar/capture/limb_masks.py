@@ -6,7 +6,7 @@ blurred, small or from behind, and colours near by tell how far they reach.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -23,6 +23,8 @@ FOOT, PALM = ("Ankle", "Heel", "FootIndex"), ("Wrist", "Index", "Pinky")
 """The corners of a foot and of a palm, without their side."""
 BONES = (("Shoulder", "Elbow"), ("Elbow", "Wrist"), ("Hip", "Knee"), ("Knee", "Ankle"))
 """Both ends of what is long, without their side."""
+MAX_LOST_SHARE = 0.2
+"""The same in the mean of all frames, beyond which it is the landmarks that are wrong: networks do not lose a limb so often."""
 REACH_SHARE, BONE_REACH_SHARE = 0.35, 0.2
 """How far a hand or a foot, and how far an arm or a leg may reach beyond its marks, in lengths of what is marked."""
 LOST_SHARE = 0.1
@@ -68,6 +70,30 @@ def limbs_of(landmarks: SpatialLandmarks) -> list[Limb]:
         if known.any():
             limbs.append(Limb(bones[known]))
     return limbs
+
+
+def shown_limbs(limbs: Sequence[Limb], masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera]) -> list[Limb]:
+    """Those of the limbs that the masks (h, w) mostly show, of frames of `cameras` of their size; hands and feet, which networks
+    lose anywhere, are all kept."""
+    kept = []
+    for limb in limbs:
+        shares = [_lost_share(mask, lines) for mask, lines in _seen_lines(limb, masks, cameras)] if limb.lost else []
+        if not shares or float(np.mean(shares)) < MAX_LOST_SHARE:
+            kept.append(limb)
+    return kept
+
+
+def _seen_lines(
+    limb: Limb, masks: Sequence[NDArray[np.bool_]], cameras: Sequence[Camera]
+) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.float64]]]:
+    """The masks of those frames that have all of a limb in their picture, with its lines (L, 2, 2) there."""
+    for mask, camera in zip(masks, cameras, strict=True):
+        ends = limb.lines.reshape(-1, 3)
+        if camera.depth(ends).min() < MIN_DEPTH:
+            continue
+        pixels = np.asarray(camera.project(ends, np.float64)[:, :2])
+        if (pixels >= 0).all() and (pixels <= np.array(mask.shape[::-1]) - 1).all():
+            yield mask, pixels.reshape(-1, 2, 2)
 
 
 def with_limbs(

@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from engine.avatar.capture.limb_masks import limbs_of, with_limbs
+from engine.avatar.capture.limb_masks import limbs_of, shown_limbs, with_limbs
 from engine.avatar.landmarks.spatial import SpatialLandmarks
 from engine.geometry.camera import Camera
 
@@ -51,6 +51,16 @@ def test_a_forearm_that_the_networks_lost_is_found_and_one_that_is_there_stays()
     assert (found & (arm > 0)).sum() / (found | (arm > 0)).sum() > 0.9
     generous = cv2.dilate(arm, np.ones((9, 9), np.uint8)) > 0
     assert np.array_equal(with_limbs(rgb, generous, CAMERA, limbs), generous)
+
+
+def test_an_arm_that_most_masks_lack_is_not_believed() -> None:
+    ends = {"LeftElbow": np.array([-0.1, 0.9, 0.0]), "LeftWrist": np.array([0.15, 0.75, 0.0])}
+    limbs = limbs_of(SpatialLandmarks(ends))
+    whole, empty = np.ones((300, 200), np.bool_), np.zeros((300, 200), np.bool_)
+    assert shown_limbs(limbs, [whole] * 4 + [empty], [CAMERA] * 5) == limbs
+    assert shown_limbs(limbs, [whole] * 2 + [empty] * 3, [CAMERA] * 5) == []
+    feet = limbs_of(FOOT)
+    assert shown_limbs(feet, [empty], [CAMERA]) == feet
 
 
 def test_what_is_not_known_or_not_in_the_picture_changes_nothing() -> None:
