@@ -57,7 +57,7 @@ def test_an_arm_that_most_masks_lack_is_not_believed() -> None:
     ends = {"LeftElbow": np.array([-0.1, 0.9, 0.0]), "LeftWrist": np.array([0.15, 0.75, 0.0])}
     limbs = limbs_of(SpatialLandmarks(ends))
     whole, empty = np.ones((300, 200), np.bool_), np.zeros((300, 200), np.bool_)
-    assert shown_limbs(limbs, [whole] * 4 + [empty], [CAMERA] * 5) == limbs
+    assert shown_limbs(limbs, [whole] * 6 + [empty], [CAMERA] * 7) == limbs
     assert shown_limbs(limbs, [whole] * 2 + [empty] * 3, [CAMERA] * 5) == []
     feet = limbs_of(FOOT)
     assert shown_limbs(feet, [empty], [CAMERA]) == feet
