@@ -13,6 +13,7 @@ from engine.avatar.avatar import Avatar, assemble
 from engine.avatar.capture.cameras import ClipCameras
 from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
+from engine.avatar.early_looks import write_fitted_shape, write_small_texture
 from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
@@ -109,14 +110,15 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     fitted = run.stage("fit_template", fit_template, clips[0][1], near, run.check)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
+    human = load_models()
+    run.publish(write_fitted_shape(out, human.template, fitted))
     if options.height_m is None:
         run.warn(
             "height_guessed", "How tall the person is was not said: the avatar's size is that of an average person."
         )
     texture = run.stage("stitch_texture", stitch_texture, fitted, clips, options.texture_size, run.check)
+    run.publish(write_small_texture(out, texture.texture, run.mark_synthetic))
     scans = in_body_s_world([scan for _, scan in clips], fitted)
-
-    human = load_models()
     avatar = assemble(human.template, human.rig, fitted, texture.texture, options.triangles)
     scene = chosen_scene(avatar, motion, driver, options, run)
     with run.timed("write_avatar"):

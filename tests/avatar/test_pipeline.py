@@ -31,11 +31,11 @@ from engine.avatar.sample import SAMPLE_FRAMES, sample_clip
 from engine.body.face.visemes import VISEMES
 from engine.body.parts import BODY_PARTS
 from engine.body.template import FACE_UNITS
-from engine.errors import Canceled
+from engine.errors import Canceled, InputError
 from engine.geometry.registration.rigid import Similarity, fit_robustly, fit_similarity
 from engine.media.video import read_video
 from engine.performances import video
-from engine.run import Run
+from engine.run import Run, content_hash
 from engine.store import StageStore
 
 OPTIONS = {
@@ -68,10 +68,13 @@ class Made:
     def again(self, out: Path, until: str | None = None, **changed: Any) -> list[str]:
         """Another run, which ends as soon as a stage `until` begins; the stages that it took from the store."""
         begun: list[str] = []
-        inputs = self.inputs | changed.pop("inputs", {})
+        inputs, erased = self.inputs | changed.pop("inputs", {}), changed.pop("erased", {})
         with (
             Run(
-                StageStore(self.store), canceled=lambda: until in begun, on_stage=lambda name, turn: begun.append(name)
+                StageStore(self.store),
+                canceled=lambda: until in begun,
+                on_stage=lambda name, turn: begun.append(name),
+                erased=erased,
             ) as run,
             suppress(Canceled),
         ):
@@ -244,3 +247,14 @@ def test_what_is_changed_redoes_what_depends_on_it(
 ) -> None:
     assert set(reused) <= set(STAGES)
     assert made.again(tmp_path, until, **changed) == reused
+
+
+def test_it_is_made_again_when_its_clips_are_erased(made: Made, tmp_path: Path) -> None:
+    clips = {name: Path("erased") / name for name in ("body", "head")}
+    erased = {path: content_hash(made.inputs[name]) for name, path in clips.items()}
+    inputs = {**clips, "motion": None}
+    found = made.again(tmp_path, "write_avatar", inputs=inputs, erased=erased, motion="wave")
+    assert found == [*CAPTURE, "fit_template", "stitch_texture"]
+    with pytest.raises(InputError) as refused:
+        made.again(tmp_path, inputs=inputs, erased=erased, body_frames=SAMPLE_FRAMES["body"] - 2)
+    assert refused.value.code == "source_erased"

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from engine.export.ply import write_ply
+from engine.export.ply import write_mesh_ply, write_ply
 from engine.geometry.point_cloud import PointCloud
 
 
@@ -21,3 +21,11 @@ def test_trimesh_reads_back_what_was_written(tmp_path: Path) -> None:
     assert np.array_equal(np.asarray(read.colors)[:, :3], colours)
     raw = read.metadata["_ply_raw"]["vertex"]["data"]
     assert np.array_equal(np.stack([raw["nx"], raw["ny"], raw["nz"]], axis=1).reshape(-1, 3), normals)
+
+
+def test_trimesh_reads_a_mesh_back(tmp_path: Path) -> None:
+    box = trimesh.creation.box((1.0, 2.0, 3.0))
+    write_mesh_ply(tmp_path / "box.ply", box.vertices, box.faces)
+    read = trimesh.load(tmp_path / "box.ply", process=False)
+    assert np.array_equal(read.vertices, box.vertices) and np.array_equal(read.faces, box.faces)
+    assert read.volume == 6 and (tmp_path / "box.ply").stat().st_size < 600

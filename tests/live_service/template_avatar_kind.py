@@ -1,11 +1,12 @@
 """An avatar that is made without a capture, small enough for tests: the template itself, as if it had been fitted to somebody.
 
 Its inputs, options and files are those of avatars. Frames are its clips'; the cloud is the template's vertices; both films are
-the turntable. Of somebody under a metre it finds no joints.
+the turntable. Of somebody under a metre it finds no joints; with a giant, of over 2.3 metres, it is busy until it is canceled.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +21,7 @@ from engine.avatar.acting import Scene
 from engine.avatar.animating import animate_avatar
 from engine.avatar.avatar import assemble
 from engine.avatar.capture.chosen_frames import choose_frames
+from engine.avatar.early_looks import write_fitted_shape, write_small_texture
 from engine.avatar.frame_sheet import write_frame_sheets
 from engine.avatar.turntable import turntable
 from engine.avatar.writing import WrittenCameras, write_avatar, write_cameras
@@ -65,8 +67,13 @@ def _work(inputs: Mapping[str, Given], options: BaseModel, out: Path, run: Run) 
     write_cameras(out / "cameras.json", [WrittenCameras("body", body.indices.tolist(), body.seconds.tolist(), cameras)])
     for name in ("preview.ply", "cameras.json"):
         run.publish(out / name)
+    run.publish(write_fitted_shape(out, template, fitted))
 
     texture = np.full((64, 64, 3), (190, 150, 130), np.uint8)
+    run.publish(write_small_texture(out, texture, run.mark_synthetic))
+    while options.height_m is not None and options.height_m > 2.3:
+        run.check()
+        time.sleep(0.05)
     avatar = assemble(template, rig, fitted, texture, options.triangles)
     scene = Scene(built_in(options.motion, fitted.skeleton, 10.0))
     write_avatar(out, avatar, scene, options, run)

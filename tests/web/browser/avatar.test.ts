@@ -9,6 +9,7 @@ import { readable } from './axe';
 import { launch } from './browser';
 import { complaints, watch } from './complaints';
 import { ended, LONG, submit } from './jobs';
+import { lacks } from './lacks';
 import { fileOf, inPython } from './media';
 import { serve } from './service';
 
@@ -122,6 +123,10 @@ describe('a finished avatar', () => {
     await page.getByRole('button', { name: 'Measured', exact: true }).click();
     await page.getByText(/^13,\d+ of the measured points/).waitFor();
     await page.getByAltText('Frames chosen from the head clip').waitFor();
+    const points = page.getByRole('application', { name: /^The measured points in 3D/ });
+    const measured = (await points.screenshot()).toString('base64');
+    await page.getByLabel('Show the fitted shape instead of the points').check();
+    await expect.poll(async () => (await points.screenshot()).toString('base64')).not.toBe(measured);
     await page.getByRole('link', { name: /^Download avatar \(GLB\)/ }).waitFor();
   });
 
@@ -141,6 +146,38 @@ describe('a finished avatar', () => {
     expect(corrections).toMatchObject({ height_m: 1.8 });
     expect(corrections.body_frames_left_out).toHaveLength(1);
     expect((await request.response())?.status()).toBe(202);
+  });
+});
+
+describe('an avatar that is being made', () => {
+  it('shows its shape and its texture on the way', async () => {
+    const giant = await submit(service.address, 'avatar', { body: fileOf(clip) }, { height_m: 2.4 });
+    const page = await opened(`#/jobs/${giant}`);
+    await expect.poll(() => page.getByLabel('Show the fitted shape instead of the points').isChecked()).toBe(true);
+    await page.locator('.viewer-stage[aria-busy="false"]').waitFor();
+    await page.getByAltText('The texture, as it was stitched from the frames').waitFor();
+    await readable(page);
+    await fetch(`${service.address}/v1/jobs/${giant}/cancel`, { method: 'POST' });
+  });
+});
+
+describe('an avatar that was made before', () => {
+  it('does something else, and nobody is asked how tall it is', async () => {
+    const small = { size: [96, 160], seconds: 1, fps: 5 };
+    const id = await submit(service.address, 'avatar', { avatar: finished, motion: 'wave' }, small);
+    await ended(service.address, id);
+    const page = await opened(`#/jobs/${id}`);
+    await page.locator('.viewer-stage[aria-busy="false"]').waitFor();
+    await page.getByText('Edit and make again').click();
+    await page.locator('form.corrections').getByLabel('Motion', { exact: true }).selectOption('name dance');
+    await lacks(page.getByLabel('Height'), page.getByRole('button', { name: 'Make it again' }));
+    const [request] = await Promise.all([
+      page.waitForRequest(isPost(/\/revisions$/)),
+      page.getByRole('button', { name: 'Make it again' }).click(),
+    ]);
+    const answer = await request.response();
+    expect(answer?.status()).toBe(202);
+    await ended(service.address, ((await answer?.json()) as { id: string }).id);
   });
 });
 

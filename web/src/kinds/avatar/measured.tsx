@@ -1,4 +1,5 @@
-/** What is known of somebody, as soon as it is: the frames that were chosen, the cloud, and where the camera stood. */
+/** What is known of somebody, as soon as it is: the frames that were chosen, the cloud, where the camera stood, the fitted shape, and
+ * its texture. */
 
 import { readArtifact } from '../../api';
 import { useLoaded } from '../../api/loading';
@@ -14,13 +15,27 @@ const words = avatarWords.progress;
 export default function Measured({ job }: ProgressProps) {
   const { artifacts } = job;
   const points = artifacts['preview.ply'];
+  const texture = artifacts['texture_preview.jpg'];
   const cameras = useLoaded(
     (signal) => readArtifact<CapturedCameras>(job, 'cameras.json', signal),
     pathOf(artifacts['cameras.json']?.url),
   ).value;
   return (
     <div class="measured">
-      {points && <CloudView points={points.url} cameras={Object.values(cameras ?? {}).flat()} />}
+      {points && (
+        <CloudView
+          points={points.url}
+          cameras={Object.values(cameras ?? {}).flat()}
+          shape={artifacts['fitted.ply']?.url}
+          shapeFirst={job.status === 'running'}
+        />
+      )}
+      {texture && job.status === 'running' && (
+        <figure class="panel">
+          <img src={texture.url} alt={words.texture} />
+          <figcaption>{words.texture}</figcaption>
+        </figure>
+      )}
       {clipNames.map((clip) => {
         const sheet = artifacts[`${clip}_frames.jpg`];
         return (

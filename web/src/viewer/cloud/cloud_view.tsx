@@ -9,6 +9,7 @@ import { ProblemAlert } from '../../widgets/problem_alert';
 import { strings } from '../../language/strings';
 import { NoWebGL, Stage } from '../scene/stage';
 import { words as viewerWords } from '../words';
+import { useShape, useStandingShape } from './fitted_shape';
 import { frusta, type PinholeCamera } from './frusta';
 import '../viewer.css';
 
@@ -24,6 +25,10 @@ interface Props {
   /** Where the PLY is. */
   points: string;
   cameras: readonly PinholeCamera[];
+  /** Where the PLY of the shape is that was fitted to them, if there is one. */
+  shape?: string | undefined;
+  /** Whether the shape is shown first. */
+  shapeFirst?: boolean;
 }
 
 interface Shown {
@@ -31,12 +36,15 @@ interface Shown {
   geometry: BufferGeometry;
 }
 
-export default function CloudView({ points, cameras }: Props) {
+export default function CloudView({ points, cameras, shape, shapeFirst = false }: Props) {
   const place = useRef<HTMLDivElement>(null);
   const [shown, setShown] = useState<Shown | null>(null);
   const [trouble, setTrouble] = useState<'no_webgl' | 'cloud_unreadable' | null>(null);
   const [turn, setTurn] = useState(0);
   const [withCameras, setWithCameras] = useState(true);
+  const [withShape, setWithShape] = useState(shapeFirst);
+  const fitted = useShape(shape, () => setTrouble('cloud_unreadable'));
+  const shapeShown = withShape && fitted !== null;
   // links are signed anew: the file is the same until its path is another
   const path = points.split('?')[0];
   useEffect(() => {
@@ -63,7 +71,8 @@ export default function CloudView({ points, cameras }: Props) {
       stage?.dispose();
     };
   }, [path, turn]);
-  useCloud(shown);
+  useCloud(shown, !shapeShown);
+  useStandingShape(shown?.stage ?? null, shapeShown ? fitted : null);
   useFrusta(shown, withCameras ? cameras : []);
 
   return (
@@ -83,18 +92,27 @@ export default function CloudView({ points, cameras }: Props) {
       <p class="viewer-help">
         {shown && words.points(count(shown.geometry.attributes.position?.count ?? 0))} {viewerWords.help}
       </p>
+      {fitted && <Checkbox label={words.shape} checked={withShape} onChange={setWithShape} />}
       {cameras.length > 0 && <Checkbox label={words.cameras} checked={withCameras} onChange={setWithCameras} />}
     </section>
   );
 }
 
-function useCloud(shown: Shown | null): void {
+function useCloud(shown: Shown | null, visible: boolean): void {
+  const points = useRef<Points | null>(null);
+  useEffect(() => {
+    if (!points.current) return;
+    points.current.visible = visible;
+    shown?.stage.invalidate();
+  }, [visible]);
   useEffect(() => {
     if (!shown) return;
     const { stage, geometry } = shown;
     const coloured = geometry.hasAttribute('color');
     const material = new PointsMaterial({ size: POINT, vertexColors: coloured, color: coloured ? 0xffffff : 0x8d8475 });
     const cloud = new Points(geometry, material);
+    cloud.visible = visible;
+    points.current = cloud;
     stage.scene.add(cloud);
     const wish = matchMedia('(prefers-color-scheme: dark)');
     const paint = (): void => stage.paint(wish.matches ? backgrounds.dark : backgrounds.light);
@@ -103,6 +121,7 @@ function useCloud(shown: Shown | null): void {
     lookFromAbove(stage, new Box3().setFromObject(cloud));
     return () => {
       wish.removeEventListener('change', paint);
+      points.current = null;
       stage.scene.remove(cloud);
       material.dispose();
     };

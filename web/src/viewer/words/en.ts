@@ -78,6 +78,7 @@ const english = {
     loading: 'Loading the points',
     points: (count: string) => `${count} of the measured points.`,
     cameras: 'Show where the camera stood',
+    shape: 'Show the fitted shape instead of the points',
   },
 
   space: 'View in your space',

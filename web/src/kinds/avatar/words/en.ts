@@ -178,6 +178,7 @@ const english = {
 
   progress: {
     frames: { body: 'Frames chosen from the body clip', head: 'Frames chosen from the head clip' },
+    texture: 'The texture, as it was stitched from the frames',
     cloud: 'What was measured, and where the camera stood',
   },
 
