@@ -17,7 +17,7 @@ from engine.avatar.options import CAPTURE_OPTIONS, AvatarOptions
 from engine.avatar.writing import write_avatar
 from engine.errors import InputError
 from engine.export.encoders import VideoTarget
-from engine.export.still import write_still
+from engine.export.still import write_still, write_thumbnail
 from engine.export.video import VideoWriter
 from engine.kind import Given
 from engine.media.excerpt import Excerpt
@@ -86,7 +86,7 @@ def chosen_scene(avatar: Avatar, motion: Path | None, driver: Path | None, optio
 def write_animation(
     out: Path, avatar: Avatar, scene: Scene, options: AvatarOptions, run: Run, poster: bool = False
 ) -> None:
-    """`animation.mp4` and, where there is no better one, `poster.jpg`, its first frame."""
+    """`animation.mp4` and, where there are no better ones, `poster.jpg`, its first frame, and that as `thumbnail.jpg`."""
     shown = scene
     if scene.expressions is None:
         frames = max(1, round(options.seconds * options.fps))
@@ -95,6 +95,7 @@ def write_animation(
         for index, frame in enumerate(film(avatar.mesh, avatar.morphs, shown, options.size)):
             if poster and index == 0:
                 write_still(out / "poster.jpg", frame, run.mark_synthetic)
+                write_thumbnail(out / "thumbnail.jpg", frame, run.mark_synthetic)
             writer.write(frame)
             run.tick(index / len(shown.clip.rotations))
 
@@ -113,7 +114,7 @@ def file_of(inputs: Mapping[str, Given], name: str) -> Path | None:
 
 def _require_no_capture(inputs: Mapping[str, Given], options: AvatarOptions) -> None:
     """Refuse what an avatar that is there already cannot have any more."""
-    if given := [name for name in ("body", "head") if name in inputs]:
+    if given := [name for name in ("body", "head", "more") if name in inputs]:
         raise InputError(
             "avatar_and_clips",
             f"An avatar of an earlier job was given, and a clip of a person ({given[0]}): give one or the other.",

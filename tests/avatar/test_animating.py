@@ -49,7 +49,7 @@ def test_it_does_a_motion_as_it_would_have_done_at_first(earlier: Path, tmp_path
     shown = read_frames(tmp_path / "out/animation.mp4")
     assert len(shown) == 5
     assert max(np.abs(a.astype(int) - b).mean() for a, b in zip(first, shown, strict=True)) < 3
-    assert (tmp_path / "out/poster.jpg").stat().st_size > 1000
+    assert (tmp_path / "out/poster.jpg").stat().st_size > 1000 < (tmp_path / "out/thumbnail.jpg").stat().st_size
     assert not (tmp_path / "out/points.ply").exists(), "nothing was measured"
 
 

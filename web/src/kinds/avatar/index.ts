@@ -24,6 +24,7 @@ export const avatar: Kind<AvatarOrder> = {
   failures: words.failures,
   differences: words.differences,
   valueOf: (job, name) => (name === 'motion' && !job.inputs.motion ? namedMotion(job) : null),
+  pictureInput: 'body', // of an avatar that was there already there is none: its id is a job's
   performance: (job) => textOf(job.metadata.performance) ?? (job.inputs.motion || job.inputs.driver ? null : namedMotion(job)),
   performed: words.show.does,
   namesOf,
