@@ -72,6 +72,15 @@ KIND = Kind(
             personal=True,
         ),
         Input(
+            "more",
+            "video",
+            "Further clips of the same person in the same place, of arms or the back say: a slow arc around what the clip of the body"
+            " shows too little of.",
+            required=False,
+            many=True,
+            personal=True,
+        ),
+        Input(
             "motion",
             "motion",
             "A motion of one's own for the animation: BVH, or a GLB with an animated skeleton.",

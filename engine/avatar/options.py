@@ -18,7 +18,7 @@ TEMPLATE_TRIANGLES = 27_676
 """Of the template's visible parts: an avatar has no more."""
 
 CAPTURE_OPTIONS = (
-    *("height_m", "body_frames", "head_frames", "body_lens", "head_lens"),
+    *("height_m", "body_frames", "head_frames", "more_frames", "body_lens", "head_lens"),
     *("body_frames_left_out", "head_frames_left_out", "landmarks"),
 )
 """What is about clips of a person: an avatar that is there already cannot have it."""
@@ -61,6 +61,7 @@ class AvatarOptions(BaseModel):
     )
     body_frames: Frames = Field(75, description="Frames that are taken from the clip of the body.")
     head_frames: Frames = Field(50, description="Frames that are taken from the clip of the head.")
+    more_frames: Frames = Field(25, description="Frames that are taken from each further clip.")
     texture_size: Literal[1024, 2048, 4096, 8192] = Field(
         4096, description="Width and height of the texture in pixels."
     )

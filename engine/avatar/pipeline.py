@@ -15,6 +15,7 @@ from engine.avatar.capture.chosen_frames import ChosenFrames, choose_frames
 from engine.avatar.capture.coverage import coverage
 from engine.avatar.early_looks import write_fitted_shape, write_small_texture
 from engine.avatar.frame_sheet import write_frame_sheets
+from engine.avatar.further_clips import onto_body, with_further
 from engine.avatar.landmarks.given import GivenLandmark, given_landmarks
 from engine.avatar.options import AvatarOptions
 from engine.avatar.registration.fitted_template import FittedTemplate
@@ -62,18 +63,25 @@ TURN_SECONDS = 6.0
 PREVIEW_SPACING = 0.006
 """Metres between the points of `preview.ply`, which pages show: one or two megabytes."""
 
-HEAD_UNMEASURED = frozenset({"person_not_measured"})
-"""What makes a clip of the head, whose cameras were found, one that is not used: the body alone is an avatar, too."""
+MAX_FURTHER = 4
+"""Further clips, at most: each takes its minutes."""
+UNMEASURED = frozenset({"person_not_measured"})
+"""What makes a clip beside the body's, whose cameras were found, one that is not used: the body alone is an avatar, too."""
 
 Clipped = tuple[ChosenFrames, ClipScan]
 """A clip: its frames, and what they measured, metres."""
 
 
 def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, run: Run) -> None:
-    """Make an avatar of the person in the clips `body` and `head`; leaves the artifacts of the contract in `out`."""
+    """Make an avatar of the person in the clips `body`, `head` and `more`; leaves the artifacts of the contract in `out`."""
     body, head, motion, driver = (file_of(inputs, name) for name in ("body", "head", "motion", "driver"))
-    assert body is not None
-    run.plan(STAGES, dict.fromkeys(EACH_CLIP, 1 if head is None else 2))
+    more = inputs.get("more", ())
+    assert body is not None and isinstance(more, tuple)
+    if len(more) > MAX_FURTHER:
+        raise InputError(
+            "too_many_clips", f"Give {MAX_FURTHER} further clips at most: those that show most.", ("more",)
+        )
+    run.plan(STAGES, dict.fromkeys(EACH_CLIP, (1 if head is None else 2) + len(more)))
     if head is None:
         run.warn(
             "head_clip_missing", "Without a clip of the head, its shape and its texture are as good as the body's."
@@ -84,6 +92,10 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         for name, path, count in (("body", body, options.body_frames), ("head", head, options.head_frames))
         if path is not None
     ]
+    beside = tuple(
+        run.stage("choose_frames", choose_frames, path, options.more_frames, "more", run.limits, run.tick, run.warn)
+        for path in more
+    )
     for early in write_frame_sheets(out, dict(zip(("body", "head"), chosen, strict=False)), run.mark_synthetic):
         run.publish(early)
     left_out = (options.body_frames_left_out, options.head_frames_left_out)
@@ -93,21 +105,23 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
     for early in write_first_impression(out, chosen[0].picture(0, 1280), None, run.mark_synthetic):
         run.publish(early)
     lenses = (options.body_lens, options.head_lens)
-    found = run.stage("find_cameras", find_cameras, chosen[0], chosen[1] if head else None, lenses, run.warn, run.tick)
+    near_frames = chosen[1] if head else None
+    found = run.stage("find_cameras", find_cameras, chosen[0], near_frames, beside, lenses, run.warn, run.tick)
     given = given_landmarks(options.landmarks, chosen[0].indices, placed_frames(found.body))
     grown = in_metres(options.height_m)
     clips = [_scanned(chosen[0], found.body, given, grown, run)]
-    for early in _write_capture(out, chosen[:1], [clips[0][1]])[1:]:  # written again once the head's have joined them
+    for early in _write_capture(out, {"body": clips[0]})[1:]:  # written again once the head's have joined them
         run.publish(early)
-    if head and found.head is not None:
-        try:
-            clips.append(_scanned(chosen[1], found.head, (), grown, run))
-        except InputError as refused:
-            if refused.code not in HEAD_UNMEASURED:
-                raise
-            run.warn("head_not_measured", f"The head's clip is not used. {refused.detail}")
+    clips += _scanned_if_measured([(chosen[-1], found.head if head else None)], "head_not_measured", grown, run)
+    further = [
+        (frames, onto_body(scan, clips[0][1]))
+        for frames, scan in _scanned_if_measured(
+            list(zip(beside, found.further, strict=True)), "further_not_measured", grown, run
+        )
+    ]
     near = clips[1][1] if len(clips) > 1 else None
-    fitted = run.stage("fit_template", fit_template, clips[0][1], near, run.check)
+    whole = with_further(clips[0][1], [scan for _, scan in further])
+    fitted = run.stage("fit_template", fit_template, whole, near, run.check)
     for notice in fitted.notices:
         run.warn(notice.code, notice.message)
     human = load_models()
@@ -116,14 +130,16 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
         run.warn(
             "height_guessed", "How tall the person is was not said: the avatar's size is that of an average person."
         )
-    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, options.texture_size, run.check)
+    texture = run.stage("stitch_texture", stitch_texture, fitted, clips, further, options.texture_size, run.check)
     run.publish(write_small_texture(out, texture.texture, run.mark_synthetic))
     scans = in_body_s_world([scan for _, scan in clips], fitted)
+    shown = {name: (frames, scan) for name, (frames, _), scan in zip(("body", "head"), clips, scans, strict=False)}
+    shown |= {f"more_{number}": one for number, one in enumerate(further, 1)}
     avatar = assemble(human.template, human.rig, fitted, texture.texture, options.triangles)
     scene = chosen_scene(avatar, motion, driver, options, run)
     with run.timed("write_avatar"):
         write_avatar(out, avatar, scene, options, run)
-        _write_capture(out, [frames for frames, _ in clips], scans)
+        _write_capture(out, shown)
     _write_films(out, avatar, scene, options, run)
     height = float(np.ptp(fitted.rest[human.template.vertices_of("body"), 1]))
     write_report(
@@ -136,16 +152,16 @@ def make_avatar(inputs: Mapping[str, Given], options: AvatarOptions, out: Path, 
                 "frames": frames.indices.tolist(),
                 "placed": len(scan.placed),
             }
-            for name, (frames, scan) in zip(("body", "head"), clips, strict=False)
+            for name, (frames, scan) in {**dict(zip(("body", "head"), clips, strict=False)), **shown}.items()
         },
         quality={
             "height_m": round(height, 4),
-            "points": float(sum(len(scan.dense.cloud) for scan in scans)),
+            "points": float(sum(len(scan.dense.cloud) for _, scan in shown.values())),
             "seen_share": round(texture.seen_share, 4),
             "triangles": float(len(avatar.mesh.triangles)),
             "largest_coefficient": round(float(np.abs(fitted.coefficients).max()), 2),
         },
-        more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, scans[0].dense.cloud)},
+        more={"eyes_seen": texture.eyes_seen, "coverage": _coverage(fitted, whole.dense.cloud)},
     )
 
 
@@ -158,6 +174,23 @@ def _scanned(
     return frames, scan_clip(frames, seen, dense, given).moved(grown)
 
 
+def _scanned_if_measured(
+    placed: Sequence[tuple[ChosenFrames, ClipCameras | None]], code: str, grown: Similarity, run: Run
+) -> list[Clipped]:
+    """Those clips beside the body's that have cameras, and of which enough is measured; of the others `code` warns."""
+    found = []
+    for frames, cameras in placed:
+        if cameras is None:
+            continue
+        try:
+            found.append(_scanned(frames, cameras, (), grown, run))
+        except InputError as refused:
+            if refused.code not in UNMEASURED:
+                raise
+            run.warn(code, f"A clip beside that of the body is not used. {refused.detail}")
+    return found
+
+
 def _coverage(fitted: FittedTemplate, cloud: PointCloud) -> dict[str, float]:
     """Which share of each part of the body a cloud shows."""
     human = load_models()
@@ -168,14 +201,14 @@ def _coverage(fitted: FittedTemplate, cloud: PointCloud) -> dict[str, float]:
     return {name: round(share, 3) for name, share in shown.items()}
 
 
-def _write_capture(out: Path, clips: Sequence[ChosenFrames], scans: Sequence[ClipScan]) -> tuple[Path, Path, Path]:
+def _write_capture(out: Path, clips: Mapping[str, Clipped]) -> tuple[Path, Path, Path]:
     """`points.ply`, `preview.ply`, a thin one of it, and `cameras.json`, all in the world of the fitted template; their paths."""
     written = []
-    for name, frames, scan in zip(("body", "head"), clips, scans, strict=False):
+    for name, (frames, scan) in clips.items():
         indices, seconds = frames.indices[scan.placed].tolist(), frames.seconds[scan.placed].tolist()
         written.append(WrittenCameras(name, indices, seconds, scan.cameras))
     points, preview, cameras_path = (out / name for name in ("points.ply", "preview.ply", "cameras.json"))
-    cloud = joined([scan.dense.cloud for scan in scans])
+    cloud = joined([scan.dense.cloud for _, scan in clips.values()])
     write_ply(points, cloud)
     write_ply(preview, thinned(cloud, PREVIEW_SPACING))
     write_cameras(cameras_path, written)

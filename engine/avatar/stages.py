@@ -80,12 +80,13 @@ class ClipScan:
 def find_cameras(
     body: ChosenFrames,
     head: ChosenFrames | None,
+    further: tuple[ChosenFrames, ...],
     lenses: tuple[KnownLens | None, KnownLens | None],
     warn: Warn,
     tick: Tick,
 ) -> CaptureCameras:
-    """Where the cameras of both clips stood, around somebody of usual height: section 3.2's first half. `lenses` are theirs,
-    where they are known. Raises what `solve_cameras` raises."""
+    """Where the cameras of both clips, and of `further` ones, stood, around somebody of usual height: section 3.2's first half.
+    `lenses` are those of both, where they are known. Raises what `solve_cameras` raises."""
     clips = [
         None if clip is None else [clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in (body, head)
     ]
@@ -94,7 +95,8 @@ def find_cameras(
         None if clip is None or lens is None or frames is None else lens_of_frames(lens, clip.size, frames[0].shape[:2])
         for lens, clip, frames in zip(lenses, (body, head), clips, strict=True)
     ]
-    return solve_cameras(clips[0], clips[1], warn, tick, (known[0], known[1]))
+    others = [[clip.picture(k, FEATURE_SIDE) for k in range(len(clip))] for clip in further]
+    return solve_cameras(clips[0], clips[1], warn, tick, (known[0], known[1]), others)
 
 
 def lens_of_frames(lens: KnownLens, size: tuple[int, int], shrunk: tuple[int, int]) -> Lens:
@@ -162,19 +164,25 @@ def fit_template(body: ClipScan, head: ClipScan | None, check: Callable[[], None
 
 
 def stitch_texture(
-    fitted: FittedTemplate, clips: Sequence[tuple[ChosenFrames, ClipScan]], size: int, check: Callable[[], None]
+    fitted: FittedTemplate,
+    clips: Sequence[tuple[ChosenFrames, ClipScan]],
+    further: Sequence[tuple[ChosenFrames, ClipScan]],
+    size: int,
+    check: Callable[[], None],
 ) -> AvatarTexture:
-    """The texture, `size` texels a side, from the frames of the body's clip and, where registration has placed the head's, of
-    the head's: section 3.5."""
+    """The texture, `size` texels a side, from the frames of the body's clip, of the head's, where registration has placed it, and of
+    `further` ones in the body's world: section 3.5."""
     views: list[FrameView] = []
     scans = in_body_s_world([scan for _, scan in clips], fitted)
+    placed = [(chosen, scan) for (chosen, _), scan in zip(clips, scans, strict=False)]
     human = load_models()
     head = fitted.vertices[human.skin.vertices[human.skin.regions["head"]]].mean(0)
-    for number, ((chosen, _), scan) in enumerate(zip(clips, scans, strict=False)):
+    for number, (chosen, scan) in enumerate([*placed, *further]):
+        of_head = 0 < number < len(placed)
         for k, camera, mask in zip(scan.placed, scan.cameras, scan.masks, strict=True):
             view = _frame_view(chosen, int(k), camera, mask, check)
             away = HEAD_VIEW_REACH * float(np.linalg.norm(camera.eye - head))
-            views.append(replace(view, farthest=away) if number else view)
+            views.append(replace(view, farthest=away) if of_head else view)
     return avatar_texture(template_surface(human.template, human.rig), human.rig, fitted.vertices, views, size)
 
 

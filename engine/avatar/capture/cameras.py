@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engine.avatar.capture.joined_clips import join_scenes, moved_person
+from engine.avatar.capture.joined_clips import JoinedScenes, in_frame_of, join_scenes, moved_person
 from engine.avatar.capture.people_shown import look_for_people, refuse_wrong_clips
 from engine.avatar.capture.person_frame import person_frame
 from engine.avatar.capture.person_lock import PersonLock, lock_to_person, person_tracks
@@ -49,10 +50,11 @@ class ClipCameras:
 
 @dataclass(frozen=True)
 class CaptureCameras:
-    """Of the `body` film and, where it could be joined, of the `head` film, in one frame and of one size."""
+    """Of the `body` film and, where they could be joined, of the `head` film and of the `further` ones, in one frame and of one size."""
 
     body: ClipCameras
     head: ClipCameras | None
+    further: tuple[ClipCameras | None, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -78,13 +80,14 @@ def solve_cameras(
     warn: Warn,
     tick: Tick = lambda fraction: None,
     lenses: tuple[Lens | None, Lens | None] = (None, None),
+    further: Sequence[Sequence[NDArray[np.uint8]]] = (),
 ) -> CaptureCameras:
-    """Cameras of the frames of both films.
+    """Cameras of the frames of both films, and of further ones.
 
     Parameters
     ----------
-    body, head : frames (H, W, 3) uint8 sRGB, in the films' order; each film's of one size.
-    warn : is told a code and a sentence: `side_unseen`, `head_not_joined`, `floor_unseen`, `sway_unseen`.
+    body, head, further : frames (H, W, 3) uint8 sRGB, in the films' order; each film's of one size.
+    warn : is told a code and a sentence: `side_unseen`, `head_not_joined`, `further_not_joined`, `floor_unseen`, `sway_unseen`.
     lenses : of both films' frames, where they are known.
 
     Raises `InputError`: `camera_stands_still`, `cameras_not_found` of the body's film, `clips_swapped`, `no_person`,
@@ -92,12 +95,13 @@ def solve_cameras(
     """
     shown = look_for_people(body)
     refuse_wrong_clips(shown, None if head is None else look_for_people(head))
-    share = 1.0 if head is None else 0.6
+    done = 1 / (1 + len(further))
+    share = done if head is None else 0.6 * done
     film = _solved(body, True, lenses[0], lambda fraction: tick(share * fraction))
     refuse_walking(film.scene, film.masks)
     near = None
     if head is not None:
-        near = _head_film(head, lenses[1], warn, lambda fraction: tick(share + (1 - share) * fraction))
+        near = _head_film(head, lenses[1], warn, lambda fraction: tick(share + (done - share) * fraction))
     joined = None if near is None else join_scenes(film.scene, near.scene)
     if near is not None and joined is None:
         warn("head_not_joined", "The head clip shows too little of what the body clip shows, and is not used.")
@@ -111,12 +115,43 @@ def solve_cameras(
     if not found.locked.all():
         count = int((~found.locked).sum())
         warn("sway_unseen", f"In {count} frames too little is seen of the person to tell how they swayed.")
-    if near is None or joined is None:
-        return CaptureCameras(found, None)
-    close = _locked(replace(near, scene=joined.second))
-    moved = moved_person(whole.lock, close.lock, joined.shared)
-    change = Similarity(frame.change.linear @ moved.linear, frame.change(moved.shift))
-    return CaptureCameras(found, _placed(close, change))
+    close = None
+    if near is not None and joined is not None:
+        close = _beside(whole, replace(near, scene=joined.second), joined, frame.change)
+    others = []
+    for number, frames in enumerate(further):
+        begun = done * (1 + number)
+        others.append(_further_film(whole, frames, frame.change, warn, partial(_told_of, tick, begun, done)))
+    return CaptureCameras(found, close, tuple(others))
+
+
+def _told_of(tick: Tick, begun: float, share: float, fraction: float) -> None:
+    tick(begun + share * fraction)
+
+
+def _further_film(
+    whole: _Clip, frames: Sequence[NDArray[np.uint8]], change: Similarity, warn: Warn, tick: Tick
+) -> ClipCameras | None:
+    """The cameras of a further film of the same person; None where they cannot be found. `change`: to the person's frame."""
+    try:
+        film = _solved(frames, False, None, tick)
+    except InputError as refused:
+        if refused.code not in HEAD_UNPLACED:
+            raise
+        warn("further_not_joined", f"A further clip is not used. {refused.detail}")
+        return None
+    joined = join_scenes(whole.scene, film.scene)
+    if joined is None:
+        warn("further_not_joined", "A further clip shows too little of what the body clip shows, and is not used.")
+        return None
+    return _beside(whole, replace(film, scene=in_frame_of(joined, whole.scene)), joined, change)
+
+
+def _beside(whole: _Clip, film: _Film, joined: JoinedScenes, change: Similarity) -> ClipCameras:
+    """A film in the frame of the body's, as the person stands in that one, brought by `change` to the person's frame."""
+    clip = _locked(film)
+    moved = moved_person(whole.lock, clip.lock, joined.shared)
+    return _placed(clip, Similarity(change.linear @ moved.linear, change(moved.shift)))
 
 
 def _head_film(frames: Sequence[NDArray[np.uint8]], lens: Lens | None, warn: Warn, tick: Tick) -> _Film | None:

@@ -75,6 +75,11 @@ class ChosenFrames:
         return replace(self, numbers=self.numbers[kept], indices=self.indices[kept], seconds=self.seconds[kept])
 
 
+def _spoken(name: str) -> str:
+    """What a clip is called, by the input that it is."""
+    return {"more": "further parts"}.get(name, name)
+
+
 def choose_frames(
     path: Path,
     count: int,
@@ -95,7 +100,9 @@ def choose_frames(
     movement = measure_movement(path, wider, tick=lambda fraction: tick(0.6 * fraction))
     if len(movement) + 1 < MIN_FRAMES:
         raise InputError(
-            "clip_too_short", f"The clip of the {name} has too few frames: film a whole circle, slowly.", (name,)
+            "clip_too_short",
+            f"The clip of the {_spoken(name)} has too few frames: film a whole circle, slowly.",
+            (name,),
         )
     indices, seconds, judged = [], [], []
     size = (0, 0)
@@ -128,11 +135,11 @@ def _light_and_blur(rgb: NDArray[np.uint8]) -> tuple[float, float]:
 def _refuse_dark_or_blurred(light: float, blur: float, name: str) -> None:
     if light < MIN_BRIGHTNESS:
         raise InputError(
-            "too_dark", f"The clip of the {name} is too dark: film in daylight, or with more lamps.", (name,)
+            "too_dark", f"The clip of the {_spoken(name)} is too dark: film in daylight, or with more lamps.", (name,)
         )
     if blur > MAX_BLUR:
         raise InputError(
             "too_blurred",
-            f"Even the sharpest frames of the clip of the {name} are blurred: walk slower, and let the camera focus.",
+            f"Even the sharpest frames of the clip of the {_spoken(name)} are blurred: walk slower, and let the camera focus.",
             (name,),
         )

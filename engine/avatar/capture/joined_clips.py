@@ -7,7 +7,7 @@ the person, who may have moved between the films, has the last word.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +65,16 @@ def join_scenes(first: ClipScene, second: ClipScene) -> JoinedScenes | None:
         one, other = adjust_together(one, other, shared, joined.change)
         change = Similarity(np.eye(3), np.zeros(3))
     return JoinedScenes(with_reconstruction(first, one), with_reconstruction(second, other), shared)
+
+
+def in_frame_of(joined: JoinedScenes, first: ClipScene) -> ClipScene:
+    """The second film of a pair as it stands to the first one in another frame, in which that stood before both were adjusted."""
+    before, after = first.reconstruction, joined.first.reconstruction
+    both = before.solved & after.solved
+    sigma = PERSON_TOLERANCE * focus_of(before).distance
+    change = fit_robustly(after.bundle.points[both], before.bundle.points[both], sigma).transform
+    second = joined.second.reconstruction
+    return with_reconstruction(joined.second, replace(second, bundle=second.bundle.moved(change)))
 
 
 def moved_person(first: PersonLock, second: PersonLock, tracks: NDArray[np.integer]) -> Similarity:

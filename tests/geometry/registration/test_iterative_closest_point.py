@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from engine.geometry.registration.iterative_closest_point import rigid_onto_surface
+from engine.geometry.registration.iterative_closest_point import rigid_onto_cloud, rigid_onto_surface
 from engine.geometry.registration.rigid import Similarity
 
 
@@ -26,3 +27,17 @@ def test_far_away_nothing_moves() -> None:
     found = rigid_onto_surface(np.full((9, 3), 50.0), ball.vertices, ball.faces, 0.1, 5)
     assert np.array_equal(found.linear, np.eye(3))
     assert not found.shift.any()
+
+
+def test_points_come_onto_a_surface_of_which_points_are_known() -> None:
+    ellipsoid = trimesh.creation.icosphere(5)
+    ellipsoid.vertices *= [0.3, 0.9, 0.2]
+    samples, faces = trimesh.sample.sample_surface(ellipsoid, 20_000, seed=1)
+    normals = ellipsoid.face_normals[faces]
+    turn = Rotation.from_rotvec([0.03, -0.02, 0.04]).as_matrix()
+    away = Similarity(turn, np.array([0.01, -0.015, 0.008]))
+    own = trimesh.sample.sample_surface(ellipsoid, 3000, seed=2)[0]
+    part = own[own[:, 1] > -0.2]  # it may show less than there is
+    found = rigid_onto_cloud(away(part), samples, normals, 0.05, 15)
+    assert np.abs(found(away(part)) - part).max() < 0.002
+    assert np.linalg.det(found.linear) == pytest.approx(1)

@@ -1452,6 +1452,11 @@ export interface components {
              */
             head_frames?: number;
             /**
+             * @description Frames that are taken from each further clip.
+             * @default 25
+             */
+            more_frames?: number;
+            /**
              * @description Width and height of the texture in pixels.
              * @default 4096
              * @enum {integer}

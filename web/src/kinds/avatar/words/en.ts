@@ -47,6 +47,7 @@ const english = {
     avatar_compressed: 'The avatar’s file is compressed',
     avatar_too_large: 'The avatar’s file is too large',
     avatar_and_clips: 'There are both an avatar and clips of a person',
+    too_many_clips: 'There are too many further clips',
     option_needs_clips: 'An option is about clips that were not given',
   },
 
@@ -54,6 +55,8 @@ const english = {
   differences: {
     body: 'body clip',
     head: 'head clip',
+    more: 'further clips',
+    more_frames: 'frames of further clips',
     motion: 'motion',
     driver: 'driver',
     avatar: 'avatar',
